@@ -1,0 +1,30 @@
+// Linear samples of a colour filter array, with their noise: what core sees of a shot.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace scattermeter {
+
+inline constexpr int kRgb = 3;  // colour channels: R, G, B
+inline constexpr std::array<char, 3> kRgbName = {'R', 'G', 'B'};
+
+// A rectangle of samples of one shot. Pixel (x, y) counts from the first sample of the active area.
+struct CfaSamples {
+  int x0 = 0, y0 = 0, width = 0, height = 0;  // the rectangle, px
+  std::array<int, 4> channel_of_phase{};      // 0 R, 1 G, 2 B; index 2 (y & 1) + (x & 1)
+  double exposure_s = 0;
+  std::vector<float> signal_counts;     // above black; row by row; may be negative by noise
+  std::vector<float> variance_counts2;  // of the same
+  std::vector<std::uint8_t> clipped;    // 1: at the top of the range; its signal means nothing
+  // Samples below this many counts above black are cut at zero by the camera; 0 when black lies
+  // high enough for the noise to swing both ways.
+  double floor_counts = 0;
+
+  int channel(int x, int y) const {
+    return channel_of_phase[static_cast<std::size_t>(2 * (y & 1) + (x & 1))];
+  }
+};
+
+}  // namespace scattermeter

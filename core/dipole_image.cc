@@ -1,0 +1,110 @@
+#include "core/dipole_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "core/dipole.h"
+#include "core/distance_bins.h"
+
+namespace scattermeter {
+namespace {
+
+double shortest_mean_free_path_mm(const std::array<Medium, 3>& media) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Medium& m : media) shortest = std::min(shortest, 1.0 / m.sigma_t_prime_per_mm());
+  return shortest;
+}
+
+}  // namespace
+
+SurfaceField::SurfaceField(const PatchMesh& patches, const std::vector<bool>& needed)
+    : node_of_patch_(static_cast<std::size_t>(patches.size()), {-1, -1, -1, -1, -1, -1}) {
+  // A corner is the node (v, v), an edge's middle (v, w).
+  std::map<std::pair<int, int>, int> node_of;
+  for (int k = 0; k < patches.size(); ++k) {
+    if (!needed[static_cast<std::size_t>(k)]) continue;
+    const auto& v = patches.vertex_idx(k);
+    for (int i = 0; i < 6; ++i) {
+      const int a = v[i % 3];
+      const int b = i < 3 ? a : v[(i + 1) % 3];
+      const auto [it, is_new] =
+          node_of.try_emplace(std::minmax(a, b), static_cast<int>(nodes_mm_.size()));
+      if (is_new) {
+        nodes_mm_.push_back(0.5 * (patches.vertices_mm()[static_cast<std::size_t>(a)] +
+                                   patches.vertices_mm()[static_cast<std::size_t>(b)]));
+      }
+      node_of_patch_[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)] = it->second;
+    }
+  }
+  values_.assign(nodes_mm_.size(), Eigen::Array3d::Zero());
+}
+
+void SurfaceField::add(const std::vector<Eigen::Array3d>& values) {
+  for (std::size_t i = 0; i < values_.size(); ++i) values_[i] += values[i];
+}
+
+Eigen::Array3d SurfaceField::eval(const PatchPoint& at) const {
+  const auto& node = node_of_patch_[static_cast<std::size_t>(at.patch_idx)];
+  if (node[0] < 0) return Eigen::Array3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const Eigen::Vector3d& w = at.barycentric;
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  // Quadratic shape functions: w_i (2 w_i - 1) at corners, 4 w_i w_j at middles.
+  for (int i = 0; i < 3; ++i) {
+    sum += w[i] * (2.0 * w[i] - 1.0) * values_[static_cast<std::size_t>(node[i])];
+    sum += 4.0 * w[i] * w[(i + 1) % 3] * values_[static_cast<std::size_t>(node[i + 3])];
+  }
+  // The quadratic may dip below zero beside a steep edge in the dark.
+  return sum.max(0.0);
+}
+
+Eigen::Array3d SurfaceField::max() const {
+  Eigen::Array3d out = Eigen::Array3d::Zero();
+  for (const Eigen::Array3d& v : values_) out = out.max(v);
+  return out;
+}
+
+std::vector<Eigen::Array3d> dipole_radiosity(const std::vector<Eigen::Vector3d>& points_mm,
+                                             const IncidentLight& light,
+                                             const Eigen::Vector3d& origin_mm,
+                                             double max_distance_mm,
+                                             const std::array<Medium, 3>& media,
+                                             const Eigen::Array3d& intensity_W_per_sr) {
+  const double mfp_mm = shortest_mean_free_path_mm(media);
+  const double resolution_mm = std::min(0.5 * mfp_mm, 0.1 * max_distance_mm);
+  const OctaveBins bins(resolution_mm * resolution_mm, max_distance_mm, 8);
+  Eigen::Array3Xd r(3, bins.size());
+  for (int c = 0; c < 3; ++c) {
+    const Dipole dipole(media[static_cast<std::size_t>(c)]);
+    for (int i = 0; i < bins.size(); ++i) {
+      r(c, i) = dipole.reflectance_per_mm2(std::sqrt(bins.knot_s_mm2(i) - bins.s0_mm2()));
+    }
+  }
+  PairSumOptions options;
+  options.floor_mm = 0.25 * resolution_mm;
+  const SourceCloud sources(light, origin_mm);
+  std::vector<Eigen::Array3d> out(points_mm.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points_mm.size(), 16),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      std::vector<double> sums(static_cast<std::size_t>(bins.size()));
+                      for (std::size_t j = range.begin(); j < range.end(); ++j) {
+                        std::fill(sums.begin(), sums.end(), 0.0);
+                        sources.add_to(exit_point(points_mm[j]), bins, options, sums.data());
+                        const Eigen::Map<const Eigen::VectorXd> weights(sums.data(), bins.size());
+                        out[j] = intensity_W_per_sr * (r.matrix() * weights).array();
+                      }
+                    });
+  return out;
+}
+
+double render_patch_size_mm(const std::array<Medium, 3>& media, double object_size_mm) {
+  return std::clamp(shortest_mean_free_path_mm(media), object_size_mm / 120.0,
+                    object_size_mm / 40.0);
+}
+
+}  // namespace scattermeter

@@ -1,0 +1,78 @@
+// Binning of squared distances with linear weights.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace scattermeter {
+
+// Both kinds of bins take pairs (d^2, weight) one by one and share each weight between the two
+// knots around d so that a function that is linear between knots is summed exactly.
+
+// Knots d'_i = i * width: the paper's quantised distances (eq. 17 to 25).
+class UniformBins {
+ public:
+  UniformBins(double width_mm, double max_distance_mm)
+      : width_mm_(width_mm),
+        inv_width_(1.0F / static_cast<float>(width_mm)),
+        n_(static_cast<int>(std::ceil(max_distance_mm / width_mm)) + 2) {}
+
+  int size() const { return n_; }
+  double knot_mm(int i) const { return i * width_mm_; }
+  void add(float d2_mm2, float weight, double* sums) const {
+    const float x = std::sqrt(d2_mm2) * inv_width_;
+    const int i = static_cast<int>(x);
+    // beta of eq. 19 is 1 - t.
+    const float t = x - static_cast<float>(i);
+    sums[i] += static_cast<double>(weight * (1.0F - t));
+    sums[i + 1] += static_cast<double>(weight * t);
+  }
+
+ private:
+  double width_mm_;
+  float inv_width_;
+  int n_;
+};
+
+// Knots in s = d^2 + s0, evenly spaced inside each octave of s (2^kBits a octave): the bit pattern
+// of a float s is the position, so that no root and no logarithm is needed. The step is at most
+// 2^-kBits of s; R as a function of d^2 falls no faster than s^-1.5 where s0 <= z_r^2, so linear
+// interpolation is relatively wrong by at most (15/32) 4^-kBits: 1.1e-4 for 6, 7e-6 for 8.
+class OctaveBins {
+ public:
+  // s0 is rounded down to a power of two, so that the first knot stands at d = 0.
+  OctaveBins(double s0_mm2, double max_distance_mm, int bits)
+      : s0_(static_cast<float>(std::exp2(std::floor(std::log2(s0_mm2))))),
+        shift_(23 - bits),
+        fraction_(1.0F / static_cast<float>(1U << (23 - bits))) {
+    first_ = std::bit_cast<std::uint32_t>(s0_) >> shift_;
+    const float top = static_cast<float>(max_distance_mm * max_distance_mm * 1.0001) + s0_;
+    n_ = static_cast<int>((std::bit_cast<std::uint32_t>(top) >> shift_) - first_) + 2;
+  }
+
+  int size() const { return n_; }
+  double s0_mm2() const { return static_cast<double>(s0_); }
+  // s at knot i, mm^2.
+  double knot_s_mm2(int i) const {
+    return static_cast<double>(
+        std::bit_cast<float>((first_ + static_cast<std::uint32_t>(i)) << shift_));
+  }
+  void add(float d2_mm2, float weight, double* sums) const {
+    const std::uint32_t position = std::bit_cast<std::uint32_t>(d2_mm2 + s0_);
+    const std::uint32_t i = (position >> shift_) - first_;
+    const float t = static_cast<float>(position & ((1U << shift_) - 1U)) * fraction_;
+    sums[i] += static_cast<double>(weight * (1.0F - t));
+    sums[i + 1] += static_cast<double>(weight * t);
+  }
+
+ private:
+  float s0_;
+  int shift_;
+  float fraction_;
+  std::uint32_t first_;
+  int n_;
+};
+
+}  // namespace scattermeter

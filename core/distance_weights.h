@@ -1,0 +1,54 @@
+// The linear system between the image and the diffuse reflectance: l = W r.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/pair_sums.h"
+
+namespace scattermeter {
+
+// Rows: exit sites. Columns: knots. l_j (W/mm^2) = I (W/sr) * sum over i of weights(j, i) r_i, with
+// r_i = R(knot i) in 1/mm^2, so weights are in sr (paper eq. 26 to 28).
+using WeightMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// Distances at which r is asked for by the smooth system, shared by every shot of a measurement.
+// Evenly spaced in the logarithm of s = d^2 + s0; between knots r is a cubic in log s. With 12
+// knots an octave the interpolation of a dipole is relatively wrong by less than 2e-5 wherever
+// z_r^2 >= s0 (test: knots against quadrature).
+class DistanceKnots {
+ public:
+  // Throws std::invalid_argument unless 0 < resolution_mm < max_distance_mm.
+  // s0 is at most resolution_mm^2: finer structure of R than resolution_mm cannot be told apart.
+  DistanceKnots(double resolution_mm, double max_distance_mm, int per_octave = 12);
+
+  int size() const { return static_cast<int>(knots_mm_.size()); }
+  const std::vector<double>& knots_mm() const { return knots_mm_; }
+  double resolution_mm() const { return resolution_mm_; }
+  double max_distance_mm() const { return max_distance_mm_; }
+  const OctaveBins& fine_bins() const { return bins_; }
+  // Carries sums over fine bins to the knots: out = B^T fine.
+  void fold(const double* fine, double* out) const;
+
+ private:
+  struct Stencil {
+    int first;
+    double weight[4];
+  };
+  double resolution_mm_;
+  double max_distance_mm_;
+  OctaveBins bins_;
+  std::vector<double> knots_mm_;
+  std::vector<Stencil> stencils_;  // one per fine bin
+};
+
+// W on smooth knots. Rows are computed in parallel, each by one thread.
+WeightMatrix smooth_weights(const std::vector<ExitSite>& sites, const SourceCloud& sources,
+                            const DistanceKnots& knots, const PairSumOptions& options);
+
+// W on the paper's uniform knots i * width, i = 0 .. n - 1.
+WeightMatrix uniform_weights(const std::vector<ExitSite>& sites, const SourceCloud& sources,
+                             const UniformBins& bins, const PairSumOptions& options);
+
+}  // namespace scattermeter

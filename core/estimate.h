@@ -1,0 +1,36 @@
+// What every estimator answers.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace scattermeter {
+
+struct Quantity {
+  double value = 0;
+  double std = 0;
+  double low95 = 0;  // 95 % interval
+  double high95 = 0;
+};
+
+struct Estimate {
+  Quantity sigma_s_prime_per_mm;
+  Quantity sigma_a_per_mm;
+  double correlation = 0;   // between the two
+  Quantity scale;           // measured over predicted radiance that the fit settled on
+  double reduced_chi2 = 0;  // of the image: residual^2 / variance, per degree of freedom
+  double rms_relative = 0;  // rms residual over rms l
+  double psnr_db = 0;       // 20 log10(largest l / rms residual), of the re-rendering
+  std::size_t rows = 0;     // patches times shots that took part
+  bool converged = false;
+  // Why the numbers must not be trusted; empty: they may. Whole sentences.
+  std::vector<std::string> reasons;
+};
+
+// How much the scale (LED power x camera gain x exposure) is known.
+struct ScalePrior {
+  double relative_std = 0;  // 0: exact; infinity: free
+};
+
+}  // namespace scattermeter

@@ -1,0 +1,134 @@
+#include "core/incident_light.h"
+
+#include <cstddef>
+
+#include <Eigen/Geometry>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+namespace scattermeter {
+namespace {
+
+using Triangle = std::array<Eigen::Vector3d, 3>;
+
+struct PatchLight {
+  std::vector<LitTriangle> lit;
+  bool on_shadow_edge = false;
+  std::size_t rays = 0;
+};
+
+class Illuminator {
+ public:
+  Illuminator(const PatchMesh& patches, const RayScene& scene, const Led& led, double eta,
+              const IncidentLightOptions& options)
+      : patches_(patches), scene_(scene), led_(led), eta_(eta), options_(options) {}
+
+  PatchLight patch(int k) const {
+    PatchLight out;
+    const Triangle t = patches_.corners_mm(k);
+    const Eigen::Vector3d& n = patches_.normal(k);
+    if (!(n.dot(led_.position_mm - t[0]) > 0.0)) return out;
+    // Probes at corners and edge middles are drawn a little towards the centre, so that a fold of
+    // the surface at the patch's own border does not count as a shadow.
+    const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
+    int lit = 0;
+    int probes = 0;
+    const auto probe = [&](const Eigen::Vector3d& p) {
+      lit += is_lit(p + 0.02 * (center - p), n, out) ? 1 : 0;
+      ++probes;
+    };
+    for (int i = 0; i < 3; ++i) {
+      probe(t[i]);
+      probe(0.5 * (t[i] + t[(i + 1) % 3]));
+    }
+    probe(center);
+    if (lit == probes) {
+      append(t, n, k, out);
+    } else if (lit > 0) {
+      out.on_shadow_edge = true;
+      split(t, n, k, options_.shadow_bisections, out);
+    }
+    return out;
+  }
+
+ private:
+  bool is_lit(const Eigen::Vector3d& p, const Eigen::Vector3d& n, PatchLight& out) const {
+    ++out.rays;
+    return !scene_.occluded(p, n, led_.position_mm);
+  }
+
+  void append(const Triangle& t, const Eigen::Vector3d& n, int k, PatchLight& out) const {
+    LitTriangle lit{t, {}, k};
+    for (int i = 0; i < 3; ++i) {
+      lit.irradiance_sr_per_mm2[i] = led_.transmitted_irradiance_per_mm2(t[i], n, eta_);
+    }
+    out.lit.push_back(lit);
+  }
+
+  // Bisects at the longest edge; the parts are lit or dark by their centre.
+  void split(const Triangle& t, const Eigen::Vector3d& n, int k, int levels,
+             PatchLight& out) const {
+    if (levels == 0) {
+      if (is_lit((t[0] + t[1] + t[2]) / 3.0, n, out)) append(t, n, k, out);
+      return;
+    }
+    int a = 0;
+    double longest = -1.0;
+    for (int i = 0; i < 3; ++i) {
+      const double length = (t[(i + 2) % 3] - t[(i + 1) % 3]).squaredNorm();
+      if (length > longest) {
+        longest = length;
+        a = i;
+      }
+    }
+    const Eigen::Vector3d& pa = t[a];
+    const Eigen::Vector3d& pb = t[(a + 1) % 3];
+    const Eigen::Vector3d& pc = t[(a + 2) % 3];
+    const Eigen::Vector3d m = 0.5 * (pb + pc);
+    split({pa, pb, m}, n, k, levels - 1, out);
+    split({pa, m, pc}, n, k, levels - 1, out);
+  }
+
+  const PatchMesh& patches_;
+  const RayScene& scene_;
+  const Led& led_;
+  double eta_;
+  IncidentLightOptions options_;
+};
+
+double power_sr(const LitTriangle& t) {
+  const double area_mm2 =
+      0.5 * (t.corners_mm[1] - t.corners_mm[0]).cross(t.corners_mm[2] - t.corners_mm[0]).norm();
+  return area_mm2 *
+         (t.irradiance_sr_per_mm2[0] + t.irradiance_sr_per_mm2[1] + t.irradiance_sr_per_mm2[2]) /
+         3.0;
+}
+
+}  // namespace
+
+IncidentLight illuminate(const PatchMesh& patches, const RayScene& scene, const Led& led,
+                         double eta_int_over_ext, const IncidentLightOptions& options) {
+  const Illuminator illuminator(patches, scene, led, eta_int_over_ext, options);
+  std::vector<PatchLight> per_patch(static_cast<std::size_t>(patches.size()));
+  tbb::parallel_for(tbb::blocked_range<int>(0, patches.size(), 64),
+                    [&](const tbb::blocked_range<int>& range) {
+                      for (int k = range.begin(); k < range.end(); ++k) {
+                        per_patch[static_cast<std::size_t>(k)] = illuminator.patch(k);
+                      }
+                    });
+  IncidentLight light;
+  light.patch_power_sr.assign(per_patch.size(), 0.0);
+  for (std::size_t k = 0; k < per_patch.size(); ++k) {
+    for (const LitTriangle& t : per_patch[k].lit) {
+      const double power = power_sr(t);
+      if (!(power > 0.0)) continue;
+      light.patch_power_sr[k] += power;
+      light.lit.push_back(t);
+    }
+    light.shadow_edge_patches += per_patch[k].on_shadow_edge ? 1 : 0;
+    light.shadow_rays += per_patch[k].rays;
+  }
+  return light;
+}
+
+}  // namespace scattermeter

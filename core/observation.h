@@ -1,0 +1,44 @@
+// What one shot says about each visible patch.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/cfa_samples.h"
+#include "core/sample_map.h"
+
+namespace scattermeter {
+
+// Why a patch has no say in a channel.
+enum class RowState : unsigned char {
+  kUsed = 0,
+  kNoSamples,  // no sample of the channel falls on it
+  kClipped,    // at least one of its samples is clipped
+  kFloor,      // so dark that the camera cuts its noise off at zero
+};
+
+// One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), the mean over the patch's samples.
+struct ChannelObservation {
+  std::vector<double> l;         // per row, W/mm^2 for known responsivity, else up to one factor
+  std::vector<double> variance;  // of l, from the samples' variances
+  std::vector<RowState> state;
+  std::size_t rows_used = 0;
+  std::size_t rows_clipped = 0;
+  std::size_t rows_floor = 0;
+  std::size_t samples = 0;  // in rows
+  std::size_t samples_clipped = 0;
+  double brightest_counts = 0;  // largest row mean, counts above black
+  double brightest_snr = 0;     // largest l / std over rows
+};
+
+struct Observation {
+  std::array<ChannelObservation, kRgb> channel;
+};
+
+// responsivity: counts per (W/(mm^2 sr)) and second, per channel, > 0.
+// Preconditions (std::invalid_argument): the rectangles of map and samples agree, exposure > 0.
+Observation observe(const CfaSamples& samples, const SampleMap& map,
+                    const std::array<double, kRgb>& responsivity_counts_mm2_sr_per_W_s);
+
+}  // namespace scattermeter

@@ -1,0 +1,51 @@
+// Rays against a triangle mesh (Embree).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/triangle_mesh.h"
+
+namespace scattermeter {
+
+struct RayHit {
+  int facet_idx = -1;           // -1: nothing hit
+  Eigen::Vector3d barycentric;  // weights of the facet's vertices
+  double distance = 0;          // in lengths of the direction vector
+};
+
+// Embree computes in float: the mesh is stored relative to the centre of its bounds, so that an
+// object far from the world's origin keeps its digits. All calls are safe from several threads at
+// once.
+class RayScene {
+ public:
+  // Precondition: mesh_problem(mesh) is empty. Throws std::runtime_error if Embree cannot be used.
+  explicit RayScene(const TriangleMesh& mesh);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  // First facet that the ray meets; direction of any length.
+  RayHit first_hit(const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction) const;
+
+  // Whether the open segment from a surface point to `target_mm` meets the mesh. The point is moved
+  // 1e-5 of the object's size along `normal` first, so that its own facet does not count.
+  bool occluded(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,
+                const Eigen::Vector3d& target_mm) const;
+
+  // Whether a point lies inside the closed mesh, by the solid angle the mesh fills around it.
+  bool contains(const Eigen::Vector3d& point_mm) const;
+
+  const TriangleMesh& mesh() const { return mesh_; }
+
+ private:
+  struct Embree;
+  TriangleMesh mesh_;
+  Eigen::Vector3d center_mm_;
+  double size_mm_;
+  std::unique_ptr<Embree> embree_;
+};
+
+}  // namespace scattermeter

@@ -1,0 +1,52 @@
+#include "core/recovered_reflectance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace scattermeter {
+
+Eigen::VectorXd RecoveredReflectance::values() const {
+  // Rows are orthogonal with squared length lambda: Vᵀ-part of r is whitened / sqrt(lambda).
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(sqrt_information.cols());
+  for (Eigen::Index i = 0; i < sqrt_information.rows(); ++i) {
+    r +=
+        sqrt_information.row(i).transpose() * (whitened[i] / sqrt_information.row(i).squaredNorm());
+  }
+  return r;
+}
+
+RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_tolerance) {
+  const Eigen::Index n = system.weights.cols();
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+  double l2 = 0.0;
+  // In blocks: no second copy of the whole system.
+  constexpr Eigen::Index kBlock = 512;
+  for (Eigen::Index at = 0; at < system.weights.rows(); at += kBlock) {
+    const Eigen::Index m = std::min(kBlock, system.weights.rows() - at);
+    const Eigen::VectorXd inverse_std = system.std_l.segment(at, m).cwiseInverse();
+    const Eigen::MatrixXd w = inverse_std.asDiagonal() * system.weights.middleRows(at, m);
+    const Eigen::VectorXd l = inverse_std.cwiseProduct(system.l.segment(at, m));
+    information.selfadjointView<Eigen::Lower>().rankUpdate(w.transpose());
+    right.noalias() += w.transpose() * l;
+    l2 += l.squaredNorm();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
+  const Eigen::VectorXd& lambda = eigen.eigenvalues();  // ascending
+  const double limit = rank_tolerance * std::max(0.0, lambda[n - 1]);
+  Eigen::Index first = 0;
+  while (first < n && !(lambda[first] > limit)) ++first;
+  const Eigen::Index rank = n - first;
+  RecoveredReflectance out;
+  const Eigen::VectorXd root = lambda.tail(rank).cwiseSqrt();
+  out.sqrt_information = root.asDiagonal() * eigen.eigenvectors().rightCols(rank).transpose();
+  out.whitened =
+      root.cwiseInverse().asDiagonal() * (eigen.eigenvectors().rightCols(rank).transpose() * right);
+  out.floor_chi2 = std::max(0.0, l2 - out.whitened.squaredNorm());
+  out.rows = static_cast<std::size_t>(system.weights.rows());
+  return out;
+}
+
+}  // namespace scattermeter

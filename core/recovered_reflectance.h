@@ -1,0 +1,30 @@
+// The diffuse reflectance r that an image holds, before any model.
+#pragma once
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include "core/linear_shot.h"
+
+namespace scattermeter {
+
+// r = W⁺ l by weighted least squares (paper eq. 28, each row divided by its standard deviation),
+// kept in the coordinates in which its errors are independent. With Wᵀ S⁻² W = V diag(lambda) Vᵀ
+// (S: standard deviations) and K the eigenvectors whose lambda exceeds `rank_tolerance` times the
+// largest:
+//   sqrt_information = diag(sqrt(lambda)) Vᵀ   (K rows),   whitened = sqrt_information r,
+// so that a candidate R on the knots has chi-square |sqrt_information R - whitened|^2 + floor_chi2
+// on the image itself. Directions of r that the image says nothing about are in no row.
+struct RecoveredReflectance {
+  Eigen::MatrixXd sqrt_information;
+  Eigen::VectorXd whitened;
+  double floor_chi2 = 0;  // of the best r
+  std::size_t rows = 0;   // rows of the image
+  // The shortest r that fits best (the pseudo-inverse's), 1/mm^2 on the knots.
+  Eigen::VectorXd values() const;
+};
+
+RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_tolerance = 1e-13);
+
+}  // namespace scattermeter
