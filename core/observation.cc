@@ -4,7 +4,56 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <Eigen/LU>
+
 namespace scattermeter {
+namespace {
+
+struct Mean {
+  double l = 0;
+  double variance = 0;
+};
+
+// Running sums of one channel over one patch. Samples of the three colours stand at different
+// places, so their plain means belong to different points of the patch; a plane through the
+// channel's own samples carries its mean to the point that all colours share.
+struct Sum {
+  double n = 0, counts = 0;
+  std::size_t clipped = 0;
+  double l = 0, variance = 0;
+  Eigen::Vector2d x = Eigen::Vector2d::Zero();   // sum of positions, px
+  Eigen::Vector2d lx = Eigen::Vector2d::Zero();  // sum of l times position
+  Eigen::Matrix2d xx = Eigen::Matrix2d::Zero();  // sum of position times position
+
+  void add(int px, int py, double factor, double signal, double signal_variance) {
+    const Eigen::Vector2d p(px, py);
+    n += 1.0;
+    counts += signal;
+    l += factor * signal;
+    variance += factor * factor * signal_variance;
+    x += p;
+    lx += factor * signal * p;
+    xx += p * p.transpose();
+  }
+
+  // l at `place` and its variance: with S the scatter matrix of the positions and d = place - mean,
+  // the weights of the samples are 1/n + d^T S^-1 (x_i - mean), and their squares add up to
+  // 1/n + d^T S^-1 d.
+  Mean mean_at(const Eigen::Vector2d& place) const {
+    const Eigen::Vector2d center = x / n;
+    Mean out{l / n, variance / (n * n)};
+    const Eigen::Matrix2d s = xx - n * center * center.transpose();
+    // Too few samples, or all nearly on a line: the plain mean must do.
+    constexpr double kFewest = 6.0;
+    if (n < kFewest || s.determinant() < 1e-2 * s.trace() * s.trace()) return out;
+    const Eigen::Vector2d weight = s.inverse() * (place - center);
+    out.l += weight.dot(lx - l * center);
+    out.variance *= 1.0 + n * weight.dot(place - center);
+    return out;
+  }
+};
+
+}  // namespace
 
 Observation observe(const CfaSamples& samples, const SampleMap& map,
                     const std::array<double, kRgb>& responsivity) {
@@ -15,32 +64,47 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
   if (!(samples.exposure_s > 0.0))
     throw std::invalid_argument("observe: exposure_s is not positive");
   const std::size_t n_rows = map.patch_of_row.size();
-  struct Sum {
-    double l = 0, variance = 0, counts = 0;
-    std::size_t n = 0, clipped = 0;
-  };
   std::array<std::vector<Sum>, kRgb> sums;
   for (auto& s : sums) s.resize(n_rows);
+  std::vector<Eigen::Vector2d> place(n_rows, Eigen::Vector2d::Zero());  // of all samples of a row
+  std::vector<double> count(n_rows, 0.0);
+  struct Scatter {
+    double squared = 0, expected = 0;
+  };
+  std::array<Scatter, kRgb> scatter;
   Observation out;
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
                             static_cast<std::size_t>(x);
-      const int row = map.row_of_sample[i];
-      if (row < 0) continue;
+      if (map.row_of_sample[i] < 0) continue;
+      const auto row = static_cast<std::size_t>(map.row_of_sample[i]);
       const auto c = static_cast<std::size_t>(samples.channel(map.x0 + x, map.y0 + y));
-      Sum& s = sums[c][static_cast<std::size_t>(row)];
+      place[row] += Eigen::Vector2d(x, y);
+      count[row] += 1.0;
+      Sum& s = sums[c][row];
       ++out.channel[c].samples;
-      ++s.n;
       if (samples.clipped[i] != 0) {
         ++s.clipped;
         ++out.channel[c].samples_clipped;
         continue;
       }
-      const double k = static_cast<double>(map.pi_over_transmittance[i]);
-      s.l += k * static_cast<double>(samples.signal_counts[i]);
-      s.variance += k * k * static_cast<double>(samples.variance_counts2[i]);
-      s.counts += static_cast<double>(samples.signal_counts[i]);
+      s.add(x, y, static_cast<double>(map.pi_over_transmittance[i]),
+            static_cast<double>(samples.signal_counts[i]),
+            static_cast<double>(samples.variance_counts2[i]));
+      // Three samples of one phase in line on one patch: the second difference is free of the
+      // slope.
+      const bool in_line = x + 4 < map.width && map.row_of_sample[i + 2] == map.row_of_sample[i] &&
+                           map.row_of_sample[i + 4] == map.row_of_sample[i];
+      if (in_line && samples.clipped[i + 2] == 0 && samples.clipped[i + 4] == 0) {
+        const double d =
+            static_cast<double>(samples.signal_counts[i] - 2.0F * samples.signal_counts[i + 2] +
+                                samples.signal_counts[i + 4]);
+        scatter[c].squared += d * d;
+        scatter[c].expected += static_cast<double>(samples.variance_counts2[i]) +
+                               4.0 * static_cast<double>(samples.variance_counts2[i + 2]) +
+                               static_cast<double>(samples.variance_counts2[i + 4]);
+      }
     }
   }
   for (std::size_t c = 0; c < kRgb; ++c) {
@@ -48,25 +112,26 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
     channel.l.assign(n_rows, 0.0);
     channel.variance.assign(n_rows, 0.0);
     channel.state.assign(n_rows, RowState::kNoSamples);
+    if (scatter[c].expected > 0.0) channel.noise_ratio = scatter[c].squared / scatter[c].expected;
     const double unit = 1.0 / (responsivity[c] * samples.exposure_s);
     for (std::size_t row = 0; row < n_rows; ++row) {
       const Sum& s = sums[c][row];
-      if (s.n == 0) continue;
+      if (s.n == 0.0 && s.clipped == 0) continue;
       // A clipped sample is a lower bound; leaving only it out would pull the mean down.
       if (s.clipped > 0) {
         channel.state[row] = RowState::kClipped;
         ++channel.rows_clipped;
         continue;
       }
-      const double n = static_cast<double>(s.n);
-      channel.brightest_counts = std::max(channel.brightest_counts, s.counts / n);
-      if (s.counts / n < samples.floor_counts) {
+      channel.brightest_counts = std::max(channel.brightest_counts, s.counts / s.n);
+      if (s.counts / s.n < samples.floor_counts) {
         channel.state[row] = RowState::kFloor;
         ++channel.rows_floor;
         continue;
       }
-      channel.l[row] = unit * s.l / n;
-      channel.variance[row] = unit * unit * s.variance / (n * n);
+      const Mean mean = s.mean_at(place[row] / count[row]);
+      channel.l[row] = unit * mean.l;
+      channel.variance[row] = unit * unit * mean.variance;
       channel.state[row] = RowState::kUsed;
       channel.brightest_snr =
           std::max(channel.brightest_snr, channel.l[row] / std::sqrt(channel.variance[row]));

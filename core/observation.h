@@ -18,7 +18,9 @@ enum class RowState : unsigned char {
   kFloor,      // so dark that the camera cuts its noise off at zero
 };
 
-// One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), the mean over the patch's samples.
+// One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), the mean over the channel's samples on
+// the patch, carried to the mean place of the samples of all channels (SampleMap::mean_mm) by their
+// own slope.
 struct ChannelObservation {
   std::vector<double> l;         // per row, W/mm^2 for known responsivity, else up to one factor
   std::vector<double> variance;  // of l, from the samples' variances
@@ -30,6 +32,9 @@ struct ChannelObservation {
   std::size_t samples_clipped = 0;
   double brightest_counts = 0;  // largest row mean, counts above black
   double brightest_snr = 0;     // largest l / std over rows
+  // Mean squared second difference of neighbouring samples of one filter phase over its expectation
+  // from their variances: 1 where the noise model is right. 0 without three samples in line.
+  double noise_ratio = 0;
 };
 
 struct Observation {

@@ -1,7 +1,10 @@
 #include "core/pair_sums.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 namespace scattermeter {
@@ -60,6 +63,23 @@ ExitSite exit_patch(const PatchMesh& patches, int patch_idx) {
   return {center,
           {0.5 * (t[0] + center), 0.5 * (t[1] + center), 0.5 * (t[2] + center)},
           longest_edge_mm(t)};
+}
+
+ExitSite exit_samples(const Eigen::Vector3d& mean_mm, const Eigen::Matrix3d& covariance_mm2,
+                      double size_mm) {
+  // In the plane of the two larger eigenvectors e1, e2: mean + sqrt(2 lambda1) cos(phi) e1 +
+  // sqrt(2 lambda2) sin(phi) e2 for three phi a third of a turn apart; the mean of cos^2 is 1/2.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance_mm2);
+  ExitSite site{mean_mm, {mean_mm, mean_mm, mean_mm}, size_mm};
+  for (int i = 0; i < 3; ++i) {
+    const double phi = 2.0 * std::numbers::pi / 3.0 * i;
+    site.points_mm[static_cast<std::size_t>(i)] +=
+        std::sqrt(2.0 * std::max(0.0, eigen.eigenvalues()[2])) * std::cos(phi) *
+            eigen.eigenvectors().col(2) +
+        std::sqrt(2.0 * std::max(0.0, eigen.eigenvalues()[1])) * std::sin(phi) *
+            eigen.eigenvectors().col(1);
+  }
+  return site;
 }
 
 SourceCloud::SourceCloud(const IncidentLight& light, const Eigen::Vector3d& origin_mm)

@@ -19,7 +19,12 @@ struct ExitSite {
   double size_mm = 0;                        // longest edge of the patch; 0: only center_mm counts
 };
 
+// The whole patch, sampled evenly.
 ExitSite exit_patch(const PatchMesh& patches, int patch_idx);
+// The samples that fell on a patch: three points with their mean and covariance (of rank 2), so
+// that the mean of any quadratic over the samples is exact. `size_mm`: longest edge of the patch.
+ExitSite exit_samples(const Eigen::Vector3d& mean_mm, const Eigen::Matrix3d& covariance_mm2,
+                      double size_mm);
 inline ExitSite exit_point(const Eigen::Vector3d& p_mm) { return {p_mm, {p_mm, p_mm, p_mm}, 0.0}; }
 
 struct PairSumOptions {

@@ -85,6 +85,13 @@ class Mapper {
     return solid_angle * distance_mm * distance_mm / static_cast<double>(seen_[i].cos_theta);
   }
 
+ public:
+  // Surface point of a sample, world.
+  Eigen::Vector3d point(std::size_t i) const {
+    return rays_.origin_in_world_mm +
+           static_cast<double>(seen_[i].distance) * rays_.directions_in_world[i].cast<double>();
+  }
+
  private:
   static constexpr std::array<std::pair<int, int>, 8> kNeighbours = {
       {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
@@ -95,11 +102,6 @@ class Mapper {
     if (hit.facet_idx < 0) return {};
     return {hit.at.patch_idx, hit.facet_idx, static_cast<float>(hit.distance_mm / direction.norm()),
             static_cast<float>(hit.cos_theta)};
-  }
-
-  Eigen::Vector3d point(std::size_t i) const {
-    return rays_.origin_in_world_mm +
-           static_cast<double>(seen_[i].distance) * rays_.directions_in_world[i].cast<double>();
   }
 
   const RayGrid& rays_;
@@ -150,13 +152,23 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
     }
   });
 
-  std::vector<double> seen_mm2(static_cast<std::size_t>(patches.size()), 0.0);
+  const auto n_patches = static_cast<std::size_t>(patches.size());
+  std::vector<double> seen_mm2(n_patches, 0.0);
+  std::vector<Eigen::Vector3d> sum_mm(n_patches, Eigen::Vector3d::Zero());
+  std::vector<Eigen::Matrix3d> square_mm2(n_patches, Eigen::Matrix3d::Zero());
+  std::vector<double> count(n_patches, 0.0);
   for (int y = 0; y < rays.height; ++y) {
     for (int x = 0; x < rays.width; ++x) {
       const std::size_t i = mapper.index(x, y);
       if (mapper.seen(i).patch >= 0) ++map.samples_on_object;
       if (patch_of_sample[i] >= 0) {
-        seen_mm2[static_cast<std::size_t>(patch_of_sample[i])] += mapper.footprint_mm2(x, y);
+        const auto k = static_cast<std::size_t>(patch_of_sample[i]);
+        seen_mm2[k] += mapper.footprint_mm2(x, y);
+        // Relative to the patch's centre: squares of small numbers keep their digits.
+        const Eigen::Vector3d p = mapper.point(i) - patches.center_mm(patch_of_sample[i]);
+        sum_mm[k] += p;
+        square_mm2[k] += p * p.transpose();
+        count[k] += 1.0;
       } else if (mapper.seen(i).patch >= 0) {
         ++map.samples_guarded;
       }
@@ -174,6 +186,9 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
     row_of_patch[idx] = static_cast<std::int32_t>(map.patch_of_row.size());
     map.patch_of_row.push_back(k);
     map.coverage.push_back(coverage);
+    const Eigen::Vector3d mean = sum_mm[idx] / count[idx];
+    map.mean_mm.push_back(patches.center_mm(k) + mean);
+    map.spread_mm2.push_back(square_mm2[idx] / count[idx] - mean * mean.transpose());
   }
   map.row_of_sample.assign(n, -1);
   for (std::size_t i = 0; i < n; ++i) {

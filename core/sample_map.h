@@ -40,7 +40,9 @@ struct SampleMap {
   std::vector<std::int32_t> row_of_sample;   // -1: background, guarded or in no row
   std::vector<float> pi_over_transmittance;  // pi / Ft(eta, w_o): l = this * L_o (paper eq. 11)
   std::vector<int> patch_of_row;
-  std::vector<double> coverage;  // seen share of each row's patch
+  std::vector<Eigen::Vector3d> mean_mm;     // mean surface point of each row's samples, world
+  std::vector<Eigen::Matrix3d> spread_mm2;  // their covariance about it
+  std::vector<double> coverage;             // seen share of each row's patch
   std::size_t samples_on_object = 0;
   std::size_t samples_guarded = 0;
   std::size_t patches_partly_seen = 0;  // seen, but for less than min_coverage

@@ -1,0 +1,22 @@
+// A lit ChArUco board in a synthetic shot.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "apps/camera_view.h"
+#include "calib/charuco_board.h"
+#include "core/led.h"
+#include "core/ray_scene.h"
+
+namespace scattermeter::apps {
+
+// Radiance of the board per channel, W/(mm^2 sr), wherever a pixel's ray meets it: a white diffuser
+// of reflectance 0.9 with black of 0.04, lit by the LEDs, in the object's shadow where that falls
+// on it. Adds to a picture of the whole frame (height * width, one Array3d a pixel is never stored:
+// only the pixel's own channel). Light between board and object is left out.
+void add_board(const CameraView& view, const calib::CharucoBoard& board,
+               const std::vector<Led>& leds, const RayScene& object,
+               const std::array<int, 4>& channel_of_phase, std::vector<float>& radiance);
+
+}  // namespace scattermeter::apps

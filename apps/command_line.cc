@@ -1,0 +1,67 @@
+#include "apps/command_line.h"
+
+#include <algorithm>
+#include <ostream>
+#include <thread>
+
+#include <oneapi/tbb/global_control.h>
+
+#include "apps/commands.h"
+#include "apps/version.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// A word as a shell would take it back.
+std::string quoted(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789-_./=:,+@%") == std::string::npos) {
+    return word;
+  }
+  std::string out = "'";
+  for (char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+int run_command_line(const std::vector<std::string>& arguments, std::ostream& out,
+                     std::ostream& err) {
+  CommandContext context{out, err, false, 0, "scattermeter", {}};
+  for (const std::string& argument : arguments) context.command_line += " " + quoted(argument);
+  CLI::App app(
+      "scattermeter measures how light scatters and is absorbed below a surface, from raw camera "
+      "shots of an object of known shape under an LED of known place and power.",
+      "scattermeter");
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.set_version_flag("--version", std::string("scattermeter ") + kVersion);
+  app.add_flag("--quiet,-q", context.quiet, "print nothing but errors");
+  app.add_option("--threads", context.threads,
+                 "number of threads (default: all cores); the answer does not depend on it")
+      ->check(CLI::PositiveNumber);
+  add_measure_command(app, context);
+  add_check_command(app, context);
+  add_simulate_command(app, context);
+  // CLI11 takes the words from last to first.
+  std::vector<std::string> words(arguments.rbegin(), arguments.rend());
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e, out, err) == 0 ? 0 : 2;
+  }
+  const int threads = context.threads > 0
+                          ? context.threads
+                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  try {
+    return context.chosen();
+  } catch (const InputError& e) {
+    err << "scattermeter: " << e.what() << "\n";
+    return 2;
+  }
+}
+
+}  // namespace scattermeter::apps

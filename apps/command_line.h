@@ -1,0 +1,16 @@
+// The program's commands.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace scattermeter::apps {
+
+// Runs `scattermeter arguments...` (without the program's name) and returns its exit status: 0
+// done, 1 at least one value refused or check failed, 2 bad input or bad usage. Results go to
+// `out`, notes and errors to `err`. Lets no exception out except std::bad_alloc.
+int run_command_line(const std::vector<std::string>& arguments, std::ostream& out,
+                     std::ostream& err);
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,57 @@
+#include <memory>
+#include <ostream>
+
+#include "apps/commands.h"
+#include "apps/measure.h"
+#include "apps/result_json.h"
+#include "apps/result_table.h"
+
+namespace scattermeter::apps {
+
+void add_measure_command(CLI::App& app, CommandContext& context) {
+  struct Options {
+    std::string shots, rig, out = "result", model = "auto";
+    double patch_mm = 0.0;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "measure",
+      "Measure the materials in a folder of raw shots.\n"
+      "Prints one line per material and colour channel: sigma_s' (reduced scattering) and sigma_a "
+      "(absorption) in 1/mm with standard deviations, and a verdict; writes OUT/result.json.\n"
+      "Exit status: 0 all measured, 1 at least one value refused, 2 bad input.");
+  command->add_option("SHOTS", options->shots, "folder of the raw files")->required();
+  command
+      ->add_option("--rig", options->rig, "rig file: camera, pose, objects, lights, shots (YAML)")
+      ->required();
+  command->add_option("--out", options->out, "folder for result.json")->capture_default_str();
+  command
+      ->add_option("--model", options->model,
+                   "dipole: continuous fit with uncertainty; paper: quantised distances, "
+                   "pseudo-inverse and grid, for comparison; auto: the best that applies (dipole)")
+      ->check(CLI::IsMember({"auto", "dipole", "paper"}))
+      ->capture_default_str();
+  command
+      ->add_option("--patch-size", options->patch_mm,
+                   "edge of the surface patches in mm (default: the rig's, or object size / 40)")
+      ->check(CLI::PositiveNumber);
+  command->callback([options, &context] {
+    context.chosen = [options, &context] {
+      const Rig rig = read_rig(options->rig);
+      MeasureOptions measure_options;
+      measure_options.model = options->model == "paper" ? Model::kPaper : Model::kDipole;
+      measure_options.quiet = context.quiet;
+      if (options->patch_mm > 0.0) measure_options.patch_size_mm = options->patch_mm;
+      const Measurement measurement = measure(rig, options->shots, measure_options);
+      const std::string path = options->out + "/result.json";
+      write_text_file(path, result_json(measurement, context.command_line));
+      for (const std::string& note : measurement.notes) context.err << "note: " << note << "\n";
+      if (!context.quiet) {
+        context.out << result_table(measurement) << "written: " << path << "\n";
+      }
+      return measurement.any_refused() ? 1 : 0;
+    };
+  });
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,88 @@
+#include "apps/result_json.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "apps/version.h"
+#include "capture/pending_file.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json quantity(const Quantity& q, bool known) {
+  if (!known) return {{"value", nullptr}, {"std", nullptr}, {"interval95", {nullptr, nullptr}}};
+  return {{"value", number(q.value)},
+          {"std", number(q.std)},
+          {"interval95", {number(q.low95), number(q.high95)}}};
+}
+
+Json channel_json(const ChannelResult& r, Model model) {
+  const Estimate& e = r.estimate;
+  const bool known = e.converged;
+  Json j;
+  j["material"] = r.material;
+  j["channel"] = std::string(1, r.channel);
+  j["model"] = model_name(model);
+  j["eta"] = r.eta_int_over_ext;
+  j["sigma_s_prime_per_mm"] = quantity(e.sigma_s_prime_per_mm, known);
+  j["sigma_a_per_mm"] = quantity(e.sigma_a_per_mm, known);
+  j["correlation"] = known ? number(e.correlation) : Json(nullptr);
+  j["scale"] = quantity(e.scale, known);
+  j["verdict"] = r.refused() ? "refused" : "ok";
+  j["reasons"] = e.reasons;
+  j["residual"] = {{"rms_relative", known ? number(e.rms_relative) : Json(nullptr)},
+                   {"reduced_chi2", known ? number(e.reduced_chi2) : Json(nullptr)},
+                   {"psnr_db", known ? number(e.psnr_db) : Json(nullptr)}};
+  j["patches"] = e.rows;
+  j["shots"] = r.shots;
+  return j;
+}
+
+}  // namespace
+
+std::string result_json(const Measurement& m, const std::string& command_line) {
+  Json j;
+  j["results"] = Json::array();
+  for (const ChannelResult& r : m.results) j["results"].push_back(channel_json(r, m.model));
+  j["patch_size_mm"] = Json::object();
+  for (const auto& [object, size] : m.patch_size_mm) j["patch_size_mm"][object] = size;
+  j["notes"] = m.notes;
+  j["timing_s"] = Json::object();
+  for (const auto& [stage, seconds] : m.timing_s) j["timing_s"][stage] = seconds;
+  j["version"] = kVersion;
+  j["command"] = command_line;
+  j["inputs"] = Json::array();
+  for (const InputFile& f : m.inputs)
+    j["inputs"].push_back({{"file", f.path}, {"sha256", f.sha256}});
+  // File names may hold bytes that are no UTF-8; they are replaced rather than refused.
+  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder.string(), "the folder cannot be made: " + error.message());
+  capture::PendingFile file(path);
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t n = ::write(file.descriptor(), text.data() + done, text.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw InputError(path, std::string("cannot be written: ") + std::strerror(errno));
+    done += static_cast<std::size_t>(n);
+  }
+  file.commit();
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,18 @@
+// result.json.
+#pragma once
+
+#include <string>
+
+#include "apps/measure.h"
+
+namespace scattermeter::apps {
+
+// The measurement as JSON text (contract: DESIGN of the result file in apps/RESULT.md). Numbers
+// that are not finite or not known become null.
+std::string result_json(const Measurement& measurement, const std::string& command_line);
+
+// Writes text to a file that appears complete or not at all; makes the folder where it is missing.
+// Throws InputError naming the file.
+void write_text_file(const std::string& path, const std::string& text);
+
+}  // namespace scattermeter::apps

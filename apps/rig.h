@@ -1,0 +1,108 @@
+// The rig: everything the program is told about camera, objects, lights and shots.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/camera_model.h"
+#include "calib/charuco_board.h"
+#include "calib/pose.h"
+#include "capture/noise_model.h"
+#include "capture/raw_frame.h"
+#include "core/led.h"
+#include "core/medium.h"
+
+namespace scattermeter::apps {
+
+// What is known of the sensor. Read by `simulate` to make raws and by `measure` for the noise;
+// black, white and filter phase of a measured raw come from the raw itself.
+struct RigSensor {
+  capture::SensorNoise noise;
+  capture::CfaPattern cfa;
+  std::array<int, 4> black_counts = {64, 64, 64, 64};
+  int white_counts = 4095;
+  bool nef_lossy_curve = false;
+};
+
+struct RigCamera {
+  std::string model;  // "": any
+  calib::CameraIntrinsics intrinsics;
+  // Counts per (W/(mm^2 sr)) and second; absent: the scale is free.
+  std::optional<std::array<double, 3>> responsivity;
+  double responsivity_relative_std = 0.02;
+  RigSensor sensor;
+  std::optional<double> exposure_s;  // simulate only; absent: chosen so that nothing clips
+  int iso = 100;
+  double f_number = 8.0;
+};
+
+struct RigPose {
+  std::vector<calib::PointPair> points;  // one or the other
+  std::optional<calib::CharucoBoard> charuco;
+  calib::PoseOptions options;
+  int line = 0;
+};
+
+struct RigObject {
+  std::string name;
+  std::string mesh_path;
+  double eta_int_over_ext = 1.3;
+  std::optional<double> patch_size_mm;
+  int line = 0;
+};
+
+struct RigLight {
+  std::string name;
+  std::string type;  // "led"
+  Led led;
+  double position_std_mm = 0;
+  int line = 0;
+};
+
+struct RigShot {
+  std::string file;
+  std::string object;
+  std::string material;
+  std::vector<std::string> lights;
+  std::optional<double> exposure_s;  // simulate only
+  int line = 0;
+};
+
+struct RigTruthPose {
+  Eigen::Vector3d position_mm;
+  Eigen::Vector3d look_at_mm;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+};
+
+struct Rig {
+  std::string path;  // as given
+  RigCamera camera;
+  RigPose pose;
+  std::vector<RigObject> objects;
+  std::vector<RigLight> lights;
+  std::vector<RigShot> shots;
+  // simulate only.
+  std::map<std::string, std::array<Medium, 3>>
+      truth_materials;  // eta is the object's, not set here
+  std::optional<RigTruthPose> truth_pose;
+
+  const RigObject& object(const std::string& name) const;  // std::out_of_range
+  const RigLight& light(const std::string& name) const;
+  // Materials in the order of their first shot.
+  std::vector<std::string> materials() const;
+  // "rig.yaml:12" for messages.
+  std::string at(int line) const { return path + ":" + std::to_string(line); }
+};
+
+// Reads and checks a rig file (YAML). Throws InputError with file, line, field and value for
+// anything that is missing, of the wrong kind, out of range, not finite, unknown, given twice or
+// not referred to properly. Paths in the rig are relative to the rig's folder. Meshes are not
+// opened here.
+Rig read_rig(const std::string& path);
+
+}  // namespace scattermeter::apps

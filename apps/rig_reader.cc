@@ -1,0 +1,298 @@
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "apps/rig.h"
+#include "apps/yaml_field.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+std::string beside(const std::string& rig_path, const std::string& file) {
+  const std::filesystem::path p(file);
+  return p.is_absolute() ? file : (std::filesystem::path(rig_path).parent_path() / p).string();
+}
+
+std::array<double, 3> positive_rgb(const YamlField& field) {
+  std::array<double, 3> out{};
+  const std::vector<double> v = field.numbers(3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!(v[c] > 0.0)) field.fail("expected three positive numbers (R, G, B)");
+    out[c] = v[c];
+  }
+  return out;
+}
+
+std::array<double, 3> rgb_not_negative(const YamlField& field) {
+  std::array<double, 3> out{};
+  const std::vector<double> v = field.numbers(3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (!(v[c] >= 0.0)) field.fail("expected three numbers of at least 0 (R, G, B)");
+    out[c] = v[c];
+  }
+  return out;
+}
+
+Eigen::Vector3d unit_vector(const YamlField& field) {
+  const Eigen::Vector3d v = field.vector3();
+  if (!(v.norm() > 0.0)) field.fail("expected a direction other than zero");
+  return v.normalized();
+}
+
+calib::CameraIntrinsics read_intrinsics_field(const YamlField& field, const std::string& rig_path) {
+  if (field.is_scalar()) return calib::read_intrinsics(beside(rig_path, field.text()));
+  field.only({"fx_px", "fy_px", "cx_px", "cy_px", "distortion"});
+  calib::CameraIntrinsics k;
+  k.fx_px = field.at("fx_px").positive();
+  k.fy_px = field.at("fy_px").positive();
+  k.cx_px = field.at("cx_px").number();
+  k.cy_px = field.at("cy_px").number();
+  if (const auto distortion = field.find("distortion")) {
+    for (const YamlField& term : distortion->items()) k.distortion.push_back(term.number());
+    const std::size_t n = k.distortion.size();
+    if (n != 0 && n != 4 && n != 5 && n != 8) {
+      distortion->fail("expected 0, 4, 5 or 8 terms k1, k2, p1, p2, k3 ...");
+    }
+  }
+  return k;
+}
+
+RigSensor read_sensor(const YamlField& field) {
+  field.only({"gain_e_per_count", "read_noise_counts", "cfa", "black_counts", "white_counts",
+              "tone_curve"});
+  RigSensor s;
+  if (const auto f = field.find("gain_e_per_count")) s.noise.gain_e_per_count = f->positive();
+  if (const auto f = field.find("read_noise_counts")) {
+    s.noise.read_noise_counts = f->number(0.0, 4095.0);
+  }
+  if (const auto f = field.find("cfa")) {
+    try {
+      s.cfa = capture::cfa_pattern_from_name(f->text());
+    } catch (const std::invalid_argument&) {
+      f->fail("expected RGGB, GRBG, GBRG or BGGR");
+    }
+  }
+  if (const auto f = field.find("white_counts")) s.white_counts = f->integer(1, 4095);
+  if (const auto f = field.find("black_counts")) {
+    if (f->is_scalar()) {
+      s.black_counts.fill(f->integer(0, 4094));
+    } else {
+      f->numbers(4);
+      for (std::size_t i = 0; i < 4; ++i) s.black_counts[i] = f->items()[i].integer(0, 4094);
+    }
+    for (int black : s.black_counts) {
+      if (black >= s.white_counts) f->fail("expected black below white_counts");
+    }
+  }
+  if (const auto f = field.find("tone_curve")) {
+    const std::string name = f->text();
+    if (name != "linear" && name != "nef_lossy") f->fail("expected linear or nef_lossy");
+    s.nef_lossy_curve = name == "nef_lossy";
+  }
+  return s;
+}
+
+RigCamera read_camera(const YamlField& field, const std::string& rig_path) {
+  field.only({"model", "image_size_px", "intrinsics", "responsivity_counts_mm2_sr_per_W_s",
+              "responsivity_relative_std", "sensor", "exposure_s", "iso", "f_number"});
+  RigCamera camera;
+  if (const auto f = field.find("model")) camera.model = f->text();
+  const YamlField size = field.at("image_size_px");
+  size.numbers(2);
+  const YamlField intrinsics = field.at("intrinsics");
+  camera.intrinsics = read_intrinsics_field(intrinsics, rig_path);
+  camera.intrinsics.width_px = size.items()[0].integer(2, 100'000);
+  camera.intrinsics.height_px = size.items()[1].integer(2, 100'000);
+  if (const std::string problem = calib::intrinsics_problem(camera.intrinsics); !problem.empty()) {
+    intrinsics.fail(problem);
+  }
+  if (const auto f = field.find("responsivity_counts_mm2_sr_per_W_s")) {
+    camera.responsivity = positive_rgb(*f);
+  }
+  if (const auto f = field.find("responsivity_relative_std")) {
+    if (!camera.responsivity) f->fail("is given without responsivity_counts_mm2_sr_per_W_s");
+    camera.responsivity_relative_std = f->number(0.0, 10.0);
+  }
+  if (const auto f = field.find("sensor")) camera.sensor = read_sensor(*f);
+  if (const auto f = field.find("exposure_s")) camera.exposure_s = f->positive();
+  if (const auto f = field.find("iso")) camera.iso = f->integer(1, 65535);
+  if (const auto f = field.find("f_number")) camera.f_number = f->positive();
+  return camera;
+}
+
+calib::CharucoBoard read_board(const YamlField& field) {
+  field.only({"squares", "square_mm", "marker_mm", "dictionary", "origin_mm", "x_axis", "y_axis"});
+  calib::CharucoBoard board;
+  const YamlField squares = field.at("squares");
+  squares.numbers(2);
+  board.squares_x = squares.items()[0].integer(2, 1000);
+  board.squares_y = squares.items()[1].integer(2, 1000);
+  board.square_mm = field.at("square_mm").positive();
+  board.marker_mm = field.at("marker_mm").positive();
+  if (const auto f = field.find("dictionary")) board.dictionary = f->text();
+  Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+  if (const auto f = field.find("x_axis")) x = unit_vector(*f);
+  if (const auto f = field.find("y_axis")) {
+    y = unit_vector(*f);
+    if (std::abs(x.dot(y)) > 1e-6) f->fail("expected a direction at right angles to x_axis");
+  }
+  Eigen::Matrix3d rotation;
+  rotation << x, y, x.cross(y);
+  if (std::abs(x.dot(y)) > 1e-6) field.fail("x_axis and y_axis are not at right angles");
+  board.world_from_board.rotation = Eigen::Quaterniond(rotation).normalized();
+  if (const auto f = field.find("origin_mm")) board.world_from_board.translation_mm = f->vector3();
+  if (const std::string problem = calib::board_problem(board); !problem.empty()) {
+    field.fail(problem);
+  }
+  return board;
+}
+
+RigPose read_pose(const YamlField& field) {
+  field.only({"points", "charuco", "inlier_px", "point_std_px"});
+  RigPose pose;
+  pose.line = field.line();
+  const auto points = field.find("points");
+  const auto charuco = field.find("charuco");
+  if (points.has_value() == charuco.has_value()) field.fail("expected either points or charuco");
+  if (points) {
+    pose.line = points->line();
+    for (const YamlField& pair : points->items()) {
+      pair.only({"world_mm", "image_px"});
+      const std::vector<double> px = pair.at("image_px").numbers(2);
+      pose.points.push_back({pair.at("world_mm").vector3(), {px[0], px[1]}});
+    }
+  } else {
+    pose.line = charuco->line();
+    pose.charuco = read_board(*charuco);
+  }
+  if (const auto f = field.find("inlier_px")) pose.options.inlier_px = f->positive();
+  if (const auto f = field.find("point_std_px")) pose.options.point_std_px = f->positive();
+  return pose;
+}
+
+RigObject read_object(const std::string& name, const YamlField& field,
+                      const std::string& rig_path) {
+  field.only({"mesh", "eta", "patch_size_mm"});
+  RigObject object;
+  object.name = name;
+  object.line = field.line();
+  object.mesh_path = beside(rig_path, field.at("mesh").text());
+  object.eta_int_over_ext = field.at("eta").number(1.0, 4.0);
+  if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
+  return object;
+}
+
+RigLight read_light(const std::string& name, const YamlField& field) {
+  RigLight light;
+  light.name = name;
+  light.line = field.line();
+  const YamlField type = field.at("type");
+  light.type = type.text();
+  if (light.type == "environment") {
+    type.fail("environment lights are not measured by this version, only led");
+  }
+  if (light.type != "led") type.fail("expected led");
+  field.only({"type", "position_mm", "axis", "exponent", "intensity_W_per_sr", "position_std_mm"});
+  light.led.position_mm = field.at("position_mm").vector3();
+  light.led.axis = unit_vector(field.at("axis"));
+  if (const auto f = field.find("exponent")) light.led.exponent = f->number(0.0, 1000.0);
+  const YamlField intensity = field.at("intensity_W_per_sr");
+  const std::array<double, 3> rgb = rgb_not_negative(intensity);
+  if (!(rgb[0] + rgb[1] + rgb[2] > 0.0)) intensity.fail("expected light in at least one channel");
+  light.led.intensity_W_per_sr = {rgb[0], rgb[1], rgb[2]};
+  if (const auto f = field.find("position_std_mm")) {
+    light.position_std_mm = f->number(0.0, 1000.0);
+  }
+  return light;
+}
+
+RigShot read_shot(const YamlField& field, const Rig& rig) {
+  field.only({"file", "object", "material", "lights", "exposure_s"});
+  RigShot shot;
+  shot.line = field.line();
+  const YamlField file = field.at("file");
+  shot.file = file.text();
+  if (shot.file.find('/') != std::string::npos || shot.file == "." || shot.file == "..") {
+    file.fail("expected the name of a file in the folder of shots, without a path");
+  }
+  const YamlField object = field.at("object");
+  shot.object = object.text();
+  const YamlField material = field.at("material");
+  shot.material = material.text();
+  const auto known = [](const auto& all, const std::string& name) {
+    for (const auto& one : all) {
+      if (one.name == name) return true;
+    }
+    return false;
+  };
+  if (!known(rig.objects, shot.object)) object.fail("no such object in objects");
+  const YamlField lights = field.at("lights");
+  for (const YamlField& light : lights.items()) {
+    const std::string name = light.text();
+    if (!known(rig.lights, name)) light.fail("no such light in lights");
+    for (const std::string& other : shot.lights) {
+      if (other == name) light.fail("the light is listed twice");
+    }
+    shot.lights.push_back(name);
+  }
+  if (shot.lights.empty()) lights.fail("expected at least one light");
+  if (const auto f = field.find("exposure_s")) shot.exposure_s = f->positive();
+  return shot;
+}
+
+void read_truth(const YamlField& field, Rig& rig) {
+  field.only({"materials", "pose"});
+  if (const auto materials = field.find("materials")) {
+    for (const auto& [name, material] : materials->entries()) {
+      material.only({"sigma_s_prime_per_mm", "sigma_a_per_mm"});
+      const std::array<double, 3> s = positive_rgb(material.at("sigma_s_prime_per_mm"));
+      const std::array<double, 3> a = rgb_not_negative(material.at("sigma_a_per_mm"));
+      std::array<Medium, 3>& media = rig.truth_materials[name];
+      for (std::size_t c = 0; c < 3; ++c) media[c] = {s[c], a[c], 1.0};
+    }
+  }
+  if (const auto pose = field.find("pose")) {
+    pose->only({"position_mm", "look_at_mm", "up"});
+    RigTruthPose truth{pose->at("position_mm").vector3(), pose->at("look_at_mm").vector3()};
+    if (const auto f = pose->find("up")) truth.up = unit_vector(*f);
+    const Eigen::Vector3d forward = truth.look_at_mm - truth.position_mm;
+    if (!(forward.cross(truth.up).norm() > 1e-9 * forward.norm())) {
+      pose->fail("position_mm, look_at_mm and up do not define a camera");
+    }
+    rig.truth_pose = truth;
+  }
+}
+
+}  // namespace
+
+Rig read_rig(const std::string& path) {
+  const YamlField top = YamlField::load(path);
+  top.only({"scattermeter_rig", "camera", "pose", "objects", "lights", "shots", "truth"});
+  const YamlField version = top.at("scattermeter_rig");
+  if (version.number() != 1.0) version.fail("this program reads rigs of version 1");
+  Rig rig;
+  rig.path = path;
+  rig.camera = read_camera(top.at("camera"), path);
+  rig.pose = read_pose(top.at("pose"));
+  for (const auto& [name, field] : top.at("objects").entries()) {
+    rig.objects.push_back(read_object(name, field, path));
+  }
+  for (const auto& [name, field] : top.at("lights").entries()) {
+    rig.lights.push_back(read_light(name, field));
+  }
+  std::set<std::string> files;
+  const YamlField shots = top.at("shots");
+  for (const YamlField& field : shots.items()) {
+    rig.shots.push_back(read_shot(field, rig));
+    if (!files.insert(rig.shots.back().file).second) {
+      field.at("file").fail("two shots of the same name");
+    }
+  }
+  if (rig.shots.empty()) shots.fail("expected at least one shot");
+  if (const auto truth = top.find("truth")) read_truth(*truth, rig);
+  return rig;
+}
+
+}  // namespace scattermeter::apps

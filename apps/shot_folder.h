@@ -1,0 +1,20 @@
+// The folder of raw shots against the rig's list.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/rig.h"
+
+namespace scattermeter::apps {
+
+struct ShotFolder {
+  std::vector<std::string> paths;     // of the rig's shots, in the rig's order
+  std::vector<std::string> unlisted;  // file names in the folder that the rig does not list, sorted
+};
+
+// Throws InputError when the folder is missing, no folder, or empty, or when shots that the rig
+// lists are not in it (all of them named, with the rig's line of the first).
+ShotFolder match_shots(const Rig& rig, const std::string& folder);
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,123 @@
+#include "apps/shot_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/core.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "apps/progress.h"
+#include "apps/raw_shot.h"
+#include "apps/shot_pose.h"
+#include "capture/linear_samples.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+std::shared_ptr<const SeenObject> see(const Rig& rig, const ObjectScenes& scenes,
+                                      const ObjectLibrary& library, const std::string& name,
+                                      const calib::PoseResult& pose) {
+  const CameraView view{rig.camera.intrinsics, pose.camera_from_world};
+  require_in_view(rig, scenes, view, name);
+  auto seen = std::make_shared<SeenObject>();
+  seen->object = &scenes.at(name);
+  seen->patches = &library.patches(name);
+  const SampleMapOptions options;
+  const RayGrid rays = rays_around(view, seen->object->mesh(), 2 * options.guard_px);
+  seen->map = map_samples(rays, *seen->object->rays, *seen->patches,
+                          seen->object->rig->eta_int_over_ext, options);
+  for (std::size_t row = 0; row < seen->map.patch_of_row.size(); ++row) {
+    seen->sites.push_back(
+        exit_samples(seen->map.mean_mm[row], seen->map.spread_mm2[row],
+                     seen->patches->longest_edge_mm(seen->map.patch_of_row[row])));
+  }
+  return seen;
+}
+
+}  // namespace
+
+ObjectLibrary::ObjectLibrary(const Rig& rig, const ObjectScenes& scenes,
+                             std::optional<double> patch_size_mm, double distance_to_camera_mm)
+    : rig_(rig), scenes_(scenes) {
+  for (const auto& [name, scene] : scenes) {
+    // Fewer than about six samples across a patch, and its mean says where they fell, not what it
+    // is.
+    const double samples_mm = 8.0 * distance_to_camera_mm / rig.camera.intrinsics.fx_px;
+    const double chosen_mm = std::max(scene.size_mm() / 40.0, samples_mm);
+    const double size_mm = patch_size_mm.value_or(scene.rig->patch_size_mm.value_or(chosen_mm));
+    try {
+      patches_[name] = std::make_unique<PatchMesh>(scene.mesh(), size_mm);
+    } catch (const std::length_error& e) {
+      throw InputError(rig.at(scene.rig->line) + ": objects." + name + ".patch_size_mm", e.what());
+    }
+  }
+}
+
+const IncidentLight& ObjectLibrary::light(const std::string& object, const std::string& light) {
+  const auto [it, is_new] = lights_.try_emplace({object, light});
+  if (is_new) {
+    const RigLight& rig_light = rig_.light(light);
+    const ObjectScene& scene = scenes_.at(object);
+    it->second =
+        illuminate(patches(object), *scene.rays, rig_light.led, scene.rig->eta_int_over_ext);
+    if (it->second.lit.empty()) {
+      throw InputError(
+          rig_.at(rig_light.line) + ": lights." + light,
+          "the LED shines on no part of object " + object + " (look at position_mm and axis)");
+    }
+  }
+  return it->second;
+}
+
+double ObjectLibrary::smallest_patch_mm() const {
+  double smallest = patches_.begin()->second->patch_size_mm();
+  for (const auto& [name, patches] : patches_)
+    smallest = std::min(smallest, patches->patch_size_mm());
+  return smallest;
+}
+
+double ObjectLibrary::longest_distance_mm() const {
+  double longest = 0.0;
+  for (const auto& [name, scene] : scenes_) longest = std::max(longest, scene.diagonal_mm());
+  return longest;
+}
+
+std::vector<OpenedShot> open_shots(const Rig& rig, const std::vector<std::string>& paths,
+                                   const ObjectScenes& scenes, const ObjectLibrary& library,
+                                   const std::optional<calib::PoseResult>& shared_pose,
+                                   bool quiet) {
+  std::map<std::string, std::shared_ptr<const SeenObject>> shared;
+  if (shared_pose) {
+    for (const auto& [name, scene] : scenes) {
+      shared[name] = see(rig, scenes, library, name, *shared_pose);
+    }
+  }
+  // A free scale works in units of its own: counts per second.
+  const std::array<double, 3> responsivity =
+      rig.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0});
+  std::vector<OpenedShot> shots(paths.size());
+  Progress progress("reading shots", static_cast<int>(paths.size()), quiet);
+  tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
+    OpenedShot& shot = shots[i];
+    shot.rig = &rig.shots[i];
+    shot.path = paths[i];
+    const capture::RawFrame frame = open_shot(rig, shot.path);
+    shot.exposure_s = frame.exposure_s;
+    shot.iso = frame.iso;
+    shot.f_number = frame.f_number;
+    shot.pose = shared_pose ? *shared_pose : pose_from_board(rig, frame, shot.path);
+    shot.seen = shared_pose ? shared.at(shot.rig->object)
+                            : see(rig, scenes, library, shot.rig->object, shot.pose);
+    const SampleMap& map = shot.seen->map;
+    shot.observation =
+        observe(capture::linear_samples(frame, rig.camera.sensor.noise, frame.exposure_s, map.x0,
+                                        map.y0, map.width, map.height),
+                map, responsivity);
+    progress.step();
+  });
+  return shots;
+}
+
+}  // namespace scattermeter::apps

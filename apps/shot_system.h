@@ -1,0 +1,70 @@
+// The linear systems of all shots, from files to W and l.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/camera_view.h"
+#include "apps/object_scene.h"
+#include "apps/rig.h"
+#include "calib/pose.h"
+#include "core/distance_weights.h"
+#include "core/incident_light.h"
+#include "core/observation.h"
+#include "core/patch_mesh.h"
+#include "core/sample_map.h"
+
+namespace scattermeter::apps {
+
+// An object as one camera pose sees it.
+struct SeenObject {
+  const ObjectScene* object = nullptr;
+  const PatchMesh* patches = nullptr;
+  SampleMap map;
+  std::vector<ExitSite> sites;  // of the map's rows
+};
+
+struct OpenedShot {
+  const RigShot* rig = nullptr;
+  std::string path;
+  std::shared_ptr<const SeenObject> seen;
+  Observation observation;
+  calib::PoseResult pose;
+  double exposure_s = 0;
+  double iso = 0;
+  double f_number = 0;
+};
+
+// Patches and light of the rig's objects, shared by the shots.
+class ObjectLibrary {
+ public:
+  // patch_size_mm: for every object; else the rig's; else object size / 40, but at least six
+  // samples.
+  ObjectLibrary(const Rig& rig, const ObjectScenes& scenes, std::optional<double> patch_size_mm,
+                double distance_to_camera_mm);
+
+  const PatchMesh& patches(const std::string& object) const { return *patches_.at(object); }
+  // c_k of one light on one object; computed at the first call. Throws InputError when the light
+  // reaches no part of the object. Not for several threads at once.
+  const IncidentLight& light(const std::string& object, const std::string& light);
+  double smallest_patch_mm() const;
+  double longest_distance_mm() const;
+
+ private:
+  const Rig& rig_;
+  const ObjectScenes& scenes_;
+  std::map<std::string, std::unique_ptr<PatchMesh>> patches_;
+  std::map<std::pair<std::string, std::string>, IncidentLight> lights_;
+};
+
+// Decodes every shot and reduces it to one l per visible patch and channel. With the pose from the
+// rig's points, shots of one object share their map; with a board in each shot they do not.
+std::vector<OpenedShot> open_shots(const Rig& rig, const std::vector<std::string>& paths,
+                                   const ObjectScenes& scenes, const ObjectLibrary& library,
+                                   const std::optional<calib::PoseResult>& shared_pose, bool quiet);
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,54 @@
+// Strict reading of YAML: every value is asked for by name and kind, every mistake is named.
+#pragma once
+
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <yaml-cpp/yaml.h>
+
+namespace scattermeter::apps {
+
+// A node with its place: file, line and dotted path. All failures are InputError
+// "file:line: camera.fx_px: expected ..., got ...".
+class YamlField {
+ public:
+  YamlField(YAML::Node node, std::string file, std::string path);
+
+  // The whole file. InputError when it cannot be read or is no YAML.
+  static YamlField load(const std::string& file);
+
+  int line() const { return node_.Mark().line + 1; }
+  const std::string& path() const { return path_; }
+  bool is_map() const { return node_.IsMap(); }
+  bool is_scalar() const { return node_.IsScalar(); }
+
+  // A map with no other and no repeated keys than these.
+  void only(std::initializer_list<const char*> keys) const;
+  YamlField at(const std::string& key) const;
+  std::optional<YamlField> find(const std::string& key) const;
+  // Children of a map in the file's order, names unique and not empty.
+  std::vector<std::pair<std::string, YamlField>> entries() const;
+  std::vector<YamlField> items() const;
+
+  std::string text() const;  // not empty
+  // A finite number in [min, max].
+  double number(double min = -std::numeric_limits<double>::max(),
+                double max = std::numeric_limits<double>::max()) const;
+  double positive() const;
+  int integer(int min, int max) const;
+  std::vector<double> numbers(std::size_t count) const;
+  Eigen::Vector3d vector3() const;
+
+  [[noreturn]] void fail(const std::string& what) const;  // appends "got <value>"
+
+ private:
+  YAML::Node node_;
+  std::string file_;
+  std::string path_;
+};
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,96 @@
+// Camera pose from known geometry.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "calib/camera_model.h"
+#include "core/rigid3d.h"
+
+namespace scattermeter::calib {
+
+struct PointPair {
+  Eigen::Vector3d world_mm;
+  Eigen::Vector2d image_px;
+};
+
+struct PoseOptions {
+  double inlier_px = 2.0;  // a pair with a larger reprojection error is an outlier, px. At least
+                           // three times the noise: cutting into it makes the rest look better
+  double confidence = 0.9999;  // of the robust search, in (0, 1)
+  double point_std_px = 0.3;  // assumed standard deviation of each coordinate of image_px; a larger
+                              // one found in the residuals takes its place, px
+  // A second pose explains the points as well when it is less than 10^4 times less likely than the
+  // first (given the noise), or its rms exceeds the first's by less than this factor. The factor
+  // stands for what is no independent noise: a lens or a board that departs from its model. >= 1.
+  double ambiguity_ratio = 1.2;
+  void Check() const;  // std::invalid_argument naming the field
+};
+
+// Each status by its condition, in the order in which they are looked for.
+enum class PoseStatus {
+  kOk,
+  // Fewer than four pairs, four different world points, or four inliers.
+  kTooFewPoints,
+  // World points on one line or at one place: their spread across the line, as seen, is below three
+  // standard deviations of the noise. The same for the image points (a plane seen edge-on;
+  // the whole seen as a dot, its points within four).
+  kCollinear,
+  // No pose explains more than half of the pairs within inlier_px.
+  kNoConsensus,
+  // As kNoConsensus, but one does that puts the points behind the camera: x -> -x. The world
+  // coordinates are those of a mirror image.
+  kBehindCamera,
+  // Some rotation is uncertain by more than 0.05 rad or the camera's place by more than 0.05 of its
+  // distance to the points (beyond, the linearised covariance is no longer true: of 14000 random
+  // layouts below these limits none missed the true pose by more than it allows); or the covariance
+  // is not finite, or the least squares did not settle.
+  kIllConditioned,
+  // Two poses, apart by more than three standard deviations, fit about equally well: points in one
+  // plane (or nearly) seen small, or only four to six points. See PoseOptions::ambiguity_ratio.
+  kPlanarAmbiguity,
+};
+
+struct PoseResult {
+  PoseStatus status = PoseStatus::kTooFewPoints;
+  std::string
+      message;  // one or two sentences on the status, what is wrong and what to do; "" if ok
+  // From here on: the best pose found, for a look at it, where status is kOk, kIllConditioned or
+  // kPlanarAmbiguity; else NaN, all pairs outliers.
+  Rigid3d camera_from_world;
+  // Covariance of (w in rad, dt in mm), 6 x 6, of what leads from this estimate to the true pose:
+  //   true rotation = exp([w]_x) * camera_from_world.rotation,
+  //   true translation_mm = camera_from_world.translation_mm + dt,
+  // both in camera axes. A world point at y = rotation * x_in_world moves by w x y + dt; dt is the
+  // displacement of the world's origin in the camera frame. Linearised: good as long as the
+  // second-order motion of the points, |w|^2 |y| / 2 seen from the camera, is below noise_std_px,
+  // which a world origin on or near the object keeps so.
+  Eigen::Matrix<double, 6, 6> covariance;
+  // Standard deviation per image coordinate on which the covariance stands, px: the larger of
+  // point_std_px and sqrt(sum r^2 / (2 n - 6)) over the n inliers.
+  double noise_std_px = 0;
+  std::vector<Eigen::Vector2d> residuals_px;  // projected - given, one per pair, outliers too; NaN
+                                              // where a point has no image
+  std::vector<bool> inlier;                   // one per pair
+  double rms_px = 0;                          // over inliers, of the 2-vector's length
+  double worst_px = 0;                        // over inliers
+  // Standard deviation of the camera's centre along the world's axes, mm, from the covariance.
+  Eigen::Vector3d center_std_mm;
+};
+
+// Robust search (poses from three points each, scored on all), nonlinear least squares over the
+// inliers, in turns until the inliers stay; covariance from the Jacobian there. Deterministic.
+//
+// What is claimed of outliers: with n pairs, up to (n - 1) / 2 gross ones are rejected as long as
+// four pairs remain. Four pairs leave two degrees of freedom: a gross error in one is noticed (no
+// pose fits), not found. Errors of a few inlier_px among four to six pairs may be fitted rather
+// than rejected; they show in noise_std_px and so in the covariance.
+//
+// Never throws on degenerate layouts: the status says it. Throws std::invalid_argument on
+// coordinates that are not finite, on intrinsics_problem() and on options out of range.
+PoseResult estimate_pose(const CameraIntrinsics& intrinsics, const std::vector<PointPair>& pairs,
+                         const PoseOptions& options = {});
+
+}  // namespace scattermeter::calib

@@ -1,0 +1,182 @@
+// The whole road: simulate -> files on disk -> measure -> truth, through every foreign library.
+#include <array>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/small_rig.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Truth {
+  std::array<double, 3> s, a;
+};
+const std::map<std::string, Truth> kTruth = {{"PP", {{0.50, 0.62, 0.70}, {0.003, 0.002, 0.004}}},
+                                             {"PE", {{0.90, 1.05, 1.20}, {0.002, 0.003, 0.006}}},
+                                             {"POM", {{1.40, 1.60, 1.75}, {0.002, 0.004, 0.008}}}};
+
+// Largest relative errors of sigma_s' and sigma_a over all results.
+std::pair<double, double> worst_errors(const Json& result) {
+  std::pair<double, double> worst;
+  for (const Json& r : result["results"]) {
+    const std::size_t c = std::string("RGB").find(r["channel"].get<std::string>());
+    const Truth& truth = kTruth.at(r["material"]);
+    const double s = r["sigma_s_prime_per_mm"]["value"];
+    const double a = r["sigma_a_per_mm"]["value"];
+    worst.first = std::max(worst.first, std::abs(s / truth.s[c] - 1.0));
+    worst.second = std::max(worst.second, std::abs(a / truth.a[c] - 1.0));
+  }
+  return worst;
+}
+
+TEST(Road, TwelveSmallShotsWithNoise) {
+  SmallRig rig;
+  rig.simulate();
+  const Answer r = rig.measure();
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  const Json result = Json::parse(rig.result());
+  ASSERT_EQ(result["results"].size(), 9U);
+  const auto [s, a] = worst_errors(result);
+  // At this resolution a patch has some 12 samples of a colour; the pose is known to 0.02 px.
+  EXPECT_LT(s, 0.02) << r.out;
+  EXPECT_LT(a, 0.05) << r.out;
+  for (const Json& x : result["results"]) {
+    EXPECT_EQ(x["verdict"], "ok");
+    EXPECT_EQ(x["shots"].size(), 4U);
+    EXPECT_EQ(x["model"], "dipole");
+    EXPECT_GT(x["sigma_s_prime_per_mm"]["std"], 0.0);
+    EXPECT_LT(x["residual"]["rms_relative"], 0.05);
+    const double value = x["sigma_a_per_mm"]["value"];
+    EXPECT_LE(x["sigma_a_per_mm"]["interval95"][0], value);
+    EXPECT_GE(x["sigma_a_per_mm"]["interval95"][1], value);
+  }
+  EXPECT_EQ(result["inputs"].size(), 15U);  // rig, two meshes, twelve shots
+  EXPECT_EQ(result["inputs"][0]["sha256"].get<std::string>().size(), 64U);
+  EXPECT_GT(result["timing_s"]["total"], 0.0);
+  EXPECT_THAT(r.out, ::testing::HasSubstr("POM"));
+  EXPECT_EQ(r.err, "");
+}
+
+// Without a responsivity the scale is free; a shadow edge still tells sigma_s'.
+TEST(Road, FreeScale) {
+  SmallRig rig;
+  rig.keep_shots("PE_");
+  rig.simulate();
+  rig.write(replaced(replaced(rig.text(), "  responsivity_relative_std: 0.01\n", ""),
+                     "  responsivity_counts_mm2_sr_per_W_s: [2.4e10, 2.9e10, 2.1e10]\n", ""));
+  const Answer r = rig.measure();
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  const Json result = Json::parse(rig.result());
+  const auto [s, a] = worst_errors(result);
+  EXPECT_LT(s, 0.05) << r.out;
+  EXPECT_LT(a, 0.15) << r.out;
+  // It settles on the responsivity that made the shots.
+  EXPECT_NEAR(result["results"][0]["scale"]["value"].get<double>() / 2.4e10, 1.0, 0.05);
+}
+
+// Both LEDs on at once: their weights add, each with its own power.
+TEST(Road, TwoLightsInOneShot) {
+  SmallRig rig;
+  rig.keep_shots("PE_cube_1");
+  rig.write(replaced(rig.text(), "lights: [led1]}", "lights: [led1, led2], exposure_s: 0.03}"));
+  rig.simulate();
+  const Answer r = rig.measure();
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_LT(worst_errors(Json::parse(rig.result())).first, 0.02) << r.out;
+}
+
+// The lossy tone curve of a compressed NEF and a camera whose colours start elsewhere.
+TEST(Road, ToneCurveAndOtherPhase) {
+  SmallRig rig;
+  rig.keep_shots("PE_pyramid");
+  rig.write(replaced(rig.text(), "black_counts: 64}",
+                     "black_counts: 64, cfa: GBRG, tone_curve: nef_lossy}"));
+  rig.simulate();
+  const Answer r = rig.measure();
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_LT(worst_errors(Json::parse(rig.result())).first, 0.02) << r.out;
+}
+
+TEST(Road, PaperModel) {
+  SmallRig rig;
+  rig.keep_shots("PE_pyramid_2");
+  rig.simulate({"--noise", "off"});
+  const Answer r = rig.measure({"--model", "paper"});
+  EXPECT_LE(r.status, 1) << r.err;
+  const Json result = Json::parse(rig.result());
+  ASSERT_EQ(result["results"].size(), 3U);
+  for (const Json& x : result["results"]) {
+    EXPECT_EQ(x["model"], "paper");
+    // On its grid, and no more is promised of it.
+    const double s = x["sigma_s_prime_per_mm"]["value"];
+    EXPECT_NEAR(s / 0.01, std::round(s / 0.01), 1e-6);
+    EXPECT_EQ(x["verdict"] == "refused", !x["reasons"].empty());
+  }
+}
+
+// Same input, same seed: the same digits for any number of threads.
+TEST(Road, ThreadsDoNotChangeTheDigits) {
+  std::vector<Json> results;
+  std::vector<std::string> shots;
+  for (const char* threads : {"1", "3"}) {
+    SmallRig rig;
+    rig.keep_shots("POM_cube");
+    rig.simulate({"--threads", threads, "--seed", "7"});
+    shots.push_back(slurp(rig.shots() + "/POM_cube_1.dng"));
+    EXPECT_EQ(rig.measure({"--threads", threads}).status, 0);
+    results.push_back(Json::parse(rig.result())["results"]);
+  }
+  EXPECT_TRUE(shots[0] == shots[1]);
+  EXPECT_EQ(results[0], results[1]);
+}
+
+TEST(Road, SeedsAndNoiseChangeTheShots) {
+  SmallRig rig;
+  rig.keep_shots("POM_cube_1");
+  std::vector<std::string> shots;
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{"--seed", "1"}, {"--seed", "2"}, {"--noise", "off"}}) {
+    rig.simulate(more);
+    shots.push_back(slurp(rig.shots() + "/POM_cube_1.dng"));
+  }
+  EXPECT_FALSE(shots[0] == shots[1]);
+  EXPECT_FALSE(shots[0] == shots[2]);
+}
+
+// No exposure in the rig: one is chosen, nothing clips, and the answer is the same.
+TEST(Road, ExposureIsChosen) {
+  SmallRig rig;
+  rig.keep_shots("PP_cube");
+  rig.write(replaced(rig.text(), "  exposure_s: 0.05\n", ""));
+  rig.simulate();
+  const Answer r = rig.measure();
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_LT(worst_errors(Json::parse(rig.result())).first, 0.02) << r.out;
+}
+
+TEST(Road, CheckPassesOnAGoodRig) {
+  SmallRig rig;
+  rig.keep_shots("POM_");
+  rig.simulate();
+  const Answer r = run({"check", rig.shots(), "--rig", rig.rig()});
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_THAT(r.out, ::testing::HasSubstr("pose rms"));
+}
+
+TEST(Road, CheckNamesAnOverexposedShot) {
+  SmallRig rig;
+  rig.keep_shots("POM_cube");
+  rig.write(replaced(rig.text(), "lights: [led2]}", "lights: [led2], exposure_s: 0.5}"));
+  rig.simulate();
+  const Answer r = run({"check", rig.shots(), "--rig", rig.rig()});
+  EXPECT_EQ(r.status, 1);
+  EXPECT_THAT(r.out, ::testing::ContainsRegex("POM_cube_2.dng G clipped.*FAIL: expose shorter"));
+}
+
+}  // namespace
+}  // namespace scattermeter::apps

@@ -1,0 +1,114 @@
+#include "core/incident_light.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "core/fresnel.h"
+#include "tests/core/boxes.h"
+
+namespace scattermeter {
+namespace {
+
+double total(const IncidentLight& light) {
+  double sum = 0.0;
+  for (double c : light.patch_power_sr) sum += c;
+  return sum;
+}
+
+// Without a boundary (eta 1) the power that enters a convex body is the intensity times the solid
+// angle it fills. A square of half-width a at distance h on the axis fills 4 asin(a^2 / (a^2 +
+// h^2)).
+TEST(IncidentLight, PowerIsIntensityTimesSolidAngle) {
+  Led led;
+  led.position_mm = {0, 0, 60};
+  led.axis = {0, 0, -1};
+  led.exponent = 0;
+  const TriangleMesh plate = testing::make_box({-10, -10, -1}, {10, 10, 0});
+  const RayScene scene(plate);
+  const IncidentLight light = illuminate(PatchMesh(plate, 0.5), scene, led, 1.0);
+  const double solid_angle = 4.0 * std::asin(100.0 / (100.0 + 3600.0));
+  EXPECT_NEAR(total(light), solid_angle, 1e-4 * solid_angle);
+  EXPECT_EQ(light.shadow_edge_patches, 0);
+}
+
+// Two patch sizes agree, with Fresnel and lobe.
+TEST(IncidentLight, DoesNotDependOnThePatchSize) {
+  Led led;
+  led.position_mm = {30, -60, 80};
+  led.axis = Eigen::Vector3d(-30, 60, -70).normalized();
+  led.exponent = 1.5;
+  const TriangleMesh mesh = testing::make_cube();
+  const RayScene scene(mesh);
+  const double coarse = total(illuminate(PatchMesh(mesh, 0.8), scene, led, 1.4));
+  const double fine = total(illuminate(PatchMesh(mesh, 0.2), scene, led, 1.4));
+  EXPECT_NEAR(coarse, fine, 2e-5 * fine);
+}
+
+// An L of floor and wall: the wall (2 mm thick, 10 mm high) throws a shadow of known length on the
+// floor.
+TriangleMesh floor_with_wall() {
+  // Outline in (x, z), swept along y: floor 0..30 x 0..2, wall 0..2 x 2..12.
+  const double outline[6][2] = {{0, 0}, {30, 0}, {30, 2}, {2, 2}, {2, 12}, {0, 12}};
+  TriangleMesh mesh;
+  for (double y : {0.0, 20.0}) {
+    for (const auto& p : outline) mesh.vertices_mm.emplace_back(p[0], y, p[1]);
+  }
+  for (int i = 0; i < 6; ++i) {
+    const int j = (i + 1) % 6;
+    mesh.triangles.push_back({i, j, j + 6});
+    mesh.triangles.push_back({i, j + 6, i + 6});
+  }
+  // The ends: the outline from (0, 0) as a fan of its two rectangles.
+  for (const auto& t : {std::array<int, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}) {
+    mesh.triangles.push_back({t[0], t[2], t[1]});
+    mesh.triangles.push_back({t[0] + 6, t[1] + 6, t[2] + 6});
+  }
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+TEST(IncidentLight, ShadowEdgeCutsPatchesAtTheRightPlace) {
+  TriangleMesh mesh = floor_with_wall();
+  if (signed_volume_mm3(mesh) < 0) {
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+  ASSERT_EQ(mesh_problem(mesh), "");
+  const RayScene scene(mesh);
+  // Far away, 45 degrees in the x-z plane: the shadow of the wall's edge (x 2, z 12) ends at x
+  // = 12.
+  Led led;
+  led.position_mm = {2 - 1e5, 10, 12 + 1e5};
+  led.axis = Eigen::Vector3d(1, 0, -1).normalized();
+  led.exponent = 0;
+  const PatchMesh patches(mesh, 0.7);
+  const IncidentLight light = illuminate(patches, scene, led, 1.0);
+  EXPECT_GT(light.shadow_edge_patches, 20);
+  double lit_floor_mm2 = 0.0;
+  for (int k = 0; k < patches.size(); ++k) {
+    const bool floor = patches.normal(k).z() > 0.5 && patches.center_mm(k).z() < 3.0;
+    if (!floor) continue;
+    const double e = std::cos(std::numbers::pi / 4) / (2e10);
+    lit_floor_mm2 += light.patch_power_sr[static_cast<std::size_t>(k)] / e;
+  }
+  // 18 mm of the floor's 28 are lit, over 20 mm; parts of a cut patch are lit or dark as a whole.
+  EXPECT_NEAR(lit_floor_mm2, 18.0 * 20.0, 0.003 * 360.0);
+}
+
+TEST(IncidentLight, NothingOnTheFarSide) {
+  Led led;
+  led.position_mm = {0, 0, 100};
+  const TriangleMesh mesh = testing::make_cube();
+  const PatchMesh patches(mesh, 1.0);
+  const IncidentLight light = illuminate(patches, RayScene(mesh), led, 1.3);
+  for (int k = 0; k < patches.size(); ++k) {
+    const bool top = patches.normal(k).z() > 0.5;
+    EXPECT_EQ(light.patch_power_sr[static_cast<std::size_t>(k)] > 0.0, top);
+  }
+  led.axis = {0, 0, 1};  // shines away
+  EXPECT_TRUE(illuminate(patches, RayScene(mesh), led, 1.3).lit.empty());
+}
+
+}  // namespace
+}  // namespace scattermeter
