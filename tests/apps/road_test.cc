@@ -159,6 +159,36 @@ TEST(Road, ExposureIsChosen) {
   EXPECT_LT(worst_errors(Json::parse(rig.result())).first, 0.02) << r.out;
 }
 
+// No marks given: the pose comes from a board that lies around the object in the shot itself.
+TEST(Road, BoardInTheShot) {
+  SmallRig rig;
+  rig.keep_shots("PE_pyramid");
+  const std::size_t begin = rig.text().find("  points:");
+  const std::size_t end = rig.text().find("objects:");
+  rig.write(rig.text().substr(0, begin) +
+            "  charuco: {squares: [10, 8], square_mm: 6, marker_mm: 4.5, dictionary: DICT_4X4_100, "
+            "origin_mm: [-30, -22, 0]}\n" +
+            rig.text().substr(end) +
+            "  pose: {position_mm: [0, -100, 150], look_at_mm: [0, 0, 9]}\n");
+  rig.write(replaced(replaced(rig.text(), "[484, 324]", "[968, 648]"),
+                     "{fx_px: 1229.5, fy_px: 1229.5, cx_px: 241.8, cy_px: 161.2}",
+                     "{fx_px: 2459, fy_px: 2459, cx_px: 483.6, cy_px: 322.4}"));
+  rig.simulate();
+  const Answer checked = run({"check", rig.shots(), "--rig", rig.rig()});
+  EXPECT_EQ(checked.status, 0) << checked.out << checked.err;
+  EXPECT_THAT(checked.out, ::testing::HasSubstr("pose in PE_pyramid_2.dng rms"));
+  const Answer r = rig.measure();
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  const auto [s, a] = worst_errors(Json::parse(rig.result()));
+  EXPECT_LT(s, 0.03) << r.out;
+  EXPECT_LT(a, 0.10) << r.out;
+  // Without the board in sight, the shot is named.
+  rig.write(replaced(rig.text(), "DICT_4X4_100", "DICT_6X6_100"));
+  const Answer blind = rig.measure();
+  EXPECT_EQ(blind.status, 2);
+  EXPECT_THAT(blind.err, ::testing::HasSubstr(".dng: pose.charuco: the board is not seen"));
+}
+
 TEST(Road, CheckPassesOnAGoodRig) {
   SmallRig rig;
   rig.keep_shots("POM_");
