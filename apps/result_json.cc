@@ -39,6 +39,12 @@ Json channel_json(const ChannelResult& r, Model model) {
   j["sigma_a_per_mm"] = quantity(e.sigma_a_per_mm, known);
   j["correlation"] = known ? number(e.correlation) : Json(nullptr);
   j["scale"] = quantity(e.scale, known);
+  j["budget"] = Json::array();
+  for (const BudgetLine& line : e.budget) {
+    j["budget"].push_back({{"cause", line.cause},
+                           {"sigma_s_prime_per_mm", number(line.std_sigma_s_prime_per_mm)},
+                           {"sigma_a_per_mm", number(line.std_sigma_a_per_mm)}});
+  }
   j["verdict"] = r.refused() ? "refused" : "ok";
   j["reasons"] = e.reasons;
   j["residual"] = {{"rms_relative", known ? number(e.rms_relative) : Json(nullptr)},

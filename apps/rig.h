@@ -52,6 +52,7 @@ struct RigObject {
   std::string name;
   std::string mesh_path;
   double eta_int_over_ext = 1.3;
+  double eta_std = 0;
   std::optional<double> patch_size_mm;
   int line = 0;
 };
@@ -60,7 +61,9 @@ struct RigLight {
   std::string name;
   std::string type;  // "led"
   Led led;
-  double position_std_mm = 0;
+  double position_std_mm = 0;  // in each coordinate
+  double exponent_std = 0;
+  double intensity_relative_std = 0;  // common to the three channels of one fit
   int line = 0;
 };
 

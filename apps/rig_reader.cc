@@ -166,6 +166,7 @@ RigPose read_pose(const YamlField& field) {
   } else {
     pose.line = charuco->line();
     pose.charuco = read_board(*charuco);
+    pose.options.point_std_px = 0.15;  // corners of a board scatter by 0.06 to 0.14 px
   }
   if (const auto f = field.find("inlier_px")) pose.options.inlier_px = f->positive();
   if (const auto f = field.find("point_std_px")) pose.options.point_std_px = f->positive();
@@ -174,12 +175,13 @@ RigPose read_pose(const YamlField& field) {
 
 RigObject read_object(const std::string& name, const YamlField& field,
                       const std::string& rig_path) {
-  field.only({"mesh", "eta", "patch_size_mm"});
+  field.only({"mesh", "eta", "eta_std", "patch_size_mm"});
   RigObject object;
   object.name = name;
   object.line = field.line();
   object.mesh_path = beside(rig_path, field.at("mesh").text());
   object.eta_int_over_ext = field.at("eta").number(1.0, 4.0);
+  if (const auto f = field.find("eta_std")) object.eta_std = f->number(0.0, 1.0);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   return object;
 }
@@ -194,7 +196,8 @@ RigLight read_light(const std::string& name, const YamlField& field) {
     type.fail("environment lights are not measured by this version, only led");
   }
   if (light.type != "led") type.fail("expected led");
-  field.only({"type", "position_mm", "axis", "exponent", "intensity_W_per_sr", "position_std_mm"});
+  field.only({"type", "position_mm", "axis", "exponent", "intensity_W_per_sr", "position_std_mm",
+              "exponent_std", "intensity_relative_std"});
   light.led.position_mm = field.at("position_mm").vector3();
   light.led.axis = unit_vector(field.at("axis"));
   if (const auto f = field.find("exponent")) light.led.exponent = f->number(0.0, 1000.0);
@@ -204,6 +207,10 @@ RigLight read_light(const std::string& name, const YamlField& field) {
   light.led.intensity_W_per_sr = {rgb[0], rgb[1], rgb[2]};
   if (const auto f = field.find("position_std_mm")) {
     light.position_std_mm = f->number(0.0, 1000.0);
+  }
+  if (const auto f = field.find("exponent_std")) light.exponent_std = f->number(0.0, 1000.0);
+  if (const auto f = field.find("intensity_relative_std")) {
+    light.intensity_relative_std = f->number(0.0, 10.0);
   }
   return light;
 }

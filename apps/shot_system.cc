@@ -24,6 +24,7 @@ std::shared_ptr<const SeenObject> see(const Rig& rig, const ObjectScenes& scenes
   auto seen = std::make_shared<SeenObject>();
   seen->object = &scenes.at(name);
   seen->patches = &library.patches(name);
+  seen->camera_center_mm = view.center_in_world_mm();
   const SampleMapOptions options;
   const RayGrid rays = rays_around(view, seen->object->mesh(), 2 * options.guard_px);
   seen->map = map_samples(rays, *seen->object->rays, *seen->patches,

@@ -24,6 +24,7 @@ namespace scattermeter::apps {
 struct SeenObject {
   const ObjectScene* object = nullptr;
   const PatchMesh* patches = nullptr;
+  Eigen::Vector3d camera_center_mm = Eigen::Vector3d::Zero();
   SampleMap map;
   std::vector<ExitSite> sites;  // of the map's rows
 };

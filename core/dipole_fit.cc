@@ -9,7 +9,8 @@
 
 #include <ceres/ceres.h>
 
-#include "core/dipole.h"
+#include "core/dipole_curve.h"
+#include "core/fit_uncertainty.h"
 #include "core/recovered_reflectance.h"
 #include "core/residual.h"
 
@@ -18,38 +19,22 @@ namespace {
 
 constexpr double kMaxAbsorbed = 0.95;  // of 1 - alpha'
 
-// R and its derivatives on the knots, in u = log sigma_t' and q = 1 - alpha'.
-struct Curve {
-  Eigen::VectorXd r, d_u, d_q;
-};
-
-Medium medium_of(double u, double q, double eta) {
-  const double sigma_t = std::exp(u);
-  return {(1.0 - q) * sigma_t, q * sigma_t, eta};
-}
-
-Curve curve(const DistanceKnots& knots, double u, double q, double eta) {
-  const double sigma_t = std::exp(u);
-  const Dipole dipole(medium_of(u, q, eta));
-  Curve c{Eigen::VectorXd(knots.size()), Eigen::VectorXd(knots.size()),
-          Eigen::VectorXd(knots.size())};
-  for (Eigen::Index i = 0; i < knots.size(); ++i) {
-    const Dipole::Value v = dipole.with_derivatives(knots.knots_mm()[static_cast<std::size_t>(i)]);
-    c.r[i] = v.r_per_mm2;
-    // sigma_s' = (1 - q) sigma_t', sigma_a = q sigma_t', d sigma_t' / du = sigma_t'.
-    c.d_u[i] = sigma_t * ((1.0 - q) * v.d_sigma_s_prime + q * v.d_sigma_a);
-    c.d_q[i] = sigma_t * (v.d_sigma_a - v.d_sigma_s_prime);
-  }
-  return c;
-}
-
-// Residuals sqrt_information (s R) - whitened; parameter blocks u, q, log s, one value each.
+// Residuals sqrt_information (s R, v) - whitened; parameter blocks u, q, log s, one value each, and
+// the nuisances v where there are any.
 class RecoveredCost final : public ceres::CostFunction {
  public:
   RecoveredCost(const RecoveredReflectance& recovered, const DistanceKnots& knots, double eta)
-      : recovered_(recovered), knots_(knots), eta_(eta) {
+      : kernel_(recovered.sqrt_information.leftCols(knots.size())),
+        nuisance_(
+            recovered.sqrt_information.rightCols(recovered.sqrt_information.cols() - knots.size())),
+        whitened_(recovered.whitened),
+        knots_(knots),
+        eta_(eta) {
     set_num_residuals(static_cast<int>(recovered.whitened.size()));
     mutable_parameter_block_sizes()->assign(3, 1);
+    if (nuisance_.cols() > 0) {
+      mutable_parameter_block_sizes()->push_back(static_cast<int>(nuisance_.cols()));
+    }
   }
 
   bool Evaluate(double const* const* parameters, double* residuals,
@@ -58,25 +43,57 @@ class RecoveredCost final : public ceres::CostFunction {
     const double q = parameters[1][0];
     const double s = std::exp(parameters[2][0]);
     if (!std::isfinite(s) || !(std::abs(u) < 300.0) || !(q >= 0.0) || !(q < 1.0)) return false;
-    const Curve c = curve(knots_, u, q, eta_);
-    const Eigen::Index n = recovered_.whitened.size();
-    const Eigen::VectorXd predicted = recovered_.sqrt_information * (s * c.r);
-    Eigen::Map<Eigen::VectorXd>(residuals, n) = predicted - recovered_.whitened;
+    const DipoleCurve c = dipole_curve(knots_, u, q, eta_);
+    const Eigen::Index n = whitened_.size();
+    const Eigen::VectorXd predicted = kernel_ * (s * c.r);
+    Eigen::Map<Eigen::VectorXd> residual_vector(residuals, n);
+    residual_vector = predicted - whitened_;
+    if (nuisance_.cols() > 0) {
+      residual_vector +=
+          nuisance_ * Eigen::Map<const Eigen::VectorXd>(parameters[3], nuisance_.cols());
+    }
     if (jacobians != nullptr) {
       const auto column = [&](int block) {
         return Eigen::Map<Eigen::VectorXd>(jacobians[block], n);
       };
-      if (jacobians[0] != nullptr) column(0) = recovered_.sqrt_information * (s * c.d_u);
-      if (jacobians[1] != nullptr) column(1) = recovered_.sqrt_information * (s * c.d_q);
+      if (jacobians[0] != nullptr) column(0) = kernel_ * (s * c.d_u);
+      if (jacobians[1] != nullptr) column(1) = kernel_ * (s * c.d_q);
       if (jacobians[2] != nullptr) column(2) = predicted;
+      if (nuisance_.cols() > 0 && jacobians[3] != nullptr) {
+        Eigen::Map<WeightMatrix>(jacobians[3], n, nuisance_.cols()) = nuisance_;
+      }
     }
     return true;
   }
 
  private:
-  const RecoveredReflectance& recovered_;
+  Eigen::MatrixXd kernel_;
+  Eigen::MatrixXd nuisance_;
+  const Eigen::VectorXd& whitened_;
   const DistanceKnots& knots_;
   double eta_;
+};
+
+// v / std for every nuisance.
+class NuisancePriorCost final : public ceres::CostFunction {
+ public:
+  explicit NuisancePriorCost(const std::vector<Nuisance>& nuisances) : nuisances_(nuisances) {
+    set_num_residuals(static_cast<int>(nuisances.size()));
+    mutable_parameter_block_sizes()->assign(1, static_cast<int>(nuisances.size()));
+  }
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const std::size_t n = nuisances_.size();
+    for (std::size_t i = 0; i < n; ++i) residuals[i] = parameters[0][i] / nuisances_[i].std;
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      std::fill(jacobians[0], jacobians[0] + n * n, 0.0);
+      for (std::size_t i = 0; i < n; ++i) jacobians[0][i * n + i] = 1.0 / nuisances_[i].std;
+    }
+    return true;
+  }
+
+ private:
+  const std::vector<Nuisance>& nuisances_;
 };
 
 // (log s) / std: the rig's word on the scale.
@@ -98,6 +115,7 @@ struct Parameters {
   double u = 0;
   double q = 0;
   double log_s = 0;
+  std::vector<double> nuisance;
 };
 
 // Best of a coarse set: mean free paths a factor of two apart, absorbed shares from none to most.
@@ -109,8 +127,8 @@ Parameters start(const RecoveredReflectance& recovered, const DistanceKnots& kno
   for (double mfp = knots.resolution_mm(); mfp < 2.0 * knots.max_distance_mm(); mfp *= 2.0) {
     for (double q : {1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.4}) {
       const double u = -std::log(mfp);
-      const Eigen::VectorXd p =
-          recovered.sqrt_information * curve(knots, u, q, options.eta_int_over_ext).r;
+      const Eigen::VectorXd p = recovered.sqrt_information.leftCols(knots.size()) *
+                                dipole_curve(knots, u, q, options.eta_int_over_ext).r;
       double s = 1.0;
       if (options.scale.relative_std > 0.0) {
         // Weighted by the prior, linear in s.
@@ -121,7 +139,7 @@ Parameters start(const RecoveredReflectance& recovered, const DistanceKnots& kno
       const double cost = (s * p - recovered.whitened).squaredNorm();
       if (cost < best_cost) {
         best_cost = cost;
-        best = {u, q, std::log(s)};
+        best = {u, q, std::log(s), {}};
       }
     }
   }
@@ -132,39 +150,21 @@ Quantity quantity(double value, double std) {
   return {value, std, std::max(0.0, value - 1.96 * std), value + 1.96 * std};
 }
 
-// Standard deviations and correlation of (sigma_s', sigma_a, s) from the Jacobian at the optimum.
-void set_uncertainty(const RecoveredReflectance& recovered, const DistanceKnots& knots,
-                     const Parameters& p, const DipoleFitOptions& options, Estimate& estimate) {
-  const Curve c = curve(knots, p.u, p.q, options.eta_int_over_ext);
-  const double s = std::exp(p.log_s);
-  const bool scale_is_exact = options.scale.relative_std == 0.0;
-  const Eigen::Index n_parameters = scale_is_exact ? 2 : 3;
-  Eigen::MatrixXd jacobian(recovered.whitened.size(), n_parameters);
-  jacobian.col(0) = recovered.sqrt_information * (s * c.d_u);
-  jacobian.col(1) = recovered.sqrt_information * (s * c.d_q);
-  if (!scale_is_exact) jacobian.col(2) = recovered.sqrt_information * (s * c.r);
-  Eigen::MatrixXd information = jacobian.transpose() * jacobian;
-  if (!scale_is_exact && std::isfinite(options.scale.relative_std)) {
-    information(2, 2) += 1.0 / (options.scale.relative_std * options.scale.relative_std);
-  }
-  // Scaled to a unit diagonal before inverting: the parameters differ by orders of magnitude.
-  const Eigen::VectorXd scaling = information.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scaling.asDiagonal() * information * scaling.asDiagonal();
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(scaled);
-  Eigen::MatrixXd covariance =
-      ldlt.solve(Eigen::MatrixXd::Identity(n_parameters, n_parameters)).eval();
-  covariance = (scaling.asDiagonal() * covariance * scaling.asDiagonal()).eval();
-  covariance *= std::max(1.0, estimate.reduced_chi2);
+void set_uncertainty(const FitUncertainty& fit, const Parameters& p, Estimate& estimate) {
+  const Eigen::Matrix2d all = fit.covariance([](const std::string&) { return false; });
   const double sigma_t = std::exp(p.u);
-  Eigen::Matrix2d to_sigma;  // d(sigma_s', sigma_a) / d(u, q)
-  to_sigma << (1.0 - p.q) * sigma_t, -sigma_t, p.q * sigma_t, sigma_t;
-  const Eigen::Matrix2d cov = to_sigma * covariance.topLeftCorner(2, 2) * to_sigma.transpose();
-  const double std_s = std::sqrt(cov(0, 0));
-  const double std_a = std::sqrt(cov(1, 1));
-  estimate.sigma_s_prime_per_mm = quantity((1.0 - p.q) * sigma_t, std_s);
-  estimate.sigma_a_per_mm = quantity(p.q * sigma_t, std_a);
-  estimate.correlation = cov(0, 1) / (std_s * std_a);
-  estimate.scale = quantity(s, scale_is_exact ? 0.0 : s * std::sqrt(covariance(2, 2)));
+  estimate.sigma_s_prime_per_mm = quantity((1.0 - p.q) * sigma_t, std::sqrt(all(0, 0)));
+  estimate.sigma_a_per_mm = quantity(p.q * sigma_t, std::sqrt(all(1, 1)));
+  estimate.correlation = all(0, 1) / std::sqrt(all(0, 0) * all(1, 1));
+  const double s = std::exp(p.log_s);
+  estimate.scale = quantity(s, s * fit.log_scale_std());
+  const Eigen::Matrix2d noise = fit.covariance([](const std::string&) { return true; });
+  estimate.budget.push_back({"noise", std::sqrt(noise(0, 0)), std::sqrt(noise(1, 1))});
+  for (const std::string& cause : fit.causes()) {
+    const Eigen::Matrix2d rest = fit.covariance([&](const std::string& c) { return c == cause; });
+    estimate.budget.push_back({cause, std::sqrt(std::max(0.0, all(0, 0) - rest(0, 0))),
+                               std::sqrt(std::max(0.0, all(1, 1) - rest(1, 1)))});
+  }
 }
 
 template <class... Parts>
@@ -229,10 +229,16 @@ Estimate fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
     return estimate;
   }
   Parameters p = start(recovered, knots, options);
+  p.nuisance.assign(system.nuisances.size(), 0.0);
 
   ceres::Problem problem;
+  std::vector<double*> blocks = {&p.u, &p.q, &p.log_s};
+  if (!p.nuisance.empty()) {
+    blocks.push_back(p.nuisance.data());
+    problem.AddResidualBlock(new NuisancePriorCost(system.nuisances), nullptr, p.nuisance.data());
+  }
   problem.AddResidualBlock(new RecoveredCost(recovered, knots, options.eta_int_over_ext), nullptr,
-                           &p.u, &p.q, &p.log_s);
+                           blocks);
   if (options.scale.relative_std == 0.0) {
     problem.SetParameterBlockConstant(&p.log_s);
   } else if (std::isfinite(options.scale.relative_std)) {
@@ -252,14 +258,23 @@ Estimate fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
   ceres::Solve(solver, &problem, &summary);
   estimate.converged = summary.termination_type == ceres::CONVERGENCE;
 
-  const Eigen::VectorXd predicted =
-      system.weights * (std::exp(p.log_s) * curve(knots, p.u, p.q, options.eta_int_over_ext).r);
+  Eigen::VectorXd predicted =
+      system.weights *
+      (std::exp(p.log_s) * dipole_curve(knots, p.u, p.q, options.eta_int_over_ext).r);
+  if (!p.nuisance.empty()) {
+    predicted += system.nuisance_columns * Eigen::Map<const Eigen::VectorXd>(
+                                               p.nuisance.data(), system.nuisance_columns.cols());
+  }
   const Residual rest = residual(system.l, predicted, system.std_l);
   const int n_parameters = options.scale.relative_std == 0.0 ? 2 : 3;
   estimate.reduced_chi2 = rest.chi2 / static_cast<double>(system.l.size() - n_parameters);
   estimate.rms_relative = rest.rms_relative;
   estimate.psnr_db = rest.psnr_db;
-  set_uncertainty(recovered, knots, p, options, estimate);
+  set_uncertainty(
+      FitUncertainty(recovered, system.nuisances,
+                     dipole_curve(knots, p.u, p.q, options.eta_int_over_ext), p.u, p.q,
+                     std::exp(p.log_s), options.scale, std::max(1.0, estimate.reduced_chi2)),
+      p, estimate);
   judge(knots, p, options, estimate);
   return estimate;
 }

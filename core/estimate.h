@@ -14,10 +14,19 @@ struct Quantity {
   double high95 = 0;
 };
 
+// What one cause adds to the uncertainty: the standard deviation whose square would vanish from the
+// variance if the cause were known exactly (for "noise": what is left when all others are).
+struct BudgetLine {
+  std::string cause;  // "noise", "scale", or a nuisance's group
+  double std_sigma_s_prime_per_mm = 0;
+  double std_sigma_a_per_mm = 0;
+};
+
 struct Estimate {
   Quantity sigma_s_prime_per_mm;
   Quantity sigma_a_per_mm;
-  double correlation = 0;   // between the two
+  double correlation = 0;  // between the two
+  std::vector<BudgetLine> budget;
   Quantity scale;           // measured over predicted radiance that the fit settled on
   double reduced_chi2 = 0;  // of the image: residual^2 / variance, per degree of freedom
   double rms_relative = 0;  // rms residual over rms l

@@ -5,7 +5,7 @@
 
 namespace scattermeter {
 
-DenseSystem stack(const std::vector<LinearShot>& shots) {
+DenseSystem stack(const std::vector<LinearShot>& shots, double numerical_relative_std) {
   Eigen::Index rows = 0;
   Eigen::Index cols = 0;
   for (const LinearShot& shot : shots) {
@@ -17,7 +17,8 @@ DenseSystem stack(const std::vector<LinearShot>& shots) {
       cols = light.weights->cols();
     }
   }
-  DenseSystem out{WeightMatrix::Zero(rows, cols), Eigen::VectorXd(rows), Eigen::VectorXd(rows)};
+  DenseSystem out{
+      WeightMatrix::Zero(rows, cols), Eigen::VectorXd(rows), Eigen::VectorXd(rows), {}, {}};
   Eigen::Index at = 0;
   for (const LinearShot& shot : shots) {
     const ChannelObservation& o = *shot.observed;
@@ -28,7 +29,7 @@ DenseSystem stack(const std::vector<LinearShot>& shots) {
             light.intensity_W_per_sr * light.weights->row(static_cast<Eigen::Index>(j));
       }
       out.l[at] = o.l[j];
-      out.std_l[at] = std::sqrt(o.variance[j]);
+      out.std_l[at] = std::hypot(std::sqrt(o.variance[j]), numerical_relative_std * o.l[j]);
       ++at;
     }
   }

@@ -1,6 +1,7 @@
 // One channel of one shot as a linear system in r.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/distance_weights.h"
@@ -18,14 +19,26 @@ struct LinearShot {
   const ChannelObservation* observed;
 };
 
+// A quantity beside the material that the image depends on and that is known only to a standard
+// deviation: an LED's place, the camera's pose, eta. Counted from its nominal value.
+struct Nuisance {
+  std::string group;  // what it belongs to in the budget: "led position", "pose", ...
+  double std = 0;     // of the prior; the prior's mean is 0
+};
+
 // The rows that are used, as a dense system: weights (W), l (W/mm^2) and standard deviation of l.
+// l = W r + nuisance_columns * v, with v the deviations of the nuisances from nominal.
 struct DenseSystem {
   WeightMatrix weights;
   Eigen::VectorXd l;
   Eigen::VectorXd std_l;
+  std::vector<Nuisance> nuisances = {};   // may be empty
+  Eigen::MatrixXd nuisance_columns = {};  // rows x nuisances: dl / dv
 };
 
 // All used rows of the shots, one below the other. Precondition: all shots share their knots.
-DenseSystem stack(const std::vector<LinearShot>& shots);
+// `numerical_relative_std`: error of the prediction itself (discretisation), relative to l; joins
+// the variance of each row.
+DenseSystem stack(const std::vector<LinearShot>& shots, double numerical_relative_std = 0.0);
 
 }  // namespace scattermeter

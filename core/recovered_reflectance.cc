@@ -18,7 +18,8 @@ Eigen::VectorXd RecoveredReflectance::values() const {
 }
 
 RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_tolerance) {
-  const Eigen::Index n = system.weights.cols();
+  const Eigen::Index n_knots = system.weights.cols();
+  const Eigen::Index n = n_knots + system.nuisance_columns.cols();
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
   double l2 = 0.0;
@@ -27,7 +28,12 @@ RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_
   for (Eigen::Index at = 0; at < system.weights.rows(); at += kBlock) {
     const Eigen::Index m = std::min(kBlock, system.weights.rows() - at);
     const Eigen::VectorXd inverse_std = system.std_l.segment(at, m).cwiseInverse();
-    const Eigen::MatrixXd w = inverse_std.asDiagonal() * system.weights.middleRows(at, m);
+    Eigen::MatrixXd w(m, n);
+    w.leftCols(n_knots) = inverse_std.asDiagonal() * system.weights.middleRows(at, m);
+    if (n > n_knots) {
+      w.rightCols(n - n_knots) =
+          inverse_std.asDiagonal() * system.nuisance_columns.middleRows(at, m);
+    }
     const Eigen::VectorXd l = inverse_std.cwiseProduct(system.l.segment(at, m));
     information.selfadjointView<Eigen::Lower>().rankUpdate(w.transpose());
     right.noalias() += w.transpose() * l;

@@ -15,7 +15,8 @@ namespace scattermeter {
 // largest:
 //   sqrt_information = diag(sqrt(lambda)) Vᵀ   (K rows),   whitened = sqrt_information r,
 // so that a candidate R on the knots has chi-square |sqrt_information R - whitened|^2 + floor_chi2
-// on the image itself. Directions of r that the image says nothing about are in no row.
+// on the image itself. Directions of r that the image says nothing about are in no row. Where the
+// system has nuisances their columns stand behind those of W, and a candidate is (R, v).
 struct RecoveredReflectance {
   Eigen::MatrixXd sqrt_information;
   Eigen::VectorXd whitened;

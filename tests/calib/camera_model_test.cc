@@ -35,6 +35,7 @@ std::vector<cv::Point2d> opencv_images(const CameraIntrinsics& c, const Rigid3d&
   const Eigen::Vector3d w = turn.angle() * turn.axis();
   const Eigen::Vector3d& t = pose.translation_mm;
   std::vector<cv::Point3d> world;
+  world.reserve(points.size());
   for (const Eigen::Vector3d& x : points) world.emplace_back(x.x(), x.y(), x.z());
   std::vector<cv::Point2d> images;
   cv::projectPoints(world, cv::Vec3d(w.x(), w.y(), w.z()), cv::Vec3d(t.x(), t.y(), t.z()), k,
@@ -92,7 +93,8 @@ TEST(PixelRays, WithoutDistortionTheyAreTheClosedForm) {
   ASSERT_EQ(rays.size(), 600U);
   for (int row = 0; row < 20; ++row) {
     for (int column = 0; column < 30; ++column) {
-      const Eigen::Vector3f& ray = rays[static_cast<size_t>(row * 30 + column)];
+      const Eigen::Vector3f& ray =
+          rays[static_cast<size_t>(row) * 30 + static_cast<size_t>(column)];
       EXPECT_EQ(ray.x(), static_cast<float>((column - 5 - 1935.5) / 9836));
       EXPECT_EQ(ray.y(), static_cast<float>((row + 7 - 1295.5) / 9836));
       EXPECT_EQ(ray.z(), 1.0F);

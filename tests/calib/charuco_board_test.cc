@@ -68,7 +68,7 @@ TEST(BoardProblem, NamesTheField) {
   const auto with = [](auto change) {
     CharucoBoard board = board_of(8, 6);
     change(board);
-    const std::string problem = board_problem(board);
+    std::string problem = board_problem(board);
     EXPECT_THROW(CharucoPattern{board}, std::invalid_argument);
     EXPECT_THROW(find_charuco_corners(board, {0}, 1, 1, 1, 0), std::invalid_argument);
     return problem;

@@ -1,9 +1,12 @@
 #include <cmath>
+#include <limits>
+#include <random>
 #include <stdexcept>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 #include "calib/charuco_board.h"
 #include "tests/calib/charuco_scene.h"
@@ -52,6 +55,7 @@ TEST(FindCharucoCorners, RecoversThePose) {
     const std::vector<PointPair> pairs = find(board, board_shot(half, board, pose, {}, 7), half);
     EXPECT_EQ(pairs.size(), 20U);
     std::vector<Eigen::Vector3d> world;
+    world.reserve(pairs.size());
     for (const PointPair& pair : pairs) world.push_back(pair.world_mm);
     const std::vector<Eigen::Vector2d> expected = project(c.camera, pose, world);
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
@@ -85,6 +89,24 @@ TEST(FindCharucoCorners, AnyScaleOfRadianceAndHotSamples) {
   image[12345] = std::nanf("");
   image[54321] = -std::numeric_limits<float>::infinity();
   EXPECT_GE(find(board, image, half).size(), 18U);
+}
+
+TEST(FindCharucoCorners, SameDigitsForAnyNumberOfThreads) {
+  const CharucoBoard board = board_in_world();
+  const CameraIntrinsics half = binned(sensor());
+  const std::vector<float> image =
+      board_shot(half, board, camera_above_board(board, 200, 0.4, 1), {}, 9);
+  cv::setNumThreads(1);
+  const std::vector<PointPair> one = find(board, image, half);
+  cv::setNumThreads(4);
+  const std::vector<PointPair> four = find(board, image, half);
+  cv::setNumThreads(-1);  // the default again
+  ASSERT_EQ(one.size(), four.size());
+  ASSERT_FALSE(one.empty());
+  for (size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].world_mm, four[i].world_mm);
+    EXPECT_EQ(one[i].image_px, four[i].image_px);
+  }
 }
 
 TEST(FindCharucoCorners, LargerThanTheFrame) {

@@ -40,16 +40,18 @@ std::vector<float> board_shot(const CameraIntrinsics& camera, const CharucoBoard
   tbb::parallel_for(0, camera.height_px, [&](int y) {
     std::vector<Eigen::Vector2d> points;
     for (int x = 0; x < camera.width_px; ++x) {
-      for (int k = 0; k < kSub * kSub; ++k) {
-        points.emplace_back(x + (k % kSub + 0.5) / kSub - 0.5,
-                            y + static_cast<double>(k / kSub) / kSub + 0.5 / kSub - 0.5);
+      for (int j = 0; j < kSub; ++j) {
+        for (int i = 0; i < kSub; ++i) {
+          points.emplace_back(x + (i + 0.5) / kSub - 0.5, y + (j + 0.5) / kSub - 0.5);
+        }
       }
     }
     const std::vector<Eigen::Vector2d> rays = undistort(camera, points);
+    size_t next = 0;
     for (int x = 0; x < camera.width_px; ++x) {
       double sum = 0;
       for (int k = 0; k < kSub * kSub; ++k) {
-        const Eigen::Vector2d& ray = rays[static_cast<size_t>(x * kSub * kSub + k)];
+        const Eigen::Vector2d& ray = rays[next++];
         const Eigen::Vector3d direction =
             board_from_camera.rotation * Eigen::Vector3d(ray.x(), ray.y(), 1);
         const Eigen::Vector3d hit = eye - eye.z() / direction.z() * direction;

@@ -20,6 +20,7 @@ std::optional<PoseFault> fault_of(const std::vector<Eigen::Vector3d>& points,
 
 std::vector<Eigen::Vector3d> near_line(double across_mm) {
   std::vector<Eigen::Vector3d> points;
+  points.reserve(8);
   for (int i = 0; i < 8; ++i) points.emplace_back(3.0 * i, i % 2 == 0 ? across_mm : -across_mm, 5);
   return points;
 }
@@ -68,6 +69,7 @@ TEST(LayoutFault, ALine) {
 
 TEST(LayoutFault, ALineFarFromTheOrigin) {
   std::vector<Eigen::Vector3d> points;
+  points.reserve(6);
   for (int i = 0; i < 6; ++i) points.emplace_back(1e6 + i, 2e6 + 2 * i, -3 * i);
   const auto fault = fault_of(points);
   ASSERT_TRUE(fault);

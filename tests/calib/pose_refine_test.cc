@@ -1,5 +1,7 @@
 #include "calib/pose_refine.h"
 
+#include <cmath>
+
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>

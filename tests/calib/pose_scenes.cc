@@ -27,6 +27,7 @@ Rigid3d camera_looking_at(const Eigen::Vector3d& target_mm, double distance_mm, 
 
 std::vector<Eigen::Vector3d> cube_points(double half_mm) {
   std::vector<Eigen::Vector3d> points;
+  points.reserve(12);
   for (int i = 0; i < 8; ++i) {
     points.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
   }

@@ -1,0 +1,116 @@
+#include "apps/estimation_task.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "apps/progress.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// A shot whose brightest patch does not stand out of the noise by this many deviations is dark.
+constexpr double kDarkSnr = 10.0;
+// A shot with more than this share of its patches clipped is over-exposed as a whole.
+constexpr double kClippedShare = 0.5;
+
+// Error of the predicted l by patches and pair sums: residual of the sample's noise-free shots
+// where the mean free path is shortest against the patches (POM, 0.4 mm for patches of 0.5 mm).
+constexpr double kNumericalStd = 5e-4;
+
+}  // namespace
+
+std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots) {
+  std::vector<Task> tasks;
+  for (const std::string& material : rig.materials()) {
+    for (std::size_t c = 0; c < kRgb; ++c) {
+      Task task{material, c, {}, 0.0};
+      for (const OpenedShot& shot : shots) {
+        if (shot.rig->material != material) continue;
+        const double eta = shot.seen->object->rig->eta_int_over_ext;
+        if (!task.shots.empty() && eta != task.eta) {
+          throw InputError(rig.at(shot.rig->line) + ": shots.object",
+                           fmt::format("material {} has eta {} here but {} in another shot",
+                                       material, eta, task.eta));
+        }
+        task.eta = eta;
+        task.shots.push_back(&shot);
+      }
+      tasks.push_back(task);
+    }
+  }
+  return tasks;
+}
+
+std::string shot_problem(const OpenedShot& shot, std::size_t channel) {
+  const ChannelObservation& o = shot.observation.channel[channel];
+  const char name = kRgbName[channel];
+  const double rows = static_cast<double>(o.l.size());
+  if (o.l.empty()) return fmt::format("{}: no whole patch of the object is seen", shot.rig->file);
+  if (static_cast<double>(o.rows_clipped) > kClippedShare * rows) {
+    return fmt::format("{}: channel {} is clipped on {:.0f} % of the object (exposure {:g} s)",
+                       shot.rig->file, name, 100.0 * static_cast<double>(o.rows_clipped) / rows,
+                       shot.exposure_s);
+  }
+  if (o.brightest_snr < kDarkSnr) {
+    return fmt::format("{}: channel {} is dark, brightest patch {:.1f} counts above black",
+                       shot.rig->file, name, o.brightest_counts);
+  }
+  return "";
+}
+
+Weights all_weights(
+    const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
+    const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make) {
+  std::vector<WeightKey> keys;
+  for (const OpenedShot& shot : shots) {
+    for (const std::string& light : shot.rig->lights) {
+      const WeightKey key{shot.seen.get(), light};
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+    }
+  }
+  Weights weights;
+  Progress progress("light in each patch", static_cast<int>(keys.size()), quiet);
+  for (const WeightKey& key : keys) {
+    const SeenObject& seen = *key.first;
+    const IncidentLight& light = library.light(seen.object->rig->name, key.second);
+    weights[key] = make(seen, SourceCloud(light, seen.object->box.center_mm()));
+    progress.step();
+  }
+  return weights;
+}
+
+DenseSystem system_of(const Rig& rig, const Task& task, const Weights& weights) {
+  std::vector<LinearShot> shots;
+  for (const OpenedShot* shot : task.shots) {
+    LinearShot linear{{}, &shot->observation.channel[task.channel]};
+    for (const std::string& light : shot->rig->lights) {
+      linear.lights.push_back(
+          {&weights.at({shot->seen.get(), light}),
+           rig.light(light).led.intensity_W_per_sr[static_cast<Eigen::Index>(task.channel)]});
+    }
+    shots.push_back(linear);
+  }
+  return stack(shots, kNumericalStd);
+}
+
+PairSumOptions pair_options(const DistanceKnots& knots) {
+  PairSumOptions options;
+  // The shortest mean free path that is answered for is two resolutions (fit_dipole); half of that
+  // keeps the near integral below 1e-5.
+  options.floor_mm = knots.resolution_mm();
+  return options;
+}
+
+void for_open_tasks(const std::string& label, const Estimation& e,
+                    const std::function<void(std::size_t)>& work) {
+  Progress progress(label, static_cast<int>(e.tasks.size()), e.options.quiet);
+  tbb::parallel_for(std::size_t{0}, e.tasks.size(), [&](std::size_t i) {
+    if (!e.results[i].refused()) work(i);
+    progress.step();
+  });
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,65 @@
+// One estimate to make: a material in a channel, from its shots.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/measure.h"
+#include "apps/shot_system.h"
+#include "apps/stopwatch.h"
+#include "core/linear_shot.h"
+
+namespace scattermeter::apps {
+
+struct Task {
+  std::string material;
+  std::size_t channel;
+  std::vector<const OpenedShot*> shots;
+  double eta = 0;
+};
+
+// Materials in the rig's order, R G B each. Throws InputError where the shots of one material are
+// of objects with different eta.
+std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots);
+
+// What makes a shot useless as a whole in a channel (dark, over-exposed, nothing seen); empty:
+// nothing.
+std::string shot_problem(const OpenedShot& shot, std::size_t channel);
+
+// Weights by (view of an object, light).
+using WeightKey = std::pair<const SeenObject*, std::string>;
+using Weights = std::map<WeightKey, WeightMatrix>;
+
+// W of every view and light that a shot needs, each once.
+Weights all_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
+                    const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make);
+
+// The task's used rows under all their lights.
+DenseSystem system_of(const Rig& rig, const Task& task, const Weights& weights);
+
+// Near-field options for these knots.
+PairSumOptions pair_options(const DistanceKnots& knots);
+
+// Everything that an estimator works on.
+struct Estimation {
+  const Rig& rig;
+  const std::vector<OpenedShot>& shots;
+  const std::vector<Task>& tasks;
+  ObjectLibrary& library;
+  const MeasureOptions& options;
+  Stopwatch& watch;
+  std::vector<ChannelResult>& results;  // one per task; those refused already are left alone
+};
+
+// Runs `work` on every task whose result is not refused yet, in parallel, under a progress line.
+void for_open_tasks(const std::string& label, const Estimation& e,
+                    const std::function<void(std::size_t)>& work);
+
+// The estimators: fill the results' estimates.
+void estimate_dipole(Estimation& e);
+void estimate_paper(Estimation& e);
+
+}  // namespace scattermeter::apps

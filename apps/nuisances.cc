@@ -1,0 +1,212 @@
+#include "apps/nuisances.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "core/dipole.h"
+#include "core/fresnel.h"
+#include "core/incident_light.h"
+#include "core/pose_shift.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// R on the knots, one column a medium, times its scale.
+Eigen::MatrixXd curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
+                       double eta) {
+  Eigen::MatrixXd r(knots.size(), static_cast<Eigen::Index>(media.size()));
+  for (std::size_t m = 0; m < media.size(); ++m) {
+    Medium medium = media[m].medium;
+    medium.eta_int_over_ext = eta;
+    const Dipole dipole(medium);
+    for (Eigen::Index i = 0; i < r.rows(); ++i) {
+      r(i, static_cast<Eigen::Index>(m)) =
+          media[m].scale *
+          dipole.reflectance_per_mm2(knots.knots_mm()[static_cast<std::size_t>(i)]);
+    }
+  }
+  return r;
+}
+
+}  // namespace
+
+std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d first = normal.unitOrthogonal();
+  return {first, normal.cross(first)};
+}
+
+LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
+                             const std::vector<LitMedium>& media, const DistanceKnots& knots) {
+  const ObjectScene& object = *seen.object;
+  const double eta = object.rig->eta_int_over_ext;
+  const PatchMesh coarse(object.mesh(), 2.0 * seen.patches->patch_size_mm());
+  PairSumOptions pairs;
+  pairs.floor_mm = 4.0 * knots.resolution_mm();
+  pairs.far_ratio = 3.0;
+  pairs.near_ratio = 1.5;
+  const auto predict = [&](const std::vector<ExitSite>& sites, const Led& light,
+                           double eta_here) -> Eigen::MatrixXd {
+    const SourceCloud sources(illuminate(coarse, *object.rays, light, eta_here),
+                              object.box.center_mm());
+    return smooth_weights(sites, sources, knots, pairs) * curves(media, knots, eta_here);
+  };
+  LightSensitivity out;
+  out.l = predict(seen.sites, led, eta);
+  // A hundredth of the distance: shadow edges then move by several of the parts that patches are
+  // cut into, and the next order is still a hundredth of the first.
+  const double step_mm = 0.01 * (led.position_mm - object.box.center_mm()).norm();
+  for (int i = 0; i < 3; ++i) {
+    Led moved = led;
+    moved.position_mm[i] += step_mm;
+    out.per_mm[static_cast<std::size_t>(i)] = (predict(seen.sites, moved, eta) - out.l) / step_mm;
+  }
+  constexpr double kExponentStep = 0.02;
+  Led other = led;
+  other.exponent += kExponentStep;
+  out.per_exponent = (predict(seen.sites, other, eta) - out.l) / kExponentStep;
+
+  constexpr double kEtaStep = 0.01;
+  out.per_eta = (predict(seen.sites, led, eta + kEtaStep) - out.l) / kEtaStep;
+  std::array<std::vector<ExitSite>, 2> shifted = {seen.sites, seen.sites};
+  const double shift_mm = 0.1 * seen.patches->patch_size_mm();
+  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
+    const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
+    const auto along = tangents(normal);
+    for (std::size_t t = 0; t < 2; ++t) {
+      shifted[t][j].center_mm += shift_mm * along[t];
+      for (Eigen::Vector3d& p : shifted[t][j].points_mm) p += shift_mm * along[t];
+    }
+    // The observed l = pi L / Ft(eta) falls as Ft grows.
+    const Eigen::Vector3d to_camera =
+        (seen.camera_center_mm - seen.sites[j].center_mm).normalized();
+    const double cos_theta = normal.dot(to_camera);
+    const double change =
+        fresnel_transmittance(eta, cos_theta) / fresnel_transmittance(eta + kEtaStep, cos_theta) -
+        1.0;
+    const auto row = static_cast<Eigen::Index>(j);
+    out.per_eta.row(row) -= out.l.row(row) * (change / kEtaStep);
+  }
+  for (std::size_t t = 0; t < 2; ++t) {
+    out.per_tangent_mm[t] = (predict(shifted[t], led, eta) - out.l) / shift_mm;
+  }
+  return out;
+}
+
+namespace {
+
+// Places of the columns, made on first use so that shots of one LED or pose share theirs.
+class Columns {
+ public:
+  // The column of a nuisance, by a name that only this nuisance has.
+  Eigen::Index at(const std::string& name, const std::string& group, double std) {
+    const auto [it, is_new] = place_.try_emplace(name, static_cast<Eigen::Index>(list_.size()));
+    if (is_new) list_.push_back({group, std});
+    return it->second;
+  }
+  const std::vector<Nuisance>& list() const { return list_; }
+
+ private:
+  std::map<std::string, Eigen::Index> place_;
+  std::vector<Nuisance> list_;
+};
+
+// One entry of a row: column and dl/dv.
+using Entries = std::vector<std::pair<Eigen::Index, double>>;
+
+struct RowContext {
+  const Rig& rig;
+  const OpenedShot& shot;
+  std::size_t row;
+  Eigen::Matrix<double, 6, 6> pose_root;  // pose covariance = root root^T
+};
+
+void add_led(const RowContext& c, const RigLight& light, double intensity,
+             const TaskSensitivity& task, Columns& columns, Entries& entries) {
+  const auto row = static_cast<Eigen::Index>(c.row);
+  const LightSensitivity& s = *task.sensitivity;
+  for (std::size_t i = 0; light.position_std_mm > 0.0 && i < 3; ++i) {
+    entries.emplace_back(columns.at(light.name + ".position" + std::to_string(i), "LED position",
+                                    light.position_std_mm),
+                         intensity * s.per_mm[i](row, task.medium));
+  }
+  if (light.exponent_std > 0.0) {
+    entries.emplace_back(columns.at(light.name + ".exponent", "LED exponent", light.exponent_std),
+                         intensity * s.per_exponent(row, task.medium));
+  }
+  if (light.intensity_relative_std > 0.0) {
+    entries.emplace_back(
+        columns.at(light.name + ".power", "LED power", light.intensity_relative_std),
+        intensity * s.l(row, task.medium));
+  }
+}
+
+void add_pose(const RowContext& c, double intensity, const TaskSensitivity& task, Columns& columns,
+              Entries& entries) {
+  const auto row = static_cast<Eigen::Index>(c.row);
+  const SeenObject& seen = *c.shot.seen;
+  const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[c.row]);
+  const auto along = tangents(normal);
+  const Eigen::Matrix<double, 3, 6> shift =
+      surface_shift_by_pose(c.shot.pose.camera_from_world, seen.sites[c.row].center_mm, normal) *
+      c.pose_root;
+  // One pose for all shots, or one a shot.
+  const std::string name = c.rig.pose.charuco ? "pose " + c.shot.rig->file : "pose";
+  for (int k = 0; k < 6; ++k) {
+    double change = 0.0;
+    for (std::size_t t = 0; t < 2; ++t) {
+      change += task.sensitivity->per_tangent_mm[t](row, task.medium) * along[t].dot(shift.col(k));
+    }
+    entries.emplace_back(columns.at(name + std::to_string(k), "pose", 1.0), intensity * change);
+  }
+}
+
+Entries row_entries(const RowContext& c, std::size_t channel,
+                    const std::map<LightKey, TaskSensitivity>& sensitivities, Columns& columns) {
+  Entries entries;
+  const double eta_std = c.shot.seen->object->rig->eta_std;
+  for (const std::string& name : c.shot.rig->lights) {
+    const RigLight& light = c.rig.light(name);
+    const TaskSensitivity& task = sensitivities.at({c.shot.seen.get(), name});
+    const double intensity = light.led.intensity_W_per_sr[static_cast<Eigen::Index>(channel)];
+    add_led(c, light, intensity, task, columns, entries);
+    add_pose(c, intensity, task, columns, entries);
+    if (eta_std > 0.0) {
+      entries.emplace_back(
+          columns.at("eta", "eta", eta_std),
+          intensity * task.sensitivity->per_eta(static_cast<Eigen::Index>(c.row), task.medium));
+    }
+  }
+  return entries;
+}
+
+}  // namespace
+
+void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots, std::size_t channel,
+                   const std::map<LightKey, TaskSensitivity>& sensitivities, DenseSystem& system) {
+  Columns columns;
+  std::vector<Entries> rows;
+  for (const OpenedShot* shot : shots) {
+    // Cholesky with pivoting holds for a covariance that is singular, too.
+    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(shot->pose.covariance);
+    Eigen::Matrix<double, 6, 6> root = ldlt.matrixL();
+    root = ldlt.transpositionsP().transpose() * root;
+    root = (root * ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal()).eval();
+    const ChannelObservation& o = shot->observation.channel[channel];
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (o.state[j] != RowState::kUsed) continue;
+      rows.push_back(row_entries({rig, *shot, j, root}, channel, sensitivities, columns));
+    }
+  }
+  system.nuisances = columns.list();
+  system.nuisance_columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()),
+                                                  static_cast<Eigen::Index>(columns.list().size()));
+  for (std::size_t j = 0; j < rows.size(); ++j) {
+    for (const auto& [column, value] : rows[j]) {
+      system.nuisance_columns(static_cast<Eigen::Index>(j), column) += value;
+    }
+  }
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,80 @@
+#include "core/fit_uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace scattermeter {
+namespace {
+
+// Inverse of an information matrix, scaled to a unit diagonal first: the parameters differ by
+// orders of magnitude.
+Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& information) {
+  const Eigen::VectorXd scaling = information.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scaling.asDiagonal() * information * scaling.asDiagonal();
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(scaled);
+  const Eigen::MatrixXd inverse =
+      ldlt.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  return scaling.asDiagonal() * inverse * scaling.asDiagonal();
+}
+
+}  // namespace
+
+FitUncertainty::FitUncertainty(const RecoveredReflectance& recovered,
+                               const std::vector<Nuisance>& nuisances, const DipoleCurve& curve,
+                               double u, double q, double scale, const ScalePrior& prior,
+                               double noise_inflation)
+    : sigma_t_per_mm_(std::exp(u)), q_(q) {
+  const auto kernel = recovered.sqrt_information.leftCols(curve.r.size());
+  const Eigen::Index n = 3 + static_cast<Eigen::Index>(nuisances.size());
+  Eigen::MatrixXd jacobian(recovered.whitened.size(), n);
+  jacobian.col(0) = kernel * (scale * curve.d_u);
+  jacobian.col(1) = kernel * (scale * curve.d_q);
+  jacobian.col(2) = kernel * (scale * curve.r);
+  if (n > 3) jacobian.rightCols(n - 3) = recovered.sqrt_information.rightCols(n - 3);
+  information_ = jacobian.transpose() * jacobian / noise_inflation;
+  causes_ = {"", "", "scale"};
+  if (prior.relative_std > 0.0) {
+    movable_.push_back(2);
+    if (std::isfinite(prior.relative_std)) {
+      information_(2, 2) += 1.0 / (prior.relative_std * prior.relative_std);
+    }
+  }
+  for (std::size_t i = 0; i < nuisances.size(); ++i) {
+    const Eigen::Index at = 3 + static_cast<Eigen::Index>(i);
+    movable_.push_back(at);
+    information_(at, at) += 1.0 / (nuisances[i].std * nuisances[i].std);
+    causes_.push_back(nuisances[i].group);
+  }
+}
+
+Eigen::Matrix2d FitUncertainty::covariance(
+    const std::function<bool(const std::string&)>& known) const {
+  std::vector<Eigen::Index> free = {0, 1};
+  for (Eigen::Index i : movable_) {
+    if (!known(causes_[static_cast<std::size_t>(i)])) free.push_back(i);
+  }
+  const Eigen::MatrixXd all = inverse_of(information_(free, free));
+  Eigen::Matrix2d to_sigma;  // d(sigma_s', sigma_a) / d(u, q)
+  to_sigma << (1.0 - q_) * sigma_t_per_mm_, -sigma_t_per_mm_, q_ * sigma_t_per_mm_, sigma_t_per_mm_;
+  return to_sigma * all.topLeftCorner(2, 2) * to_sigma.transpose();
+}
+
+double FitUncertainty::log_scale_std() const {
+  if (movable_.empty() || movable_.front() != 2) return 0.0;
+  std::vector<Eigen::Index> free = {0, 1};
+  free.insert(free.end(), movable_.begin(), movable_.end());
+  return std::sqrt(inverse_of(information_(free, free))(2, 2));
+}
+
+std::vector<std::string> FitUncertainty::causes() const {
+  std::vector<std::string> out;
+  for (Eigen::Index i : movable_) {
+    const std::string& cause = causes_[static_cast<std::size_t>(i)];
+    if (std::find(out.begin(), out.end(), cause) == out.end()) out.push_back(cause);
+  }
+  return out;
+}
+
+}  // namespace scattermeter

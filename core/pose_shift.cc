@@ -1,0 +1,24 @@
+#include "core/pose_shift.h"
+
+#include <Eigen/Geometry>
+
+namespace scattermeter {
+
+Eigen::Matrix<double, 3, 6> surface_shift_by_pose(const Rigid3d& camera_from_world,
+                                                  const Eigen::Vector3d& point_mm,
+                                                  const Eigen::Vector3d& normal) {
+  const Eigen::Matrix3d rotation = camera_from_world.rotation.toRotationMatrix();
+  const Eigen::Vector3d p = camera_from_world * point_mm;
+  const Eigen::Vector3d n = rotation * normal;
+  // Movement of the point in the camera frame at a fixed world point: w x y + dt.
+  const Eigen::Vector3d y = rotation * point_mm;
+  Eigen::Matrix<double, 3, 6> movement;
+  for (int i = 0; i < 3; ++i) {
+    movement.col(i) = Eigen::Vector3d::Unit(i).cross(y);
+    movement.col(3 + i) = Eigen::Vector3d::Unit(i);
+  }
+  const Eigen::Matrix3d onto_plane = Eigen::Matrix3d::Identity() - p * n.transpose() / n.dot(p);
+  return -(rotation.transpose() * onto_plane * movement);
+}
+
+}  // namespace scattermeter
