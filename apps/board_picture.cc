@@ -6,6 +6,8 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/cfa_samples.h"
+
 namespace scattermeter::apps {
 namespace {
 
@@ -57,8 +59,10 @@ void add_board(const CameraView& view, const calib::CharucoBoard& board,
     Eigen::Vector3d center_in_board = Eigen::Vector3d::Zero();
     int hits = 0;
     for (int i = 0; i < kSide * kSide; ++i) {
-      const double fx = (i % kSide + 0.5) / kSide - 0.5;
-      const double fy = (i / kSide + 0.5) / kSide - 0.5;
+      const int row = i / kSide;
+      const int column = i % kSide;
+      const double fx = (column + 0.5) / kSide - 0.5;
+      const double fy = (row + 0.5) / kSide - 0.5;
       const Eigen::Vector3d w = board_from_world.rotation * (d + fx * per_x + fy * per_y);
       if (!(origin.z() > 0.0) || !(w.z() < 0.0)) continue;
       const Eigen::Vector3d p = origin - origin.z() / w.z() * w;
@@ -72,7 +76,7 @@ void add_board(const CameraView& view, const calib::CharucoBoard& board,
     const Eigen::Vector3d point = board.world_from_board * (center_in_board / hits);
     const int xx = rays.x0 + x;
     const int yy = rays.y0 + y;
-    const int channel = channel_of_phase[static_cast<std::size_t>(2 * (yy & 1) + (xx & 1))];
+    const int channel = channel_of_phase[cfa_phase(xx, yy)];
     double irradiance = 0.0;
     for (const Led& led : leds) {
       const double e = led.transmitted_irradiance_per_mm2(point, normal, 1.0);

@@ -21,6 +21,7 @@
 #include "capture/dng_writer.h"
 #include "capture/sensor.h"
 #include "capture/tone_curve.h"
+#include "core/cfa_samples.h"
 #include "core/dipole_image.h"
 #include "core/fresnel.h"
 #include "core/input_error.h"
@@ -215,9 +216,7 @@ class Simulator {
                        metadata);
   }
 
-  int channel(int x, int y) const {
-    return channel_of_phase_[static_cast<std::size_t>(2 * (y & 1) + (x & 1))];
-  }
+  int channel(int x, int y) const { return channel_of_phase_[cfa_phase(x, y)]; }
 
   // "NIKON D80" is model D80 by NIKON; cameras write both tags with the maker's name in the model.
   void set_camera_name(capture::DngMetadata& metadata) const {

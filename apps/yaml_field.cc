@@ -34,8 +34,8 @@ std::string joined(const std::string& path, const std::string& key) {
 
 }  // namespace
 
-YamlField::YamlField(YAML::Node node, std::string file, std::string path)
-    : node_(std::move(node)), file_(std::move(file)), path_(std::move(path)) {}
+YamlField::YamlField(const YAML::Node& node, std::string file, std::string path)
+    : node_(node), file_(std::move(file)), path_(std::move(path)) {}
 
 YamlField YamlField::load(const std::string& file) {
   if (std::filesystem::is_directory(file)) throw InputError(file, "is a folder, not a rig file");

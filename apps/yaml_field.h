@@ -16,7 +16,7 @@ namespace scattermeter::apps {
 // "file:line: camera.fx_px: expected ..., got ...".
 class YamlField {
  public:
-  YamlField(YAML::Node node, std::string file, std::string path);
+  YamlField(const YAML::Node& node, std::string file, std::string path);
 
   // The whole file. InputError when it cannot be read or is no YAML.
   static YamlField load(const std::string& file);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +10,11 @@ namespace scattermeter {
 
 inline constexpr int kRgb = 3;  // colour channels: R, G, B
 inline constexpr std::array<char, 3> kRgbName = {'R', 'G', 'B'};
+
+// Index of sample (x, y)'s place in the 2 x 2 filter pattern: 2 (y odd) + (x odd).
+inline std::size_t cfa_phase(int x, int y) {
+  return 2 * (static_cast<std::size_t>(y) & 1U) + (static_cast<std::size_t>(x) & 1U);
+}
 
 // A rectangle of samples of one shot. Pixel (x, y) counts from the first sample of the active area.
 struct CfaSamples {
@@ -22,9 +28,7 @@ struct CfaSamples {
   // high enough for the noise to swing both ways.
   double floor_counts = 0;
 
-  int channel(int x, int y) const {
-    return channel_of_phase[static_cast<std::size_t>(2 * (y & 1) + (x & 1))];
-  }
+  int channel(int x, int y) const { return channel_of_phase[cfa_phase(x, y)]; }
 };
 
 }  // namespace scattermeter

@@ -124,7 +124,10 @@ Parameters start(const RecoveredReflectance& recovered, const DistanceKnots& kno
                  const DipoleFitOptions& options) {
   Parameters best;
   double best_cost = std::numeric_limits<double>::infinity();
-  for (double mfp = knots.resolution_mm(); mfp < 2.0 * knots.max_distance_mm(); mfp *= 2.0) {
+  const int doublings =
+      2 + static_cast<int>(std::log2(knots.max_distance_mm() / knots.resolution_mm()));
+  for (int k = 0; k < doublings; ++k) {
+    const double mfp = std::ldexp(knots.resolution_mm(), k);
     for (double q : {1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.4}) {
       const double u = -std::log(mfp);
       const Eigen::VectorXd p = recovered.sqrt_information.leftCols(knots.size()) *

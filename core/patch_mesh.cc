@@ -64,7 +64,7 @@ PatchMesh::PatchMesh(const TriangleMesh& mesh, double size_mm, std::size_t max_p
       const int c = t.vertex[(apex + 2) % 3];
       const int m = middle(b, c);
       const std::int32_t child = static_cast<std::int32_t>(nodes_.size());
-      nodes_[t.node] = {child, static_cast<std::int8_t>(apex)};
+      nodes_[t.node] = {child, static_cast<std::uint8_t>(apex)};
       nodes_.push_back({0, 0});
       nodes_.push_back({0, 0});
       open.push_back({child + 1, f, {a, m, c}});

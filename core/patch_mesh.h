@@ -51,7 +51,7 @@ class PatchMesh {
   // after the other: (apex, b, m) and (apex, m, c).
   struct Node {
     std::int32_t child;
-    std::int8_t apex;
+    std::uint8_t apex;
   };
   double size_mm_;
   std::vector<Eigen::Vector3d> vertices_mm_;

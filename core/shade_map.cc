@@ -77,8 +77,10 @@ ShadeMap::ShadeMap(const RayGrid& rays, const RayScene& scene, const PatchMesh& 
     const Eigen::Vector3d per_x = (direction(xn, y) - d) * (xn - x);
     const Eigen::Vector3d per_y = (direction(x, yn) - d) * (yn - y);
     for (int i = 0; i < kSide * kSide; ++i) {
-      const double fx = (i % kSide + 0.5) / kSide - 0.5;
-      const double fy = (i / kSide + 0.5) / kSide - 0.5;
+      const int row = i / kSide;
+      const int column = i % kSide;
+      const double fx = (column + 0.5) / kSide - 0.5;
+      const double fy = (row + 0.5) / kSide - 0.5;
       std::int32_t unused = 0;
       blocks_[b * kSide * kSide + static_cast<std::size_t>(i)] =
           trace(scene, patches, rays.origin_in_world_mm, d + fx * per_x + fy * per_y,
