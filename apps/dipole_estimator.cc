@@ -1,4 +1,5 @@
 // --model dipole: the dipole, with all that the rig knows only to a standard deviation.
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -7,6 +8,7 @@
 #include "apps/estimation_task.h"
 #include "apps/nuisances.h"
 #include "apps/progress.h"
+#include "core/dipole_curve.h"
 #include "core/dipole_fit.h"
 
 namespace scattermeter::apps {
@@ -83,7 +85,12 @@ void estimate_dipole(Estimation& e) {
     DipoleFitOptions own = fit;
     own.eta_int_over_ext = e.tasks[i].eta;
     DenseSystem system = system_of(e.rig, e.tasks[i], weights);
+    const Estimate& first = e.results[i].estimate;
+    const double sigma_t = first.sigma_s_prime_per_mm.value + first.sigma_a_per_mm.value;
+    const DipoleCurve curve = dipole_curve(knots, std::log(sigma_t),
+                                           first.sigma_a_per_mm.value / sigma_t, e.tasks[i].eta);
     add_nuisances(e.rig, e.tasks[i].shots, e.tasks[i].channel, all.of_task[i], system);
+    add_numerics(e.tasks[i].shots, e.tasks[i].channel, knots, first.scale.value * curve.r, system);
     e.results[i].estimate = fit_dipole(system, knots, own);
   });
   e.watch.lap("fit");

@@ -102,7 +102,7 @@ class Columns {
   // The column of a nuisance, by a name that only this nuisance has.
   Eigen::Index at(const std::string& name, const std::string& group, double std) {
     const auto [it, is_new] = place_.try_emplace(name, static_cast<Eigen::Index>(list_.size()));
-    if (is_new) list_.push_back({group, std});
+    if (is_new) list_.push_back({group, std, true});
     return it->second;
   }
   const std::vector<Nuisance>& list() const { return list_; }
@@ -207,6 +207,39 @@ void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots, 
       system.nuisance_columns(static_cast<Eigen::Index>(j), column) += value;
     }
   }
+}
+
+void add_numerics(const std::vector<const OpenedShot*>& shots, std::size_t channel,
+                  const DistanceKnots& knots, const Eigen::VectorXd& r, DenseSystem& system) {
+  // Pair sums meet quadrature to 6e-5 of the total (tests/core/pair_sums_test.cc), incident light
+  // is good to 2e-5, the knots to 5e-5: with a margin of two.
+  constexpr double kRelativeStd = 2e-4;
+  const Eigen::Index first = system.nuisance_columns.cols();
+  const int octaves =
+      1 + static_cast<int>(std::log2(knots.max_distance_mm() / knots.resolution_mm()));
+  const Eigen::Index added = octaves + static_cast<Eigen::Index>(shots.size());
+  system.nuisance_columns.conservativeResize(system.l.size(), first + added);
+  system.nuisance_columns.rightCols(added).setZero();
+  for (int o = 0; o < octaves; ++o) {
+    const double from_mm = o == 0 ? -1.0 : std::ldexp(knots.resolution_mm(), o);
+    const double to_mm = std::ldexp(knots.resolution_mm(), o + 1);
+    Eigen::VectorXd part = r;
+    for (Eigen::Index i = 0; i < part.size(); ++i) {
+      const double d = knots.knots_mm()[static_cast<std::size_t>(i)];
+      if (d < from_mm || d >= to_mm) part[i] = 0.0;
+    }
+    system.nuisance_columns.col(first + o) = system.weights * part;
+  }
+  const Eigen::VectorXd predicted = system.weights * r;
+  Eigen::Index row = 0;
+  for (std::size_t s = 0; s < shots.size(); ++s) {
+    const auto n = static_cast<Eigen::Index>(shots[s]->observation.channel[channel].rows_used);
+    system.nuisance_columns.col(first + octaves + static_cast<Eigen::Index>(s)).segment(row, n) =
+        predicted.segment(row, n);
+    row += n;
+  }
+  system.nuisances.insert(system.nuisances.end(), static_cast<std::size_t>(added),
+                          {"numerics", kRelativeStd, false});
 }
 
 }  // namespace scattermeter::apps

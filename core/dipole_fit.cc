@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -23,10 +24,11 @@ constexpr double kMaxAbsorbed = 0.95;  // of 1 - alpha'
 // the nuisances v where there are any.
 class RecoveredCost final : public ceres::CostFunction {
  public:
-  RecoveredCost(const RecoveredReflectance& recovered, const DistanceKnots& knots, double eta)
+  RecoveredCost(const RecoveredReflectance& recovered, const DistanceKnots& knots,
+                std::size_t n_nuisances, double eta)
       : kernel_(recovered.sqrt_information.leftCols(knots.size())),
-        nuisance_(
-            recovered.sqrt_information.rightCols(recovered.sqrt_information.cols() - knots.size())),
+        nuisance_(recovered.sqrt_information.middleCols(knots.size(),
+                                                        static_cast<Eigen::Index>(n_nuisances))),
         whitened_(recovered.whitened),
         knots_(knots),
         eta_(eta) {
@@ -77,9 +79,9 @@ class RecoveredCost final : public ceres::CostFunction {
 // v / std for every nuisance.
 class NuisancePriorCost final : public ceres::CostFunction {
  public:
-  explicit NuisancePriorCost(const std::vector<Nuisance>& nuisances) : nuisances_(nuisances) {
-    set_num_residuals(static_cast<int>(nuisances.size()));
-    mutable_parameter_block_sizes()->assign(1, static_cast<int>(nuisances.size()));
+  explicit NuisancePriorCost(const std::vector<Nuisance>& fitted) : nuisances_(fitted) {
+    set_num_residuals(static_cast<int>(fitted.size()));
+    mutable_parameter_block_sizes()->assign(1, static_cast<int>(fitted.size()));
   }
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
@@ -232,16 +234,20 @@ Estimate fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
     return estimate;
   }
   Parameters p = start(recovered, knots, options);
-  p.nuisance.assign(system.nuisances.size(), 0.0);
+  std::vector<Nuisance> fitted;
+  std::copy_if(system.nuisances.begin(), system.nuisances.end(), std::back_inserter(fitted),
+               [](const Nuisance& n) { return n.fitted; });
+  p.nuisance.assign(fitted.size(), 0.0);
 
   ceres::Problem problem;
   std::vector<double*> blocks = {&p.u, &p.q, &p.log_s};
   if (!p.nuisance.empty()) {
     blocks.push_back(p.nuisance.data());
-    problem.AddResidualBlock(new NuisancePriorCost(system.nuisances), nullptr, p.nuisance.data());
+    problem.AddResidualBlock(new NuisancePriorCost(fitted), nullptr, p.nuisance.data());
   }
-  problem.AddResidualBlock(new RecoveredCost(recovered, knots, options.eta_int_over_ext), nullptr,
-                           blocks);
+  problem.AddResidualBlock(
+      new RecoveredCost(recovered, knots, fitted.size(), options.eta_int_over_ext), nullptr,
+      blocks);
   if (options.scale.relative_std == 0.0) {
     problem.SetParameterBlockConstant(&p.log_s);
   } else if (std::isfinite(options.scale.relative_std)) {
@@ -265,8 +271,9 @@ Estimate fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
       system.weights *
       (std::exp(p.log_s) * dipole_curve(knots, p.u, p.q, options.eta_int_over_ext).r);
   if (!p.nuisance.empty()) {
-    predicted += system.nuisance_columns * Eigen::Map<const Eigen::VectorXd>(
-                                               p.nuisance.data(), system.nuisance_columns.cols());
+    const auto n = static_cast<Eigen::Index>(fitted.size());
+    predicted += system.nuisance_columns.leftCols(n) *
+                 Eigen::Map<const Eigen::VectorXd>(p.nuisance.data(), n);
   }
   const Residual rest = residual(system.l, predicted, system.std_l);
   const int n_parameters = options.scale.relative_std == 0.0 ? 2 : 3;

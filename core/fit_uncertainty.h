@@ -35,7 +35,9 @@ class FitUncertainty {
   double sigma_t_per_mm_;
   double q_;
   Eigen::MatrixXd information_;
-  std::vector<std::string> causes_;    // of every parameter
+  std::vector<std::string> causes_;  // of every parameter
+  Eigen::MatrixXd held_;             // J^T C std: parameters x nuisances that are not fitted
+  std::vector<std::string> held_causes_;
   std::vector<Eigen::Index> movable_;  // parameters beside u and q that may move
 };
 

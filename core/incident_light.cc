@@ -43,7 +43,7 @@ class Illuminator {
     }
     probe(center);
     if (lit == probes) {
-      append(t, n, k, out);
+      append(t, n, k, 1.0, out);
     } else if (lit > 0) {
       out.on_shadow_edge = true;
       split(t, n, k, options_.shadow_bisections, out);
@@ -57,19 +57,46 @@ class Illuminator {
     return !scene_.occluded(p, n, led_.position_mm);
   }
 
-  void append(const Triangle& t, const Eigen::Vector3d& n, int k, PatchLight& out) const {
+  // `share`: of the triangle that is lit.
+  void append(const Triangle& t, const Eigen::Vector3d& n, int k, double share,
+              PatchLight& out) const {
     LitTriangle lit{t, {}, k};
     for (int i = 0; i < 3; ++i) {
-      lit.irradiance_sr_per_mm2[i] = led_.transmitted_irradiance_per_mm2(t[i], n, eta_);
+      lit.irradiance_sr_per_mm2[i] = share * led_.transmitted_irradiance_per_mm2(t[i], n, eta_);
     }
     out.lit.push_back(lit);
   }
 
-  // Bisects at the longest edge; the parts are lit or dark by their centre.
+  // Share of a small triangle that is lit: all or nothing where corners and centre agree, else
+  // counted over the centres of 16 equal parts.
+  double lit_share(const Triangle& t, const Eigen::Vector3d& n, PatchLight& out) const {
+    const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
+    int lit = is_lit(center, n, out) ? 1 : 0;
+    for (const Eigen::Vector3d& corner : t) {
+      lit += is_lit(corner + 0.02 * (center - corner), n, out) ? 1 : 0;
+    }
+    if (lit == 0 || lit == 4) return lit == 4 ? 1.0 : 0.0;
+    constexpr int kRows = 4;
+    lit = 0;
+    for (int i = 0; i < kRows; ++i) {
+      for (int j = 0; j < kRows - i; ++j) {
+        // Upright part (i, j), and the inverted one beside it where there is one.
+        const auto at = [&](double u, double v) {
+          return (t[0] + u / kRows * (t[1] - t[0]) + v / kRows * (t[2] - t[0])).eval();
+        };
+        lit += is_lit(at(i + 1.0 / 3.0, j + 1.0 / 3.0), n, out) ? 1 : 0;
+        if (i + j + 1 < kRows) lit += is_lit(at(i + 2.0 / 3.0, j + 2.0 / 3.0), n, out) ? 1 : 0;
+      }
+    }
+    return static_cast<double>(lit) / (kRows * kRows);
+  }
+
+  // Bisects at the longest edge.
   void split(const Triangle& t, const Eigen::Vector3d& n, int k, int levels,
              PatchLight& out) const {
     if (levels == 0) {
-      if (is_lit((t[0] + t[1] + t[2]) / 3.0, n, out)) append(t, n, k, out);
+      const double share = lit_share(t, n, out);
+      if (share > 0.0) append(t, n, k, share, out);
       return;
     }
     int a = 0;

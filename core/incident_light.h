@@ -32,7 +32,8 @@ struct IncidentLight {
 };
 
 struct IncidentLightOptions {
-  int shadow_bisections = 6;  // a patch on a shadow edge is cut into 2^n parts, each lit or dark
+  int shadow_bisections =
+      6;  // a patch on a shadow edge is cut into 2^n parts, each lit by its share
 };
 
 // A shadow edge is seen where it separates the three corners, the centre or the middles of the

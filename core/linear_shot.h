@@ -22,8 +22,12 @@ struct LinearShot {
 // A quantity beside the material that the image depends on and that is known only to a standard
 // deviation: an LED's place, the camera's pose, eta. Counted from its nominal value.
 struct Nuisance {
-  std::string group;  // what it belongs to in the budget: "led position", "pose", ...
+  std::string group;  // what it belongs to in the budget: "LED position", "pose", ...
   double std = 0;     // of the prior; the prior's mean is 0
+  // True: fitted along with the material. False: held at 0, and what it may do to the answer only
+  // widens the uncertainty (errors of the method itself, whose shape is not known well enough to be
+  // fitted).
+  bool fitted = true;
 };
 
 // The rows that are used, as a dense system: weights (W), l (W/mm^2) and standard deviation of l.
@@ -32,7 +36,7 @@ struct DenseSystem {
   WeightMatrix weights;
   Eigen::VectorXd l;
   Eigen::VectorXd std_l;
-  std::vector<Nuisance> nuisances = {};   // may be empty
+  std::vector<Nuisance> nuisances = {};   // may be empty; those that are fitted come first
   Eigen::MatrixXd nuisance_columns = {};  // rows x nuisances: dl / dv
 };
 

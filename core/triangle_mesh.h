@@ -14,7 +14,7 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles;  // vertex indices, counter-clockwise from outside
 };
 
-// Twice the area vector's half: length is the area in mm^2, direction the outward normal.
+// Area vector of a triangle: its length is the area in mm^2, its direction the outward normal.
 Eigen::Vector3d area_vector_mm2(const TriangleMesh& mesh, int triangle_idx);
 
 // Volume enclosed by a closed, oriented mesh (divergence theorem), in mm^3; negative when the

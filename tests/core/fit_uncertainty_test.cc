@@ -19,7 +19,7 @@ class TiltedLight : public ::testing::Test {
   DenseSystem system(unsigned seed, double tilt_x, double tilt_y) {
     const Eigen::VectorXd clean = l_ + tilt_x * columns_.col(0) + tilt_y * columns_.col(1);
     DenseSystem s = testing::noisy_system(weights_, clean, 0.01, seed);
-    s.nuisances = {{"tilt x", 0.05}, {"tilt y", 0.05}};
+    s.nuisances = {{"tilt x", 0.05, true}, {"tilt y", 0.05, true}};
     s.nuisance_columns = columns_;
     return s;
   }
@@ -84,6 +84,31 @@ TEST_F(TiltedLight, BudgetNamesEveryCause) {
   }
   EXPECT_GT(largest, 0.3 * e.sigma_a_per_mm.std);
   EXPECT_GT(e.budget[2].std_sigma_s_prime_per_mm, 0.0);
+}
+
+// A nuisance that is held: the answer is the one without it, the uncertainty holds its push. Drawn
+// from its prior, the answers scatter as predicted.
+TEST_F(TiltedLight, HeldNuisanceWidensOnly) {
+  constexpr int kSeeds = 60;
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal;
+  Eigen::ArrayXd a(kSeeds);
+  double predicted = 0.0;
+  for (int i = 0; i < kSeeds; ++i) {
+    DenseSystem drawn = system(static_cast<unsigned>(i + 1), 0.005 * normal(random), 0.0);
+    drawn.nuisances = {{"tilt x", 0.005, false}};
+    drawn.nuisance_columns = columns_.leftCols(1).eval();
+    const Estimate held = fit_dipole(drawn, knots_, {});
+    a[i] = held.sigma_a_per_mm.value;
+    predicted += held.sigma_a_per_mm.std / kSeeds;
+    if (i > 0) continue;
+    drawn.nuisances.clear();
+    drawn.nuisance_columns.resize(0, 0);
+    const Estimate without = fit_dipole(drawn, knots_, {});
+    EXPECT_NEAR(held.sigma_a_per_mm.value, without.sigma_a_per_mm.value, 1e-9);
+    EXPECT_GT(held.sigma_a_per_mm.std, 1.05 * without.sigma_a_per_mm.std);
+  }
+  EXPECT_NEAR(std::sqrt((a - 0.004).square().mean()) / predicted, 1.0, 0.3);
 }
 
 // An exact scale and no nuisances: noise is all there is.
