@@ -7,8 +7,9 @@
 
 namespace scattermeter::apps {
 
-// The measurement as JSON text (contract: DESIGN of the result file in apps/RESULT.md). Numbers
-// that are not finite or not known become null.
+// The measurement as JSON text: `results`, one entry per material and channel, then patch sizes,
+// notes, timing, version, command and the inputs with their digests. Numbers that are not finite or
+// not known become null.
 std::string result_json(const Measurement& measurement, const std::string& command_line);
 
 // Writes text to a file that appears complete or not at all; makes the folder where it is missing.
