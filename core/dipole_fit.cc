@@ -151,18 +151,14 @@ Parameters start(const RecoveredReflectance& recovered, const DistanceKnots& kno
   return best;
 }
 
-Quantity quantity(double value, double std) {
-  return {value, std, std::max(0.0, value - 1.96 * std), value + 1.96 * std};
-}
-
 void set_uncertainty(const FitUncertainty& fit, const Parameters& p, Estimate& estimate) {
   const Eigen::Matrix2d all = fit.covariance([](const std::string&) { return false; });
   const double sigma_t = std::exp(p.u);
-  estimate.sigma_s_prime_per_mm = quantity((1.0 - p.q) * sigma_t, std::sqrt(all(0, 0)));
-  estimate.sigma_a_per_mm = quantity(p.q * sigma_t, std::sqrt(all(1, 1)));
+  estimate.sigma_s_prime_per_mm = normal_quantity((1.0 - p.q) * sigma_t, std::sqrt(all(0, 0)));
+  estimate.sigma_a_per_mm = normal_quantity(p.q * sigma_t, std::sqrt(all(1, 1)));
   estimate.correlation = all(0, 1) / std::sqrt(all(0, 0) * all(1, 1));
   const double s = std::exp(p.log_s);
-  estimate.scale = quantity(s, s * fit.log_scale_std());
+  estimate.scale = normal_quantity(s, s * fit.log_scale_std());
   const Eigen::Matrix2d noise = fit.covariance([](const std::string&) { return true; });
   estimate.budget.push_back({"noise", std::sqrt(noise(0, 0)), std::sqrt(noise(1, 1))});
   for (const std::string& cause : fit.causes()) {

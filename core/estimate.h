@@ -1,6 +1,7 @@
 // What every estimator answers.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -13,6 +14,12 @@ struct Quantity {
   double low95 = 0;  // 95 % interval
   double high95 = 0;
 };
+
+// A quantity that cannot be negative, with a normal error: the interval is value +- 1.96 std, cut
+// at 0.
+inline Quantity normal_quantity(double value, double std) {
+  return {value, std, std::max(0.0, value - 1.96 * std), value + 1.96 * std};
+}
 
 // What one cause adds to the uncertainty: the standard deviation whose square would vanish from the
 // variance if the cause were known exactly (for "noise": what is left when all others are).

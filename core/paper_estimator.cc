@@ -31,10 +31,6 @@ Eigen::VectorXd pseudo_inverse_times(const WeightMatrix& w, const Eigen::VectorX
   return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(t).solve(rotated);
 }
 
-Quantity quantity(double value, double std) {
-  return {value, std, std::max(0.0, value - 1.96 * std), value + 1.96 * std};
-}
-
 std::string on_bound(const char* name, double value, double min, double max, double step) {
   const bool low = value < min + 0.5 * step;
   if (!low && value < max - 0.5 * step) return "";
@@ -116,8 +112,8 @@ Estimate choose_width(const std::vector<PaperAnswer>& answers, const PaperGrid& 
   var_s += grid.sigma_s_step * grid.sigma_s_step / 12.0;
   var_a += grid.sigma_a_step * grid.sigma_a_step / 12.0;
   Estimate e;
-  e.sigma_s_prime_per_mm = quantity(best->sigma_s_prime_per_mm, std::sqrt(var_s));
-  e.sigma_a_per_mm = quantity(best->sigma_a_per_mm, std::sqrt(var_a));
+  e.sigma_s_prime_per_mm = normal_quantity(best->sigma_s_prime_per_mm, std::sqrt(var_s));
+  e.sigma_a_per_mm = normal_quantity(best->sigma_a_per_mm, std::sqrt(var_a));
   e.correlation = cov / std::sqrt(var_s * var_a);
   e.scale = {1.0, 0.0, 1.0, 1.0};
   e.reduced_chi2 = best->reduced_chi2;
