@@ -45,7 +45,7 @@ LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
   PairSumOptions pairs;
   pairs.floor_mm = 4.0 * knots.resolution_mm();
   pairs.far_ratio = 3.0;
-  pairs.near_ratio = 1.5;
+  pairs.near_ratio = 0.7;
   const auto predict = [&](const std::vector<ExitSite>& sites, const Led& light,
                            double eta_here) -> Eigen::MatrixXd {
     const SourceCloud sources(illuminate(coarse, *object.rays, light, eta_here),
@@ -75,8 +75,7 @@ LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
     const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
     const auto along = tangents(normal);
     for (std::size_t t = 0; t < 2; ++t) {
-      shifted[t][j].center_mm += shift_mm * along[t];
-      for (Eigen::Vector3d& p : shifted[t][j].points_mm) p += shift_mm * along[t];
+      shifted[t][j] = moved(seen.sites[j], shift_mm * along[t]);
     }
     // The observed l = pi L / Ft(eta) falls as Ft grows.
     const Eigen::Vector3d to_camera =

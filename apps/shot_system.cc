@@ -30,9 +30,7 @@ std::shared_ptr<const SeenObject> see(const Rig& rig, const ObjectScenes& scenes
   seen->map = map_samples(rays, *seen->object->rays, *seen->patches,
                           seen->object->rig->eta_int_over_ext, options);
   for (std::size_t row = 0; row < seen->map.patch_of_row.size(); ++row) {
-    seen->sites.push_back(
-        exit_samples(seen->map.mean_mm[row], seen->map.spread_mm2[row],
-                     seen->patches->longest_edge_mm(seen->map.patch_of_row[row])));
+    seen->sites.push_back(exit_samples(seen->map.mean_mm[row], seen->map.spread_mm2[row]));
   }
   return seen;
 }

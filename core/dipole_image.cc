@@ -77,7 +77,7 @@ std::vector<Eigen::Array3d> dipole_radiosity(const std::vector<Eigen::Vector3d>&
                                              const Eigen::Array3d& intensity_W_per_sr) {
   const double mfp_mm = shortest_mean_free_path_mm(media);
   const double resolution_mm = std::min(0.5 * mfp_mm, 0.1 * max_distance_mm);
-  const OctaveBins bins(resolution_mm * resolution_mm, max_distance_mm, 8);
+  const OctaveBins bins(resolution_mm * resolution_mm, max_distance_mm, 9);
   Eigen::Array3Xd r(3, bins.size());
   for (int c = 0; c < 3; ++c) {
     const Dipole dipole(media[static_cast<std::size_t>(c)]);
@@ -103,7 +103,7 @@ std::vector<Eigen::Array3d> dipole_radiosity(const std::vector<Eigen::Vector3d>&
 }
 
 double render_patch_size_mm(const std::array<Medium, 3>& media, double object_size_mm) {
-  return std::clamp(shortest_mean_free_path_mm(media), object_size_mm / 120.0,
+  return std::clamp(0.6 * shortest_mean_free_path_mm(media), object_size_mm / 250.0,
                     object_size_mm / 40.0);
 }
 

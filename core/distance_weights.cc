@@ -11,7 +11,7 @@
 namespace scattermeter {
 namespace {
 
-constexpr int kFineBits = 7;  // 128 fine bins an octave: 3e-5 by linear interpolation
+constexpr int kFineBits = 8;  // 256 fine bins an octave: 7e-6 by linear interpolation
 
 template <class Row>
 void for_rows(std::size_t n, const Row& row) {

@@ -61,9 +61,18 @@ class Illuminator {
   void append(const Triangle& t, const Eigen::Vector3d& n, int k, double share,
               PatchLight& out) const {
     LitTriangle lit{t, {}, k};
+    double sum = 0.0;
     for (int i = 0; i < 3; ++i) {
-      lit.irradiance_sr_per_mm2[i] = share * led_.transmitted_irradiance_per_mm2(t[i], n, eta_);
+      lit.irradiance_sr_per_mm2[i] = led_.transmitted_irradiance_per_mm2(t[i], n, eta_);
+      sum += lit.irradiance_sr_per_mm2[i];
     }
+    if (!(sum > 0.0)) return;
+    // The light of a small source is convex over a patch, so a linear density holds too much of it.
+    // Corners (1/12 each) and centre (3/4) give the power exactly to second order; the density is
+    // scaled to that.
+    const double center = led_.transmitted_irradiance_per_mm2((t[0] + t[1] + t[2]) / 3.0, n, eta_);
+    const double scaled = share * (0.25 + 2.25 * center / sum);
+    for (double& e : lit.irradiance_sr_per_mm2) e *= scaled;
     out.lit.push_back(lit);
   }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <numeric>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -30,12 +31,16 @@ class NearIntegral {
     const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
     const double distance = (center - p_).norm();
     if (edge <= options_.floor_mm || edge * options_.near_ratio <= distance) {
-      // Three-point rule of degree 2: barycentric (2/3, 1/6, 1/6) and its turns.
-      for (int i = 0; i < 3; ++i) {
-        const Eigen::Vector3d q = 0.5 * t[i] + 0.5 * center;
-        const double density = 0.5 * e[i] + (e[0] + e[1] + e[2]) / 6.0;
-        bins_.add(static_cast<float>((q - p_).squaredNorm()),
-                  static_cast<float>(weight_ * density * area / 3.0), sums_);
+      // Cowper's six-point rule of degree 4: two orbits (a, b, b) of barycentric weights.
+      for (const auto& [a, weight] : {std::pair{0.108103018168070, 0.223381589678011},
+                                      std::pair{0.816847572980459, 0.109951743655322}}) {
+        const double b = 0.5 * (1.0 - a);
+        for (int i = 0; i < 3; ++i) {
+          const Eigen::Vector3d q = 3.0 * b * center + (a - b) * t[i];
+          const double density = b * (e[0] + e[1] + e[2]) + (a - b) * e[i];
+          bins_.add(static_cast<float>((q - p_).squaredNorm()),
+                    static_cast<float>(weight_ * density * area * weight), sums_);
+        }
       }
       return;
     }
@@ -57,84 +62,235 @@ class NearIntegral {
 
 }  // namespace
 
+ExitSite exit_samples(const Eigen::Vector3d& mean_mm, const Eigen::Matrix3d& covariance_mm2) {
+  // Along the two larger eigenvectors, one deviation to either side: (+ +), (+ -), (- +), (- -).
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance_mm2);
+  const Eigen::Vector3d a =
+      std::sqrt(std::max(0.0, eigen.eigenvalues()[2])) * eigen.eigenvectors().col(2);
+  const Eigen::Vector3d b =
+      std::sqrt(std::max(0.0, eigen.eigenvalues()[1])) * eigen.eigenvectors().col(1);
+  return {mean_mm,
+          a * a.transpose() + b * b.transpose(),
+          {mean_mm + a + b, mean_mm + a - b, mean_mm - a + b, mean_mm - a - b}};
+}
+
 ExitSite exit_patch(const PatchMesh& patches, int patch_idx) {
   const Triangle t = patches.corners_mm(patch_idx);
   const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
-  return {center,
-          {0.5 * (t[0] + center), 0.5 * (t[1] + center), 0.5 * (t[2] + center)},
-          longest_edge_mm(t)};
+  // A triangle's covariance is a twelfth of its corners' scatter about the centre.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& p : t) {
+    covariance += (p - center) * (p - center).transpose() / 12.0;
+  }
+  return exit_samples(center, covariance);
 }
 
-ExitSite exit_samples(const Eigen::Vector3d& mean_mm, const Eigen::Matrix3d& covariance_mm2,
-                      double size_mm) {
-  // In the plane of the two larger eigenvectors e1, e2: mean + sqrt(2 lambda1) cos(phi) e1 +
-  // sqrt(2 lambda2) sin(phi) e2 for three phi a third of a turn apart; the mean of cos^2 is 1/2.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance_mm2);
-  ExitSite site{mean_mm, {mean_mm, mean_mm, mean_mm}, size_mm};
-  for (int i = 0; i < 3; ++i) {
-    const double phi = 2.0 * std::numbers::pi / 3.0 * i;
-    site.points_mm[static_cast<std::size_t>(i)] +=
-        std::sqrt(2.0 * std::max(0.0, eigen.eigenvalues()[2])) * std::cos(phi) *
-            eigen.eigenvectors().col(2) +
-        std::sqrt(2.0 * std::max(0.0, eigen.eigenvalues()[1])) * std::sin(phi) *
-            eigen.eigenvectors().col(1);
+ExitSite moved(const ExitSite& site, const Eigen::Vector3d& by_mm) {
+  ExitSite out = site;
+  out.center_mm += by_mm;
+  for (Eigen::Vector3d& p : out.points_mm) p += by_mm;
+  return out;
+}
+
+// Zeroth to second moment of entering power.
+struct SourceCloud::Moments {
+  double power = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d min, max;  // bounds of the members
+
+  static Moments of(const LitTriangle& t) {
+    const auto& c = t.corners_mm;
+    const auto& e = t.irradiance_sr_per_mm2;
+    Moments m;
+    const double area_mm2 = 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
+    const double sum = e[0] + e[1] + e[2];
+    m.power = sum / 3.0 * area_mm2;
+    // ∫ λ_i λ_j λ_k over a triangle of unit area is 1/10 (i = j = k), 1/30 (two alike), 1/60; a
+    // linear density is Σ e_i λ_i. Centroid: (sum + e_i) / (4 sum) of corner i.
+    for (int i = 0; i < 3; ++i) m.mean += (sum + e[i]) / (4.0 * sum) * c[i];
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const double weight = i == j ? (2.0 * sum + 4.0 * e[i]) / 20.0 : (sum + e[i] + e[j]) / 20.0;
+        m.covariance += weight / sum * (c[i] - m.mean) * (c[j] - m.mean).transpose();
+      }
+    }
+    m.min = c[0].cwiseMin(c[1]).cwiseMin(c[2]);
+    m.max = c[0].cwiseMax(c[1]).cwiseMax(c[2]);
+    return m;
   }
-  return site;
+
+  static Moments joined(const Moments& a, const Moments& b) {
+    Moments m;
+    m.power = a.power + b.power;
+    const double share = b.power / m.power;
+    const Eigen::Vector3d step = b.mean - a.mean;
+    m.mean = a.mean + share * step;
+    m.covariance = (1.0 - share) * a.covariance + share * b.covariance +
+                   share * (1.0 - share) * step * step.transpose();
+    m.min = a.min.cwiseMin(b.min);
+    m.max = a.max.cwiseMax(b.max);
+    return m;
+  }
+
+  double radius() const { return (max - mean).cwiseMax(mean - min).norm(); }
+};
+
+SourceCloud::Moments SourceCloud::build(const std::vector<Moments>& leaves, std::int32_t* begin,
+                                        std::int32_t* end) {
+  const std::size_t at = nodes_.size();
+  nodes_.emplace_back();
+  Moments m;
+  std::int32_t right = -1;
+  if (end - begin == 1) {
+    m = leaves[static_cast<std::size_t>(*begin)];
+  } else {
+    Eigen::Vector3d min = leaves[static_cast<std::size_t>(*begin)].mean;
+    Eigen::Vector3d max = min;
+    for (const std::int32_t* i = begin; i != end; ++i) {
+      min = min.cwiseMin(leaves[static_cast<std::size_t>(*i)].mean);
+      max = max.cwiseMax(leaves[static_cast<std::size_t>(*i)].mean);
+    }
+    Eigen::Index axis = 0;
+    (max - min).maxCoeff(&axis);
+    std::int32_t* middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end, [&](std::int32_t a, std::int32_t b) {
+      const double xa = leaves[static_cast<std::size_t>(a)].mean[axis];
+      const double xb = leaves[static_cast<std::size_t>(b)].mean[axis];
+      return xa != xb ? xa < xb : a < b;
+    });
+    const Moments first = build(leaves, begin, middle);
+    right = static_cast<std::int32_t>(nodes_.size());
+    m = Moments::joined(first, build(leaves, middle, end));
+  }
+  const Eigen::Matrix3f c = m.covariance.cast<float>();
+  const Eigen::Vector3f p = m.mean.cast<float>();
+  nodes_[at] = {p.x(),
+                p.y(),
+                p.z(),
+                static_cast<float>(m.power),
+                static_cast<float>(m.radius()),
+                c(0, 0),
+                c(0, 1),
+                c(0, 2),
+                c(1, 1),
+                c(1, 2),
+                c(2, 2),
+                right < 0 ? *begin : -1,
+                right};
+  return m;
 }
 
 SourceCloud::SourceCloud(const IncidentLight& light, const Eigen::Vector3d& origin_mm)
     : origin_mm_(origin_mm), triangles_(light.lit) {
+  if (triangles_.empty()) return;
+  std::vector<Moments> leaves;
+  leaves.reserve(triangles_.size());
   for (LitTriangle& t : triangles_) {
     // Positions relative to the origin from here on.
     for (Eigen::Vector3d& corner : t.corners_mm) corner -= origin_mm_;
-    const auto& c = t.corners_mm;
-    const auto& e = t.irradiance_sr_per_mm2;
-    const double sum = e[0] + e[1] + e[2];
-    // Linear density e over a triangle: its integral is the mean of e times the area; its centroid
-    // weighs corner i with (sum + e_i) / (4 sum).
-    const Eigen::Vector3d centroid =
-        ((sum + e[0]) * c[0] + (sum + e[1]) * c[1] + (sum + e[2]) * c[2]) / (4.0 * sum);
-    const double area_mm2 = 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
-    x_.push_back(static_cast<float>(centroid.x()));
-    y_.push_back(static_cast<float>(centroid.y()));
-    z_.push_back(static_cast<float>(centroid.z()));
-    power_.push_back(static_cast<float>(sum / 3.0 * area_mm2));
-    edge_.push_back(static_cast<float>(longest_edge_mm(c)));
+    leaves.push_back(Moments::of(t));
   }
+  std::vector<std::int32_t> order(triangles_.size());
+  std::iota(order.begin(), order.end(), 0);
+  nodes_.reserve(2 * triangles_.size());
+  build(leaves, order.data(), order.data() + order.size());
 }
+
+// One site against the tree.
+template <class Bins>
+struct SourceCloud::Sum {
+  const SourceCloud& cloud;
+  const Bins& bins;
+  const PairSumOptions& options;
+  double* sums;
+  float x, y, z, radius, far_ratio;
+  float xx, xy, xz, yy, yz, zz;  // the site's covariance
+  int n_points;
+  std::array<Eigen::Vector3d, 4> points;
+
+  void visit(std::int32_t at) {
+    const Node& node = cloud.nodes_[static_cast<std::size_t>(at)];
+    const float dx = node.x - x;
+    const float dy = node.y - y;
+    const float dz = node.z - z;
+    const float far = far_ratio * (node.radius + radius);
+    if (dx * dx + dy * dy + dz * dz >= far * far) {
+      add_cluster(node, dx, dy, dz);
+    } else if (node.right >= 0) {
+      visit(at + 1);
+      visit(node.right);
+    } else {
+      add_near(cloud.triangles_[static_cast<std::size_t>(node.triangle)]);
+    }
+  }
+
+  // The difference of two independent points has the sum of their covariances C = L L^T. The four
+  // points d + L v, v the corners of a cube of even parity, have mean d and covariance C.
+  void add_cluster(const Node& node, float dx, float dy, float dz) {
+    const auto root = [](float s) { return s > 0.0F ? std::sqrt(s) : 0.0F; };
+    const auto over = [](float a, float b) { return b > 0.0F ? a / b : 0.0F; };
+    const float l11 = root(node.xx + xx);
+    const float l21 = over(node.xy + xy, l11);
+    const float l31 = over(node.xz + xz, l11);
+    // What a plane parallel to an axis leaves is rounding: below 1e-6 it is none.
+    const float c22 = node.yy + yy;
+    const float r22 = c22 - l21 * l21;
+    const float l22 = r22 > 1e-6F * c22 ? std::sqrt(r22) : 0.0F;
+    const float l32 = over(node.yz + yz - l21 * l31, l22);
+    const float c33 = node.zz + zz;
+    const float r33 = c33 - l31 * l31 - l32 * l32;
+    const float l33 = r33 > 1e-6F * c33 ? std::sqrt(r33) : 0.0F;
+    const float quarter = 0.25F * node.power;
+    constexpr float kV1[4] = {1, 1, -1, -1};
+    constexpr float kV2[4] = {1, -1, 1, -1};
+    constexpr float kV3[4] = {1, -1, -1, 1};
+    float d2[4];
+    for (int i = 0; i < 4; ++i) {
+      const float px = dx + l11 * kV1[i];
+      const float py = dy + l21 * kV1[i] + l22 * kV2[i];
+      const float pz = dz + l31 * kV1[i] + l32 * kV2[i] + l33 * kV3[i];
+      d2[i] = px * px + py * py + pz * pz;
+    }
+    for (float s : d2) bins.add(s, quarter, sums);
+  }
+
+  void add_near(const LitTriangle& t) {
+    const double area_mm2 =
+        0.5 * (t.corners_mm[1] - t.corners_mm[0]).cross(t.corners_mm[2] - t.corners_mm[0]).norm();
+    const double edge = longest_edge_mm(t.corners_mm);
+    for (int i = 0; i < n_points; ++i) {
+      NearIntegral<Bins>(points[static_cast<std::size_t>(i)], 1.0 / n_points, bins, options, sums)
+          .add(t.corners_mm, t.irradiance_sr_per_mm2, area_mm2, edge);
+    }
+  }
+};
 
 template <class Bins>
 void SourceCloud::add_to(const ExitSite& site, const Bins& bins, const PairSumOptions& options,
                          double* sums) const {
-  const Eigen::Vector3d center = site.center_mm - origin_mm_;
-  const float cx = static_cast<float>(center.x());
-  const float cy = static_cast<float>(center.y());
-  const float cz = static_cast<float>(center.z());
-  const float site_edge = static_cast<float>(site.size_mm);
-  const float far_ratio = static_cast<float>(options.far_ratio);
-  const int n_points = site.size_mm > 0.0 ? 3 : 1;
-  const std::array<Eigen::Vector3d, 3> points = {site.points_mm[0] - origin_mm_,
-                                                 site.points_mm[1] - origin_mm_,
-                                                 site.points_mm[2] - origin_mm_};
-  const std::size_t n = power_.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const float dx = x_[k] - cx;
-    const float dy = y_[k] - cy;
-    const float dz = z_[k] - cz;
-    const float d2 = dx * dx + dy * dy + dz * dz;
-    const float far = far_ratio * std::max(site_edge, edge_[k]);
-    if (d2 > far * far) {
-      bins.add(d2, power_[k], sums);
-      continue;
-    }
-    const LitTriangle& t = triangles_[k];
-    const double area_mm2 =
-        0.5 * (t.corners_mm[1] - t.corners_mm[0]).cross(t.corners_mm[2] - t.corners_mm[0]).norm();
-    for (int i = 0; i < n_points; ++i) {
-      NearIntegral<Bins>(points[i], 1.0 / n_points, bins, options, sums)
-          .add(t.corners_mm, t.irradiance_sr_per_mm2, area_mm2, static_cast<double>(edge_[k]));
-    }
-  }
+  if (nodes_.empty()) return;
+  const Eigen::Vector3f c = (site.center_mm - origin_mm_).cast<float>();
+  const Eigen::Matrix3f s = site.covariance_mm2.cast<float>();
+  Sum<Bins> sum{*this,
+                bins,
+                options,
+                sums,
+                c.x(),
+                c.y(),
+                c.z(),
+                static_cast<float>(site.radius_mm()),
+                static_cast<float>(options.far_ratio),
+                s(0, 0),
+                s(0, 1),
+                s(0, 2),
+                s(1, 1),
+                s(1, 2),
+                s(2, 2),
+                site.is_point() ? 1 : 4,
+                site.points_mm};
+  for (Eigen::Vector3d& p : sum.points) p -= origin_mm_;
+  sum.visit(0);
 }
 
 template void SourceCloud::add_to(const ExitSite&, const UniformBins&, const PairSumOptions&,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,38 +14,47 @@
 
 namespace scattermeter {
 
-// Where light leaves: a whole patch (its mean counts) or a single point (size 0).
+// Where light leaves: a patch, or the samples that fell on it (their mean counts), or a single
+// point (covariance 0).
 struct ExitSite {
-  Eigen::Vector3d center_mm;
-  std::array<Eigen::Vector3d, 3> points_mm;  // equal weights, exact for polynomials of degree 2
-  double size_mm = 0;                        // longest edge of the patch; 0: only center_mm counts
+  Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_mm2 = Eigen::Matrix3d::Zero();  // rank at most 2
+  // Four points of equal weight with this mean and covariance: the mean of any quadratic is exact.
+  std::array<Eigen::Vector3d, 4> points_mm;
+  double radius_mm() const { return std::sqrt(2.0 * covariance_mm2.trace()); }
+  bool is_point() const { return covariance_mm2.trace() == 0.0; }
 };
 
+// The samples that fell on a patch, by their mean and covariance.
+ExitSite exit_samples(const Eigen::Vector3d& mean_mm, const Eigen::Matrix3d& covariance_mm2);
 // The whole patch, sampled evenly.
 ExitSite exit_patch(const PatchMesh& patches, int patch_idx);
-// The samples that fell on a patch: three points with their mean and covariance (of rank 2), so
-// that the mean of any quadratic over the samples is exact. `size_mm`: longest edge of the patch.
-ExitSite exit_samples(const Eigen::Vector3d& mean_mm, const Eigen::Matrix3d& covariance_mm2,
-                      double size_mm);
-inline ExitSite exit_point(const Eigen::Vector3d& p_mm) { return {p_mm, {p_mm, p_mm, p_mm}, 0.0}; }
+inline ExitSite exit_point(const Eigen::Vector3d& p_mm) {
+  return {p_mm, Eigen::Matrix3d::Zero(), {p_mm, p_mm, p_mm, p_mm}};
+}
+// The same site elsewhere.
+ExitSite moved(const ExitSite& site, const Eigen::Vector3d& by_mm);
 
 struct PairSumOptions {
-  // One pair of centres stands for site and source where they are farther apart than this many
-  // times the longer of their edges. Nearer ones are integrated: three points on the site's side,
-  // and on the source's side three points of triangles cut until they are smaller than distance /
-  // near_ratio or than floor_mm. Measured on a plane with R at z_r = size: see
+  // A cluster of sources stands for its members where the distance between its centroid and the
+  // site's centre is at least this many times the sum of their radii. Both are then replaced by
+  // points that keep the mean and the covariance of the difference vector, so the error is of third
+  // order in radius / distance. Measured on a plane and a cube against adaptive quadrature: see
   // tests/core/pair_sums_test.cc.
-  double far_ratio = 10.0;
-  double near_ratio = 3.0;
+  double far_ratio = 6.0;
+  // Nearer lit triangles are integrated from each of the site's points: cut until they are smaller
+  // than distance / near_ratio or than floor_mm.
+  double near_ratio = 1.0;
   double floor_mm = 0.02;
 };
 
-// The lit surface, ready for summing: a flat copy in single precision, relative to `origin_mm`.
+// The lit surface, ready for summing: a binary tree of clusters with power, centroid and
+// covariance, in single precision relative to `origin_mm`.
 class SourceCloud {
  public:
   SourceCloud(const IncidentLight& light, const Eigen::Vector3d& origin_mm);
 
-  std::size_t size() const { return power_.size(); }
+  std::size_t size() const { return triangles_.size(); }
   // Adds, for the mean over the site, the entering power of every source at its distance:
   // afterwards sum over i of sums[i] f(d_i) is the mean over the site of
   // ∫ E(x) f(|x_site - x|) dA, for any f that the bins represent. sums: bins.size() values, in sr.
@@ -52,11 +63,24 @@ class SourceCloud {
               double* sums) const;
 
  private:
+  // Lit triangles [begin, end) in the order of the tree. The left child stands right behind its
+  // parent; right < 0: a single triangle.
+  struct Node {
+    float x, y, z;                 // centroid of the power
+    float power;                   // sr
+    float radius;                  // no part of the cluster is farther from the centroid
+    float xx, xy, xz, yy, yz, zz;  // covariance of the power about the centroid, mm^2
+    std::int32_t triangle;         // of a leaf
+    std::int32_t right;
+  };
+  struct Moments;
+  template <class Bins>
+  struct Sum;
+  Moments build(const std::vector<Moments>& leaves, std::int32_t* begin, std::int32_t* end);
+
   Eigen::Vector3d origin_mm_;
-  std::vector<float> x_, y_, z_;  // centroid of the entering power
-  std::vector<float> power_;      // sr
-  std::vector<float> edge_;       // longest edge, mm
-  std::vector<LitTriangle> triangles_;
+  std::vector<Node> nodes_;
+  std::vector<LitTriangle> triangles_;  // relative to the origin
 };
 
 }  // namespace scattermeter

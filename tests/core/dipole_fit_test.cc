@@ -100,7 +100,7 @@ TEST(DipoleFit, ScalesWithTheWorld) {
   std::vector<ExitSite> sites = plate.sites();
   for (ExitSite& site : sites) {
     site.center_mm *= 1000.0;
-    site.size_mm *= 1000.0;
+    site.covariance_mm2 *= 1e6;
     for (auto& p : site.points_mm) p *= 1000.0;
   }
   system.weights = smooth_weights(sites, SourceCloud(light, {0, 0, 0}), large_knots, pairs);
