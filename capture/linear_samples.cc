@@ -28,6 +28,7 @@ CfaSamples linear_samples(const RawFrame& frame, const SensorNoise& sensor, doub
     if (above_zero < wanted) out.floor_counts = std::max(out.floor_counts, wanted - above_zero);
   }
   const NoiseModel noise(sensor, frame);
+  out.variance_per_count = 1.0 / sensor.gain_e_per_count;
   const std::array<double, 4> clip = clip_levels(frame);
   const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   out.signal_counts.resize(n);

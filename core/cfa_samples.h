@@ -27,6 +27,9 @@ struct CfaSamples {
   // Samples below this many counts above black are cut at zero by the camera; 0 when black lies
   // high enough for the noise to swing both ways.
   double floor_counts = 0;
+  // Photon noise: the variance grows by this many counts^2 for every count of signal (one over the
+  // gain in electrons per count).
+  double variance_per_count = 0;
 
   int channel(int x, int y) const { return channel_of_phase[cfa_phase(x, y)]; }
 };

@@ -1,6 +1,9 @@
 // The dipole that explains the recovered reflectance.
 #pragma once
 
+#include <Eigen/Core>
+
+#include "core/dipole_solver.h"
 #include "core/distance_weights.h"
 #include "core/estimate.h"
 #include "core/linear_shot.h"
@@ -17,18 +20,28 @@ struct DipoleFitOptions {
   // first and relative rms above the second.
   double max_reduced_chi2 = 4.0;
   double max_rms_relative = 0.01;
+  // A misfit is significant when it were less probable than this if the dipole held. Significant,
+  // it counts `misfit_margin` times as an error of the method (nuisances that are not fitted), and
+  // the dipole is refused where it exceeds the last.
+  double misfit_p_value = 1e-6;
+  double misfit_margin = 2.0;
+  double max_misfit_relative = 2e-3;
   void Check() const;  // std::invalid_argument naming the field
 };
 
-// Least squares of s R(d; sigma_s', sigma_a) against the recovered r in the metric of r's own
-// errors, which is the image's chi-square; s is the scale with its prior. Continuous in all
-// parameters (Ceres, analytic derivatives), in (log sigma_t', 1 - alpha', log s), with 0 <= 1 -
-// alpha' <= 0.95. Started from the best of a coarse set over all magnitudes that the knots can
-// resolve, so no guess is asked for. Standard deviations from the Jacobian at the optimum, widened
-// by sqrt(reduced chi-square) where that exceeds 1; intervals are +-1.96 std, cut at 0. The answer
-// carries its reasons for refusal: too few rows, not converged, a mean free path outside what the
-// knots resolve, an undetermined sigma_s', a residual the dipole cannot explain.
-Estimate fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
-                    const DipoleFitOptions& options);
+struct DipoleFit {
+  Estimate estimate;
+  DipoleSolver::Point optimum;
+  Eigen::VectorXd predicted;  // l on the system's rows at the optimum; empty where there is none
+};
+
+// The dipole of least chi-square on the image (DipoleSolver). Standard deviations from the Jacobian
+// at the optimum, widened by sqrt(reduced chi-square) where that exceeds 1; intervals are +-1.96
+// std, cut at 0, and from the profile of the likelihood where a standard deviation exceeds a tenth
+// of its value. The answer carries its reasons for refusal: too few rows, values that are not
+// finite, not converged, a mean free path outside what the knots resolve, an undetermined sigma_s',
+// a residual the dipole cannot explain.
+DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
+                     const DipoleFitOptions& options);
 
 }  // namespace scattermeter

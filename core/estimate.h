@@ -38,7 +38,11 @@ struct Estimate {
   double reduced_chi2 = 0;  // of the image: residual^2 / variance, per degree of freedom
   double rms_relative = 0;  // rms residual over rms l
   double psnr_db = 0;       // 20 log10(largest l / rms residual), of the re-rendering
-  std::size_t rows = 0;     // patches times shots that took part
+  // What a smooth function of distance explains of the image and this model's does not: its size
+  // relative to the image, and how probable at least as much of it were if the model held.
+  double misfit_relative = 0;
+  double misfit_p_value = 1;
+  std::size_t rows = 0;  // patches times shots that took part
   bool converged = false;
   // Why the numbers must not be trusted; empty: they may. Whole sentences.
   std::vector<std::string> reasons;

@@ -76,6 +76,12 @@ Eigen::Matrix2d FitUncertainty::covariance(
   return to_sigma * all.topLeftCorner(2, 2) * to_sigma.transpose();
 }
 
+Eigen::Matrix2d FitUncertainty::covariance_of_fitted() const {
+  return covariance([&](const std::string& cause) {
+    return std::find(held_causes_.begin(), held_causes_.end(), cause) != held_causes_.end();
+  });
+}
+
 double FitUncertainty::log_scale_std() const {
   if (movable_.empty() || movable_.front() != 2) return 0.0;
   std::vector<Eigen::Index> free = {0, 1};

@@ -26,6 +26,8 @@ class FitUncertainty {
   // Covariance of (sigma_s', sigma_a), 1/mm^2, with those causes held fixed for which `known` is
   // true.
   Eigen::Matrix2d covariance(const std::function<bool(const std::string&)>& known) const;
+  // The same without the nuisances that are not fitted: what the chi-square itself holds.
+  Eigen::Matrix2d covariance_of_fitted() const;
   // Standard deviation of log s; 0 for an exact scale.
   double log_scale_std() const;
   // The causes beside noise: "scale" and the nuisances' groups, each once.

@@ -36,9 +36,13 @@ struct DenseSystem {
   WeightMatrix weights;
   Eigen::VectorXd l;
   Eigen::VectorXd std_l;
-  std::vector<Nuisance> nuisances = {};   // may be empty; those that are fitted come first
-  Eigen::MatrixXd nuisance_columns = {};  // rows x nuisances: dl / dv
+  std::vector<Nuisance> nuisances = {};      // may be empty; those that are fitted come first
+  Eigen::MatrixXd nuisance_columns = {};     // rows x nuisances: dl / dv
+  std::vector<Eigen::Index> shot_rows = {};  // number of rows of each shot, in order
 };
+
+// The rows of one shot, and the nuisances that touch them.
+DenseSystem shot_of(const DenseSystem& system, std::size_t shot);
 
 // All used rows of the shots, one below the other. Precondition: all shots share their knots.
 // `numerical_relative_std`: error of the prediction itself (discretisation), relative to l; joins

@@ -12,27 +12,29 @@ namespace {
 struct Mean {
   double l = 0;
   double variance = 0;
+  double spread = 1;  // of the variance by carrying the mean to its place
 };
 
 // Running sums of one channel over one patch. Samples of the three colours stand at different
 // places, so their plain means belong to different points of the patch; a plane through the
 // channel's own samples carries its mean to the point that all colours share.
 struct Sum {
-  double n = 0, counts = 0;
+  double n = 0, counts = 0, factor = 0;
   std::size_t clipped = 0;
   double l = 0, variance = 0;
   Eigen::Vector2d x = Eigen::Vector2d::Zero();   // sum of positions, px
   Eigen::Vector2d lx = Eigen::Vector2d::Zero();  // sum of l times position
   Eigen::Matrix2d xx = Eigen::Matrix2d::Zero();  // sum of position times position
 
-  void add(int px, int py, double factor, double signal, double signal_variance) {
+  void add(int px, int py, double factor_, double signal, double signal_variance) {
     const Eigen::Vector2d p(px, py);
     n += 1.0;
     counts += signal;
-    l += factor * signal;
-    variance += factor * factor * signal_variance;
+    factor += factor_;
+    l += factor_ * signal;
+    variance += factor_ * factor_ * signal_variance;
     x += p;
-    lx += factor * signal * p;
+    lx += factor_ * signal * p;
     xx += p * p.transpose();
   }
 
@@ -41,14 +43,15 @@ struct Sum {
   // 1/n + d^T S^-1 d.
   Mean mean_at(const Eigen::Vector2d& place) const {
     const Eigen::Vector2d center = x / n;
-    Mean out{l / n, variance / (n * n)};
+    Mean out{l / n, variance / (n * n), 1.0};
     const Eigen::Matrix2d s = xx - n * center * center.transpose();
     // Too few samples, or all nearly on a line: the plain mean must do.
     constexpr double kFewest = 6.0;
     if (n < kFewest || s.determinant() < 1e-2 * s.trace() * s.trace()) return out;
     const Eigen::Vector2d weight = s.inverse() * (place - center);
     out.l += weight.dot(lx - l * center);
-    out.variance *= 1.0 + n * weight.dot(place - center);
+    out.spread = 1.0 + n * weight.dot(place - center);
+    out.variance *= out.spread;
     return out;
   }
 };
@@ -111,6 +114,7 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
     ChannelObservation& channel = out.channel[c];
     channel.l.assign(n_rows, 0.0);
     channel.variance.assign(n_rows, 0.0);
+    channel.variance_per_l.assign(n_rows, 0.0);
     channel.state.assign(n_rows, RowState::kNoSamples);
     if (scatter[c].expected > 0.0) channel.noise_ratio = scatter[c].squared / scatter[c].expected;
     const double unit = 1.0 / (responsivity[c] * samples.exposure_s);
@@ -132,6 +136,9 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
       const Mean mean = s.mean_at(place[row] / count[row]);
       channel.l[row] = unit * mean.l;
       channel.variance[row] = unit * unit * mean.variance;
+      // Samples of l / (unit factor) counts: sum of factor^2 variance_per_count l / (unit factor).
+      channel.variance_per_l[row] =
+          unit * samples.variance_per_count * s.factor / (s.n * s.n) * mean.spread;
       channel.state[row] = RowState::kUsed;
       channel.brightest_snr =
           std::max(channel.brightest_snr, channel.l[row] / std::sqrt(channel.variance[row]));

@@ -16,7 +16,11 @@ enum class RowState : unsigned char {
   kNoSamples,  // no sample of the channel falls on it
   kClipped,    // at least one of its samples is clipped
   kFloor,      // so dark that the camera cuts its noise off at zero
+  kMirror,     // mirrors a light into the camera
+  kNoise,      // its expected light does not stand out of the noise
+  kOutlier,    // far from what all others say: dust, a scratch, a mark
 };
+inline constexpr std::size_t kRowStates = 7;
 
 // One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), the mean over the channel's samples on
 // the patch, carried to the mean place of the samples of all channels (SampleMap::mean_mm) by their
@@ -24,6 +28,7 @@ enum class RowState : unsigned char {
 struct ChannelObservation {
   std::vector<double> l;         // per row, W/mm^2 for known responsivity, else up to one factor
   std::vector<double> variance;  // of l, from the samples' variances
+  std::vector<double> variance_per_l;  // growth of the variance with l (photon noise), W/mm^2
   std::vector<RowState> state;
   std::size_t rows_used = 0;
   std::size_t rows_clipped = 0;

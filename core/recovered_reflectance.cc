@@ -7,15 +7,7 @@
 
 namespace scattermeter {
 
-Eigen::VectorXd RecoveredReflectance::values() const {
-  // Rows are orthogonal with squared length lambda: Vᵀ-part of r is whitened / sqrt(lambda).
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(sqrt_information.cols());
-  for (Eigen::Index i = 0; i < sqrt_information.rows(); ++i) {
-    r +=
-        sqrt_information.row(i).transpose() * (whitened[i] / sqrt_information.row(i).squaredNorm());
-  }
-  return r;
-}
+Eigen::VectorXd RecoveredReflectance::values() const { return inverse * whitened; }
 
 RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_tolerance) {
   const Eigen::Index n_knots = system.weights.cols();
@@ -39,7 +31,14 @@ RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_
     right.noalias() += w.transpose() * l;
     l2 += l.squaredNorm();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
+  // Columns that nothing touches scale to zero rather than to infinity.
+  const Eigen::VectorXd scale = information.diagonal().cwiseSqrt();
+  const Eigen::VectorXd inverse_scale =
+      scale.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
+  const Eigen::MatrixXd scaled = inverse_scale.asDiagonal() *
+                                 Eigen::MatrixXd(information.selfadjointView<Eigen::Lower>()) *
+                                 inverse_scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const Eigen::VectorXd& lambda = eigen.eigenvalues();  // ascending
   const double limit = rank_tolerance * std::max(0.0, lambda[n - 1]);
   Eigen::Index first = 0;
@@ -47,9 +46,10 @@ RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_
   const Eigen::Index rank = n - first;
   RecoveredReflectance out;
   const Eigen::VectorXd root = lambda.tail(rank).cwiseSqrt();
-  out.sqrt_information = root.asDiagonal() * eigen.eigenvectors().rightCols(rank).transpose();
-  out.whitened =
-      root.cwiseInverse().asDiagonal() * (eigen.eigenvectors().rightCols(rank).transpose() * right);
+  const Eigen::MatrixXd vectors = eigen.eigenvectors().rightCols(rank);
+  out.sqrt_information = root.asDiagonal() * vectors.transpose() * scale.asDiagonal();
+  out.inverse = inverse_scale.asDiagonal() * vectors * root.cwiseInverse().asDiagonal();
+  out.whitened = out.inverse.transpose() * right;
   out.floor_chi2 = std::max(0.0, l2 - out.whitened.squaredNorm());
   out.rows = static_cast<std::size_t>(system.weights.rows());
   return out;

@@ -10,19 +10,21 @@
 namespace scattermeter {
 
 // r = W⁺ l by weighted least squares (paper eq. 28, each row divided by its standard deviation),
-// kept in the coordinates in which its errors are independent. With Wᵀ S⁻² W = V diag(lambda) Vᵀ
-// (S: standard deviations) and K the eigenvectors whose lambda exceeds `rank_tolerance` times the
-// largest:
-//   sqrt_information = diag(sqrt(lambda)) Vᵀ   (K rows),   whitened = sqrt_information r,
+// kept in the coordinates in which its errors are independent. The information Wᵀ S⁻² W (S:
+// standard deviations) is scaled to a unit diagonal D⁻¹ . D⁻¹ first, since knots and nuisances
+// differ by many orders of magnitude, then decomposed as V diag(lambda) Vᵀ; with the K eigenvectors
+// whose lambda exceeds `rank_tolerance` times the largest:
+//   sqrt_information = diag(sqrt(lambda)) Vᵀ D   (K rows),   whitened = sqrt_information r,
 // so that a candidate R on the knots has chi-square |sqrt_information R - whitened|^2 + floor_chi2
 // on the image itself. Directions of r that the image says nothing about are in no row. Where the
 // system has nuisances their columns stand behind those of W, and a candidate is (R, v).
 struct RecoveredReflectance {
   Eigen::MatrixXd sqrt_information;
   Eigen::VectorXd whitened;
-  double floor_chi2 = 0;  // of the best r
-  std::size_t rows = 0;   // rows of the image
-  // The shortest r that fits best (the pseudo-inverse's), 1/mm^2 on the knots.
+  Eigen::MatrixXd inverse;  // sqrt_information * inverse is the identity
+  double floor_chi2 = 0;    // of the best r
+  std::size_t rows = 0;     // rows of the image
+  // The r that fits best, 1/mm^2 on the knots; where several do, the shortest in the scaled metric.
   Eigen::VectorXd values() const;
 };
 

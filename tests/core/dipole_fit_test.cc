@@ -27,7 +27,7 @@ TEST(DipoleFit, RecoversTheTruthWhateverThePatch) {
     DipoleFitOptions options;
     options.eta_int_over_ext = truth.eta_int_over_ext;
     const Estimate e =
-        fit_dipole(noisy_system(w, plate.image(Dipole(truth)), 0.0, 1), knots, options);
+        fit_dipole(noisy_system(w, plate.image(Dipole(truth)), 0.0, 1), knots, options).estimate;
     EXPECT_TRUE(e.converged);
     EXPECT_NEAR(e.sigma_s_prime_per_mm.value, 2.19, 0.002 * 2.19) << "patch " << patch_mm;
     EXPECT_NEAR(e.sigma_a_per_mm.value, 0.002, 0.01 * 0.002) << "patch " << patch_mm;
@@ -57,7 +57,8 @@ TEST_P(DipoleFitNoise, UncertaintyIsTrue) {
     // A prior is a statement about how the scale is drawn.
     scale[i] = std::isfinite(scale_std) ? std::exp(scale_std * normal(random)) : 37.0;
     const Estimate e = fit_dipole(noisy_system(w, scale[i] * l, 0.01, static_cast<unsigned>(i + 1)),
-                                  knots, options);
+                                  knots, options)
+                           .estimate;
     ASSERT_TRUE(e.converged);
     s[i] = e.sigma_s_prime_per_mm.value;
     a[i] = e.sigma_a_per_mm.value;
@@ -85,7 +86,7 @@ TEST(DipoleFit, ScalesWithTheWorld) {
   const WeightMatrix w = plate.weights(knots);
   const Eigen::VectorXd l = plate.image(Dipole({1.2, 0.004, 1.3}));
   DipoleFitOptions options;
-  const Estimate small = fit_dipole(noisy_system(w, l, 0.01, 3), knots, options);
+  const Estimate small = fit_dipole(noisy_system(w, l, 0.01, 3), knots, options).estimate;
   // Areas grow by 10^6 and R falls by 10^6: l stays, W grows.
   const DistanceKnots large_knots(1000.0 * knots.resolution_mm(), 1000.0 * knots.max_distance_mm());
   DenseSystem system = noisy_system(w, l, 0.01, 3);
@@ -104,7 +105,7 @@ TEST(DipoleFit, ScalesWithTheWorld) {
     for (auto& p : site.points_mm) p *= 1000.0;
   }
   system.weights = smooth_weights(sites, SourceCloud(light, {0, 0, 0}), large_knots, pairs);
-  const Estimate large = fit_dipole(system, large_knots, options);
+  const Estimate large = fit_dipole(system, large_knots, options).estimate;
   EXPECT_NEAR(1000.0 * large.sigma_s_prime_per_mm.value / small.sigma_s_prime_per_mm.value, 1.0,
               1e-4);
   EXPECT_NEAR(1000.0 * large.sigma_a_per_mm.value / small.sigma_a_per_mm.value, 1.0, 1e-3);
@@ -115,7 +116,7 @@ TEST(DipoleFit, NoAbsorptionIsFoundAsNone) {
   const DistanceKnots knots = plate.knots();
   const DenseSystem system =
       noisy_system(plate.weights(knots), plate.image(Dipole({1.5, 0.0, 1.3})), 0.0, 1);
-  const Estimate e = fit_dipole(system, knots, {});
+  const Estimate e = fit_dipole(system, knots, {}).estimate;
   EXPECT_TRUE(e.converged);
   EXPECT_NEAR(e.sigma_a_per_mm.value, 0.0, 2e-5);
   EXPECT_GE(e.sigma_a_per_mm.low95, 0.0);
@@ -135,19 +136,19 @@ TEST(DipoleFit, RefusesWhatItCannotTell) {
   const Eigen::VectorXd l = plate.image(Dipole({1.2, 0.004, 1.3}));
 
   DenseSystem few = noisy_system(w.topRows(7), l.head(7), 0.01, 1);
-  EXPECT_THAT(reasons(fit_dipole(few, knots, {})), HasSubstr("only 7 patches"));
+  EXPECT_THAT(reasons(fit_dipole(few, knots, {}).estimate), HasSubstr("only 7 patches"));
 
   const DenseSystem dark = noisy_system(0.0 * w, l, 0.01, 1);
-  EXPECT_THAT(reasons(fit_dipole(dark, knots, {})), HasSubstr("no light"));
+  EXPECT_THAT(reasons(fit_dipole(dark, knots, {}).estimate), HasSubstr("no light"));
 
   // Light that no dipole makes: brighter on the dark side.
   DenseSystem odd = noisy_system(w, l.reverse(), 0.01, 1);
-  EXPECT_THAT(reasons(fit_dipole(odd, knots, {})), HasSubstr("does not explain"));
+  EXPECT_THAT(reasons(fit_dipole(odd, knots, {}).estimate), HasSubstr("does not explain"));
 
   // A mean free path a quarter of the finest knot.
   const DenseSystem dense =
       noisy_system(w, plate.image(Dipole({4.0 / knots.resolution_mm(), 0.001, 1.3})), 0.01, 1);
-  EXPECT_FALSE(fit_dipole(dense, knots, {}).reasons.empty());
+  EXPECT_FALSE(fit_dipole(dense, knots, {}).estimate.reasons.empty());
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST_F(TiltedLight, PredictsTheScatterOfDrawnNuisances) {
   for (int i = 0; i < kSeeds; ++i) {
     DenseSystem drawn =
         system(static_cast<unsigned>(i + 1), 0.05 * normal(random), 0.05 * normal(random));
-    const Estimate e = fit_dipole(drawn, knots_, options);
+    const Estimate e = fit_dipole(drawn, knots_, options).estimate;
     ASSERT_TRUE(e.converged);
     EXPECT_NEAR(e.reduced_chi2, 1.0, 0.3);
     s[i] = e.sigma_s_prime_per_mm.value;
@@ -59,7 +59,7 @@ TEST_F(TiltedLight, PredictsTheScatterOfDrawnNuisances) {
     predicted_a += e.sigma_a_per_mm.std / kSeeds;
     drawn.nuisances.clear();
     drawn.nuisance_columns.resize(0, 0);
-    blind[i] = fit_dipole(drawn, knots_, options).sigma_a_per_mm.value;
+    blind[i] = fit_dipole(drawn, knots_, options).estimate.sigma_a_per_mm.value;
   }
   const auto spread = [](const Eigen::ArrayXd& v, double truth) {
     return std::sqrt((v - truth).square().mean());
@@ -72,7 +72,7 @@ TEST_F(TiltedLight, PredictsTheScatterOfDrawnNuisances) {
 TEST_F(TiltedLight, BudgetNamesEveryCause) {
   DipoleFitOptions options;
   options.scale.relative_std = 0.02;
-  const Estimate e = fit_dipole(system(3, 0.0, 0.0), knots_, options);
+  const Estimate e = fit_dipole(system(3, 0.0, 0.0), knots_, options).estimate;
   ASSERT_EQ(e.budget.size(), 4U);
   EXPECT_EQ(e.budget[0].cause, "noise");
   EXPECT_EQ(e.budget[1].cause, "scale");
@@ -98,13 +98,13 @@ TEST_F(TiltedLight, HeldNuisanceWidensOnly) {
     DenseSystem drawn = system(static_cast<unsigned>(i + 1), 0.005 * normal(random), 0.0);
     drawn.nuisances = {{"tilt x", 0.005, false}};
     drawn.nuisance_columns = columns_.leftCols(1).eval();
-    const Estimate held = fit_dipole(drawn, knots_, {});
+    const Estimate held = fit_dipole(drawn, knots_, {}).estimate;
     a[i] = held.sigma_a_per_mm.value;
     predicted += held.sigma_a_per_mm.std / kSeeds;
     if (i > 0) continue;
     drawn.nuisances.clear();
     drawn.nuisance_columns.resize(0, 0);
-    const Estimate without = fit_dipole(drawn, knots_, {});
+    const Estimate without = fit_dipole(drawn, knots_, {}).estimate;
     EXPECT_NEAR(held.sigma_a_per_mm.value, without.sigma_a_per_mm.value, 1e-9);
     EXPECT_GT(held.sigma_a_per_mm.std, 1.05 * without.sigma_a_per_mm.std);
   }
@@ -116,7 +116,7 @@ TEST_F(TiltedLight, NoiseAlone) {
   DenseSystem s = system(4, 0.0, 0.0);
   s.nuisances.clear();
   s.nuisance_columns.resize(0, 0);
-  const Estimate e = fit_dipole(s, knots_, {});
+  const Estimate e = fit_dipole(s, knots_, {}).estimate;
   ASSERT_EQ(e.budget.size(), 1U);
   EXPECT_DOUBLE_EQ(e.budget[0].std_sigma_a_per_mm, e.sigma_a_per_mm.std);
   EXPECT_EQ(e.scale.std, 0.0);

@@ -1,0 +1,99 @@
+#include "core/shot_agreement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "core/chi_square.h"
+#include "core/dipole_curve.h"
+
+namespace scattermeter {
+namespace {
+
+// Least squares in the normal form A x = b; the fall of the cost that the best x brings, b^T x.
+struct Normal {
+  Eigen::MatrixXd a;
+  Eigen::VectorXd b;
+
+  explicit Normal(Eigen::Index n) : a(Eigen::MatrixXd::Zero(n, n)), b(Eigen::VectorXd::Zero(n)) {}
+  double fall() const {
+    const Eigen::VectorXd s =
+        a.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+    Eigen::MatrixXd scaled = s.asDiagonal() * a * s.asDiagonal();
+    // Directions that nothing determines bring no fall.
+    scaled.diagonal().array() += 1e-12;
+    const Eigen::VectorXd right = s.cwiseProduct(b);
+    return right.dot(scaled.ldlt().solve(right));
+  }
+};
+
+}  // namespace
+
+ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& knots,
+                             const DipoleSolver::Point& joint, double eta, const ScalePrior& scale,
+                             double noise_inflation) {
+  const auto n_shots = static_cast<Eigen::Index>(system.shot_rows.size());
+  ShotAgreement out;
+  if (n_shots < 2) return out;
+  const double s = std::exp(joint.log_s);
+  const DipoleCurve curve = dipole_curve(knots, joint.u, joint.q, eta);
+  const bool scale_moves = scale.relative_std > 0.0;
+  const Eigen::Index shared = (scale_moves ? 1 : 0) + system.nuisance_columns.cols();
+  Normal together(2 + shared);
+  Normal apart(2 * n_shots + shared);
+  Eigen::Index at = 0;
+  for (Eigen::Index i = 0; i < n_shots; ++i) {
+    const Eigen::Index rows = system.shot_rows[static_cast<std::size_t>(i)];
+    const auto w = system.weights.middleRows(at, rows);
+    Eigen::MatrixXd j(rows, 2 + shared);
+    j.col(0) = w * (s * curve.d_u);
+    j.col(1) = w * (s * curve.d_q);
+    const Eigen::VectorXd predicted = w * (s * curve.r);
+    if (scale_moves) j.col(2) = predicted;
+    Eigen::VectorXd rest = system.l.segment(at, rows) - predicted;
+    if (system.nuisance_columns.cols() > 0) {
+      const auto columns = system.nuisance_columns.middleRows(at, rows);
+      j.rightCols(columns.cols()) = columns;
+      for (std::size_t v = 0; v < joint.v.size(); ++v) {
+        rest -= joint.v[v] * columns.col(static_cast<Eigen::Index>(v));
+      }
+    }
+    const Eigen::VectorXd inverse_std = system.std_l.segment(at, rows).cwiseInverse();
+    j = (inverse_std.asDiagonal() * j).eval();
+    rest = rest.cwiseProduct(inverse_std).eval();
+    at += rows;
+    const Eigen::MatrixXd jj = j.transpose() * j / noise_inflation;
+    const Eigen::VectorXd jr = j.transpose() * rest / noise_inflation;
+    together.a += jj;
+    together.b += jr;
+    const Eigen::Index own = 2 * i;
+    const Eigen::Index common = 2 * n_shots;
+    apart.a.block(own, own, 2, 2) += jj.topLeftCorner(2, 2);
+    apart.a.block(own, common, 2, shared) += jj.topRightCorner(2, shared);
+    apart.a.block(common, own, shared, 2) += jj.bottomLeftCorner(shared, 2);
+    apart.a.bottomRightCorner(shared, shared) += jj.bottomRightCorner(shared, shared);
+    apart.b.segment(own, 2) += jr.head(2);
+    apart.b.tail(shared) += jr.tail(shared);
+  }
+  // Priors: (value + change)^2 / std^2.
+  const auto prior = [&](Eigen::Index parameter, double value, double std) {
+    if (!std::isfinite(std)) return;
+    for (auto [normal, first] :
+         {std::pair{&together, Eigen::Index{2}}, std::pair{&apart, 2 * n_shots}}) {
+      normal->a(first + parameter, first + parameter) += 1.0 / (std * std);
+      normal->b[first + parameter] -= value / (std * std);
+    }
+  };
+  if (scale_moves) prior(0, joint.log_s, scale.relative_std);
+  for (std::size_t v = 0; v < system.nuisances.size(); ++v) {
+    prior((scale_moves ? 1 : 0) + static_cast<Eigen::Index>(v),
+          v < joint.v.size() ? joint.v[v] : 0.0, system.nuisances[v].std);
+  }
+  out.chi2 = std::max(0.0, apart.fall() - together.fall());
+  out.dof = static_cast<int>(2 * (n_shots - 1));
+  out.p_value = chi_square_p_value(out.chi2, out.dof);
+  return out;
+}
+
+}  // namespace scattermeter

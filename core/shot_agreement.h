@@ -1,0 +1,25 @@
+// Whether the shots of one material tell the same.
+#pragma once
+
+#include "core/dipole_solver.h"
+#include "core/linear_shot.h"
+
+namespace scattermeter {
+
+// The paper's table 3 as a test: how far the chi-square falls when every shot may have coefficients
+// of its own while light, pose, scale and the errors of the method stay common to all, each within
+// its prior. Where the shots agree the fall is chi-square distributed with 2 (shots - 1) degrees of
+// freedom.
+struct ShotAgreement {
+  double chi2 = 0;
+  int dof = 0;         // 0: a single shot, nothing to compare
+  double p_value = 1;  // probability of at least this fall where the shots agree
+};
+
+// Linearised at the joint optimum; chi-squares are divided by `noise_inflation`. The system's
+// nuisances that are not fitted take part with their standard deviations.
+ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& knots,
+                             const DipoleSolver::Point& joint, double eta_int_over_ext,
+                             const ScalePrior& scale, double noise_inflation);
+
+}  // namespace scattermeter
