@@ -87,8 +87,10 @@ CheckReport check_rig(const Rig& rig, const std::string& shots_folder,
         "camera centre known to {:.3f}, {:.3f}, {:.3f} mm (std in x, y, z)", s.x(), s.y(), s.z()));
   }
   const ObjectLibrary library(rig, scenes, std::nullopt, 0.0);
+  std::optional<SharedView> view;
+  if (shared_pose) view = see_all(rig, scenes, library, *shared_pose);
   const std::vector<OpenedShot> shots =
-      open_shots(rig, folder.paths, scenes, library, shared_pose, options.quiet);
+      open_shots(rig, shots_in_files(rig, folder.paths), scenes, library, view, options.quiet);
   for (const OpenedShot& shot : shots) {
     if (!shared_pose) check_pose(shot.pose, "pose in " + shot.rig->file, options, report);
     check_shot(shot, options, report);

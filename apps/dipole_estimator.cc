@@ -61,10 +61,13 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
 void estimate_dipole(Estimation& e) {
   const DistanceKnots knots(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm());
   const PairSumOptions pairs = pair_options(knots);
-  const Weights weights = all_weights(e.shots, e.library, e.options.quiet,
-                                      [&](const SeenObject& seen, const SourceCloud& sources) {
-                                        return smooth_weights(seen.sites, sources, knots, pairs);
-                                      });
+  const Weights& weights = e.weights;
+  add_weights(
+      e.shots, e.library, e.options.quiet,
+      [&](const SeenObject& seen, const SourceCloud& sources) {
+        return smooth_weights(seen.sites, sources, knots, pairs);
+      },
+      e.weights);
   e.watch.lap("light");
   DipoleFitOptions fit;
   fit.scale.relative_std = e.rig.camera.responsivity ? e.rig.camera.responsivity_relative_std

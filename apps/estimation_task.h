@@ -21,8 +21,8 @@ struct Task {
   double eta = 0;
 };
 
-// Materials in the rig's order, R G B each. Throws InputError where the shots of one material are
-// of objects with different eta.
+// Materials of the shots in the rig's order, R G B each. Throws InputError where the shots of one
+// material are of objects with different eta.
 std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots);
 
 // What makes a shot useless as a whole in a channel (dark, over-exposed, nothing seen); empty:
@@ -33,9 +33,10 @@ std::string shot_problem(const OpenedShot& shot, std::size_t channel);
 using WeightKey = std::pair<const SeenObject*, std::string>;
 using Weights = std::map<WeightKey, WeightMatrix>;
 
-// W of every view and light that a shot needs, each once.
-Weights all_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
-                    const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make);
+// Makes W of every view and light that a shot needs, each once; those that are there already stay.
+void add_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
+                 const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make,
+                 Weights& weights);
 
 // The task's used rows under all their lights.
 DenseSystem system_of(const Rig& rig, const Task& task, const Weights& weights);
@@ -49,6 +50,7 @@ struct Estimation {
   const std::vector<OpenedShot>& shots;
   const std::vector<Task>& tasks;
   ObjectLibrary& library;
+  Weights& weights;  // on smooth knots, kept from one set of shots to the next
   const MeasureOptions& options;
   Stopwatch& watch;
   std::vector<ChannelResult>& results;  // one per task; those refused already are left alone
