@@ -42,7 +42,11 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
   Sensitivities all;
   Progress progress("uncertainties", static_cast<int>(media.size()), e.options.quiet);
   for (const auto& [key, list] : media) {
-    all.by_light[key] = sensitivity(*key.first, e.rig.light(key.second).led, list, knots);
+    const auto [changed, is_new] = e.changed_weights.try_emplace(key);
+    if (is_new) {
+      changed->second = changed_weights(*key.first, e.rig.light(key.second).led, knots);
+    }
+    all.by_light[key] = sensitivity(*key.first, changed->second, list, knots);
     progress.step();
   }
   all.of_task.resize(e.tasks.size());

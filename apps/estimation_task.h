@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/measure.h"
+#include "apps/nuisances.h"
 #include "apps/shot_system.h"
 #include "apps/stopwatch.h"
 #include "core/linear_shot.h"
@@ -50,7 +51,9 @@ struct Estimation {
   const std::vector<OpenedShot>& shots;
   const std::vector<Task>& tasks;
   ObjectLibrary& library;
-  Weights& weights;  // on smooth knots, kept from one set of shots to the next
+  // On smooth knots, kept from one set of shots to the next.
+  Weights& weights;
+  ChangedWeightsByLight& changed_weights;
   const MeasureOptions& options;
   Stopwatch& watch;
   std::vector<ChannelResult>& results;  // one per task; those refused already are left alone

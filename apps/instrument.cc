@@ -50,7 +50,11 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
   for (const auto& [name, scene] : scenes_) {
     out.patch_size_mm[name] = library_.patches(name).patch_size_mm();
   }
-  if (!view_) weights_.clear();  // their views are gone
+  if (!view_) {
+    // Those of views that are gone.
+    weights_.clear();
+    changed_weights_.clear();
+  }
   const std::vector<OpenedShot> shots =
       open_shots(rig_, source, scenes_, library_, view_, options_.quiet);
   watch.lap("shots");
@@ -65,7 +69,8 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
     }
     out.results.push_back(result);
   }
-  Estimation estimation{rig_, shots, tasks, library_, weights_, options_, watch, out.results};
+  Estimation estimation{rig_,     shots, tasks,      library_, weights_, changed_weights_,
+                        options_, watch, out.results};
   if (options_.model == Model::kPaper) {
     estimate_paper(estimation);
   } else {

@@ -39,6 +39,7 @@ class Instrument {
   ObjectLibrary library_;
   std::optional<SharedView> view_;
   Weights weights_;
+  ChangedWeightsByLight changed_weights_;
 };
 
 }  // namespace scattermeter::apps
