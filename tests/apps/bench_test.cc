@@ -1,4 +1,4 @@
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -20,8 +20,8 @@ using ::testing::HasSubstr;
 
 TEST(AnswerStatistics, ByHand) {
   // Truth 10; answers 9 and 13, each with its deviation and interval.
-  const AnswerStatistics s = answer_statistics(
-      10.0, {{{9.0, 1.0, 7.04, 10.96}, 0.5}, {{13.0, 1.0, 11.04, 14.96}, 0.5}});
+  const AnswerStatistics s =
+      answer_statistics(10.0, {{{9.0, 1.0, 7.04, 10.96}, 0.5}, {{13.0, 1.0, 11.04, 14.96}, 0.5}});
   EXPECT_EQ(s.n, 2U);
   EXPECT_DOUBLE_EQ(s.mean, 11.0);
   EXPECT_DOUBLE_EQ(s.bias_relative, 0.1);
