@@ -9,6 +9,7 @@
 #include "apps/shot_folder.h"
 #include "apps/shot_pose.h"
 #include "apps/shot_system.h"
+#include "apps/text_table.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -87,8 +88,10 @@ CheckReport check_rig(const Rig& rig, const std::string& shots_folder,
         "camera centre known to {:.3f}, {:.3f}, {:.3f} mm (std in x, y, z)", s.x(), s.y(), s.z()));
   }
   const ObjectLibrary library(rig, scenes, std::nullopt, 0.0);
+  std::optional<SharedView> view;
+  if (shared_pose) view = see_all(rig, scenes, library, *shared_pose);
   const std::vector<OpenedShot> shots =
-      open_shots(rig, folder.paths, scenes, library, shared_pose, options.quiet);
+      open_shots(rig, shots_in_files(rig, folder.paths), scenes, library, view, options.quiet);
   for (const OpenedShot& shot : shots) {
     if (!shared_pose) check_pose(shot.pose, "pose in " + shot.rig->file, options, report);
     check_shot(shot, options, report);
@@ -102,14 +105,17 @@ CheckReport check_rig(const Rig& rig, const std::string& shots_folder,
 }
 
 std::string check_table(const CheckReport& report) {
-  std::size_t width = 12;
-  for (const CheckItem& item : report.items) width = std::max(width, item.what.size());
-  std::string out = fmt::format("{:<{}}  {:>10}  {:>10}  {:<24} {}\n", "check", width, "value",
-                                "limit", "unit", "verdict");
+  using Align = TextTable::Align;
+  TextTable table({{"check", Align::kLeft},
+                   {"value"},
+                   {"limit"},
+                   {"unit", Align::kLeft},
+                   {"verdict", Align::kLeft}});
   for (const CheckItem& item : report.items) {
-    out += fmt::format("{:<{}}  {:>10.4g}  {:>10.4g}  {:<24} {}\n", item.what, width, item.value,
-                       item.limit, item.unit, item.passed ? "pass" : "FAIL: " + item.advice);
+    table.add_row({item.what, fmt::format("{:.4g}", item.value), fmt::format("{:.4g}", item.limit),
+                   item.unit, item.passed ? "pass" : "FAIL: " + item.advice});
   }
+  std::string out = table.text();
   for (const std::string& note : report.notes) out += "note: " + note + "\n";
   const auto failed = std::count_if(report.items.begin(), report.items.end(),
                                     [](const CheckItem& i) { return !i.passed; });

@@ -42,7 +42,11 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
   Sensitivities all;
   Progress progress("uncertainties", static_cast<int>(media.size()), e.options.quiet);
   for (const auto& [key, list] : media) {
-    all.by_light[key] = sensitivity(*key.first, e.rig.light(key.second).led, list, knots);
+    const auto [changed, is_new] = e.changed_weights.try_emplace(key);
+    if (is_new) {
+      changed->second = changed_weights(*key.first, e.rig.light(key.second).led, knots);
+    }
+    all.by_light[key] = sensitivity(*key.first, changed->second, list, knots);
     progress.step();
   }
   all.of_task.resize(e.tasks.size());
@@ -61,10 +65,13 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
 void estimate_dipole(Estimation& e) {
   const DistanceKnots knots(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm());
   const PairSumOptions pairs = pair_options(knots);
-  const Weights weights = all_weights(e.shots, e.library, e.options.quiet,
-                                      [&](const SeenObject& seen, const SourceCloud& sources) {
-                                        return smooth_weights(seen.sites, sources, knots, pairs);
-                                      });
+  const Weights& weights = e.weights;
+  add_weights(
+      e.shots, e.library, e.options.quiet,
+      [&](const SeenObject& seen, const SourceCloud& sources) {
+        return smooth_weights(seen.sites, sources, knots, pairs);
+      },
+      e.weights);
   e.watch.lap("light");
   DipoleFitOptions fit;
   fit.scale.relative_std = e.rig.camera.responsivity ? e.rig.camera.responsivity_relative_std
@@ -73,7 +80,8 @@ void estimate_dipole(Estimation& e) {
   for_open_tasks("fitting", e, [&](std::size_t i) {
     DipoleFitOptions own = fit;
     own.eta_int_over_ext = e.tasks[i].eta;
-    e.results[i].estimate = fit_dipole(system_of(e.rig, e.tasks[i], weights), knots, own);
+    e.results[i].estimate =
+        fit_dipole(system_of(e.rig, e.tasks[i], weights), knots, own).estimate;
     fitted[i] = e.results[i].estimate.converged ? 1 : 0;
   });
   e.watch.lap("first fit");
@@ -91,7 +99,7 @@ void estimate_dipole(Estimation& e) {
                                            first.sigma_a_per_mm.value / sigma_t, e.tasks[i].eta);
     add_nuisances(e.rig, e.tasks[i].shots, e.tasks[i].channel, all.of_task[i], system);
     add_numerics(e.tasks[i].shots, e.tasks[i].channel, knots, first.scale.value * curve.r, system);
-    e.results[i].estimate = fit_dipole(system, knots, own);
+    e.results[i].estimate = fit_dipole(system, knots, own).estimate;
   });
   e.watch.lap("fit");
 }

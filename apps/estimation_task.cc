@@ -38,7 +38,7 @@ std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots)
         task.eta = eta;
         task.shots.push_back(&shot);
       }
-      tasks.push_back(task);
+      if (!task.shots.empty()) tasks.push_back(task);
     }
   }
   return tasks;
@@ -61,17 +61,18 @@ std::string shot_problem(const OpenedShot& shot, std::size_t channel) {
   return "";
 }
 
-Weights all_weights(
-    const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
-    const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make) {
+void add_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
+                 const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make,
+                 Weights& weights) {
   std::vector<WeightKey> keys;
   for (const OpenedShot& shot : shots) {
     for (const std::string& light : shot.rig->lights) {
       const WeightKey key{shot.seen.get(), light};
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+      const bool is_new =
+          !weights.contains(key) && std::find(keys.begin(), keys.end(), key) == keys.end();
+      if (is_new) keys.push_back(key);
     }
   }
-  Weights weights;
   Progress progress("light in each patch", static_cast<int>(keys.size()), quiet);
   for (const WeightKey& key : keys) {
     const SeenObject& seen = *key.first;
@@ -79,7 +80,6 @@ Weights all_weights(
     weights[key] = make(seen, SourceCloud(light, seen.object->box.center_mm()));
     progress.step();
   }
-  return weights;
 }
 
 DenseSystem system_of(const Rig& rig, const Task& task, const Weights& weights) {

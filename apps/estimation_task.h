@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/measure.h"
+#include "apps/nuisances.h"
 #include "apps/shot_system.h"
 #include "apps/stopwatch.h"
 #include "core/linear_shot.h"
@@ -21,8 +22,8 @@ struct Task {
   double eta = 0;
 };
 
-// Materials in the rig's order, R G B each. Throws InputError where the shots of one material are
-// of objects with different eta.
+// Materials of the shots in the rig's order, R G B each. Throws InputError where the shots of one
+// material are of objects with different eta.
 std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots);
 
 // What makes a shot useless as a whole in a channel (dark, over-exposed, nothing seen); empty:
@@ -33,9 +34,10 @@ std::string shot_problem(const OpenedShot& shot, std::size_t channel);
 using WeightKey = std::pair<const SeenObject*, std::string>;
 using Weights = std::map<WeightKey, WeightMatrix>;
 
-// W of every view and light that a shot needs, each once.
-Weights all_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
-                    const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make);
+// Makes W of every view and light that a shot needs, each once; those that are there already stay.
+void add_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
+                 const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make,
+                 Weights& weights);
 
 // The task's used rows under all their lights.
 DenseSystem system_of(const Rig& rig, const Task& task, const Weights& weights);
@@ -49,6 +51,9 @@ struct Estimation {
   const std::vector<OpenedShot>& shots;
   const std::vector<Task>& tasks;
   ObjectLibrary& library;
+  // On smooth knots, kept from one set of shots to the next.
+  Weights& weights;
+  ChangedWeightsByLight& changed_weights;
   const MeasureOptions& options;
   Stopwatch& watch;
   std::vector<ChannelResult>& results;  // one per task; those refused already are left alone

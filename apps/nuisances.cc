@@ -13,6 +13,9 @@
 namespace scattermeter::apps {
 namespace {
 
+constexpr double kExponentStep = 0.02;
+constexpr double kEtaStep = 0.01;
+
 // R on the knots, one column a medium, times its scale.
 Eigen::MatrixXd curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
                        double eta) {
@@ -37,8 +40,7 @@ std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
   return {first, normal.cross(first)};
 }
 
-LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
-                             const std::vector<LitMedium>& media, const DistanceKnots& knots) {
+ChangedWeights changed_weights(const SeenObject& seen, const Led& led, const DistanceKnots& knots) {
   const ObjectScene& object = *seen.object;
   const double eta = object.rig->eta_int_over_ext;
   const PatchMesh coarse(object.mesh(), 2.0 * seen.patches->patch_size_mm());
@@ -46,37 +48,53 @@ LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
   pairs.floor_mm = 4.0 * knots.resolution_mm();
   pairs.far_ratio = 3.0;
   pairs.near_ratio = 0.7;
-  const auto predict = [&](const std::vector<ExitSite>& sites, const Led& light,
-                           double eta_here) -> Eigen::MatrixXd {
+  const auto weights = [&](const std::vector<ExitSite>& sites, const Led& light, double eta_here) {
     const SourceCloud sources(illuminate(coarse, *object.rays, light, eta_here),
                               object.box.center_mm());
-    return smooth_weights(sites, sources, knots, pairs) * curves(media, knots, eta_here);
+    return smooth_weights(sites, sources, knots, pairs);
   };
-  LightSensitivity out;
-  out.l = predict(seen.sites, led, eta);
+  ChangedWeights out;
+  out.nominal = weights(seen.sites, led, eta);
   // A hundredth of the distance: shadow edges then move by several of the parts that patches are
   // cut into, and the next order is still a hundredth of the first.
-  const double step_mm = 0.01 * (led.position_mm - object.box.center_mm()).norm();
+  out.move_mm = 0.01 * (led.position_mm - object.box.center_mm()).norm();
   for (int i = 0; i < 3; ++i) {
     Led moved = led;
-    moved.position_mm[i] += step_mm;
-    out.per_mm[static_cast<std::size_t>(i)] = (predict(seen.sites, moved, eta) - out.l) / step_mm;
+    moved.position_mm[i] += out.move_mm;
+    out.moved[static_cast<std::size_t>(i)] = weights(seen.sites, moved, eta);
   }
-  constexpr double kExponentStep = 0.02;
   Led other = led;
   other.exponent += kExponentStep;
-  out.per_exponent = (predict(seen.sites, other, eta) - out.l) / kExponentStep;
-
-  constexpr double kEtaStep = 0.01;
-  out.per_eta = (predict(seen.sites, led, eta + kEtaStep) - out.l) / kEtaStep;
+  out.other_exponent = weights(seen.sites, other, eta);
+  out.other_eta = weights(seen.sites, led, eta + kEtaStep);
   std::array<std::vector<ExitSite>, 2> shifted = {seen.sites, seen.sites};
-  const double shift_mm = 0.1 * seen.patches->patch_size_mm();
+  out.shift_mm = 0.1 * seen.patches->patch_size_mm();
+  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
+    const auto along = tangents(seen.patches->normal(seen.map.patch_of_row[j]));
+    for (std::size_t t = 0; t < 2; ++t) {
+      shifted[t][j] = moved(seen.sites[j], out.shift_mm * along[t]);
+    }
+  }
+  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = weights(shifted[t], led, eta);
+  return out;
+}
+
+LightSensitivity sensitivity(const SeenObject& seen, const ChangedWeights& weights,
+                             const std::vector<LitMedium>& media, const DistanceKnots& knots) {
+  const double eta = seen.object->rig->eta_int_over_ext;
+  const Eigen::MatrixXd r = curves(media, knots, eta);
+  LightSensitivity out;
+  out.l = weights.nominal * r;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.per_mm[i] = (weights.moved[i] * r - out.l) / weights.move_mm;
+  }
+  out.per_exponent = (weights.other_exponent * r - out.l) / kExponentStep;
+  for (std::size_t t = 0; t < 2; ++t) {
+    out.per_tangent_mm[t] = (weights.shifted[t] * r - out.l) / weights.shift_mm;
+  }
+  out.per_eta = (weights.other_eta * curves(media, knots, eta + kEtaStep) - out.l) / kEtaStep;
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
     const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
-    const auto along = tangents(normal);
-    for (std::size_t t = 0; t < 2; ++t) {
-      shifted[t][j] = moved(seen.sites[j], shift_mm * along[t]);
-    }
     // The observed l = pi L / Ft(eta) falls as Ft grows.
     const Eigen::Vector3d to_camera =
         (seen.camera_center_mm - seen.sites[j].center_mm).normalized();
@@ -86,9 +104,6 @@ LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
         1.0;
     const auto row = static_cast<Eigen::Index>(j);
     out.per_eta.row(row) -= out.l.row(row) * (change / kEtaStep);
-  }
-  for (std::size_t t = 0; t < 2; ++t) {
-    out.per_tangent_mm[t] = (predict(shifted[t], led, eta) - out.l) / shift_mm;
   }
   return out;
 }

@@ -31,9 +31,22 @@ struct LightSensitivity {
   std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by moving the sites along two tangents
 };
 
-// Computed by differences on patches of twice the size: errors of discretisation cancel in
-// differences.
-LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
+// W of a view under a light, nominal and with one thing changed at a time: all that the
+// sensitivities of any medium need of the geometry. On patches of twice the size: errors of
+// discretisation cancel in differences.
+struct ChangedWeights {
+  WeightMatrix nominal;
+  std::array<WeightMatrix, 3> moved;  // the LED, by move_mm along world x, y, z
+  double move_mm = 0;
+  WeightMatrix other_exponent;
+  WeightMatrix other_eta;
+  std::array<WeightMatrix, 2> shifted;  // the sites, by shift_mm along two tangents
+  double shift_mm = 0;
+};
+ChangedWeights changed_weights(const SeenObject& seen, const Led& led, const DistanceKnots& knots);
+
+// By differences of the changed weights and the nominal ones.
+LightSensitivity sensitivity(const SeenObject& seen, const ChangedWeights& weights,
                              const std::vector<LitMedium>& media, const DistanceKnots& knots);
 
 // Two unit tangents of a row's facet; per_tangent_mm goes along them.
@@ -41,6 +54,7 @@ std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal);
 
 // Sensitivities by (view, light), and which column of theirs belongs to a task.
 using LightKey = std::pair<const SeenObject*, std::string>;
+using ChangedWeightsByLight = std::map<LightKey, ChangedWeights>;
 struct TaskSensitivity {
   const LightSensitivity* sensitivity;
   Eigen::Index medium;

@@ -17,6 +17,12 @@ std::string text(const Eigen::Vector3d& v) {
 }  // namespace
 
 ObjectScenes open_objects(const Rig& rig) {
+  return open_objects(rig,
+                      [](const RigObject& object) { return capture::read_obj(object.mesh_path); });
+}
+
+ObjectScenes open_objects(const Rig& rig,
+                          const std::function<TriangleMesh(const RigObject&)>& mesh_of) {
   ObjectScenes scenes;
   for (const RigShot& shot : rig.shots) {
     const RigObject& object = rig.object(shot.object);
@@ -25,7 +31,7 @@ ObjectScenes open_objects(const Rig& rig) {
       const std::string where = rig.at(object.line) + ": objects." + object.name + ".mesh";
       TriangleMesh mesh;
       try {
-        mesh = capture::read_obj(object.mesh_path);
+        mesh = mesh_of(object);
       } catch (const InputError& e) {
         throw InputError(where, e.what());
       }

@@ -1,6 +1,7 @@
 // The rig's objects, opened and checked.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -28,6 +29,10 @@ using ObjectScenes = std::map<std::string, ObjectScene>;
 // mesh file and what is wrong: unreadable, open, empty, inside out, in metres; or an LED inside an
 // object that it lights.
 ObjectScenes open_objects(const Rig& rig);
+
+// The same with meshes from elsewhere than the rig's files; the callback may throw InputError.
+ObjectScenes open_objects(const Rig& rig,
+                          const std::function<TriangleMesh(const RigObject&)>& mesh_of);
 
 // Throws InputError when an object lies behind the camera, around it, or outside its frame.
 void require_in_view(const Rig& rig, const ObjectScenes& objects, const CameraView& view,

@@ -12,10 +12,13 @@ void estimate_paper(Estimation& e) {
   const std::vector<double> widths = paper_widths_mm();
   for (std::size_t w = 0; w < widths.size(); ++w) {
     const UniformBins bins(widths[w], e.library.longest_distance_mm());
-    const Weights weights = all_weights(
-        e.shots, e.library, true, [&](const SeenObject& seen, const SourceCloud& sources) {
+    Weights weights;
+    add_weights(
+        e.shots, e.library, true,
+        [&](const SeenObject& seen, const SourceCloud& sources) {
           return uniform_weights(seen.sites, sources, bins, pair_options(knots));
-        });
+        },
+        weights);
     for_open_tasks(fmt::format("width {:.2f} mm", widths[w]), e, [&](std::size_t i) {
       const DenseSystem system = system_of(e.rig, e.tasks[i], weights);
       if (system.l.size() > 0) {

@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "apps/text_table.h"
+
 namespace scattermeter::apps {
 namespace {
 
@@ -18,32 +20,29 @@ std::string with_deviation(const Quantity& q, bool known) {
   return fmt::format("{:.{}f} ± {:.{}f}", q.value, decimals, q.std, decimals);
 }
 
-// fmt pads by code points, so that "±" counts as one.
-std::string row(const std::string& material, std::size_t width, const std::string& channel,
-                const std::string& s, const std::string& a, const std::string& residual,
-                const std::string& chi2, const std::string& verdict) {
-  return fmt::format("{:<{}}  {:<2} {:>20}  {:>24}  {:>8}  {:>6}  {}\n", material, width, channel,
-                     s, a, residual, chi2, verdict);
-}
-
 }  // namespace
 
 std::string result_table(const Measurement& m) {
-  std::size_t width = 8;
-  for (const ChannelResult& r : m.results) width = std::max(width, r.material.size());
-  std::string out = row("material", width, "ch", "sigma_s' [1/mm]", "sigma_a [1/mm]", "residual",
-                        "chi2/n", "verdict");
+  using Align = TextTable::Align;
+  TextTable table({{"material", Align::kLeft},
+                   {"ch", Align::kLeft},
+                   {"sigma_s' [1/mm]"},
+                   {"sigma_a [1/mm]"},
+                   {"residual"},
+                   {"chi2/n"},
+                   {"verdict", Align::kLeft}});
   std::string last;
   for (const ChannelResult& r : m.results) {
     const Estimate& e = r.estimate;
     const bool known = e.converged;
-    out +=
-        row(r.material == last ? "" : r.material, width, std::string(1, r.channel),
-            with_deviation(e.sigma_s_prime_per_mm, known), with_deviation(e.sigma_a_per_mm, known),
-            known ? fmt::format("{:.2f} %", 100.0 * e.rms_relative) : "-",
-            known ? fmt::format("{:.2f}", e.reduced_chi2) : "-", r.refused() ? "refused" : "ok");
+    table.add_row(
+        {r.material == last ? "" : r.material, std::string(1, r.channel),
+         with_deviation(e.sigma_s_prime_per_mm, known), with_deviation(e.sigma_a_per_mm, known),
+         known ? fmt::format("{:.2f} %", 100.0 * e.rms_relative) : "-",
+         known ? fmt::format("{:.2f}", e.reduced_chi2) : "-", r.refused() ? "refused" : "ok"});
     last = r.material;
   }
+  std::string out = table.text();
   for (const ChannelResult& r : m.results) {
     for (const std::string& reason : r.estimate.reasons) {
       out += fmt::format("refused: {} {}: {}\n", r.material, r.channel, reason);

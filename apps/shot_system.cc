@@ -8,7 +8,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/progress.h"
-#include "apps/raw_shot.h"
 #include "apps/shot_pose.h"
 #include "capture/linear_samples.h"
 #include "core/input_error.h"
@@ -83,37 +82,53 @@ double ObjectLibrary::longest_distance_mm() const {
   return longest;
 }
 
-std::vector<OpenedShot> open_shots(const Rig& rig, const std::vector<std::string>& paths,
+SharedView see_all(const Rig& rig, const ObjectScenes& scenes, const ObjectLibrary& library,
+                   const calib::PoseResult& pose) {
+  SharedView view{pose, {}};
+  for (const auto& [name, scene] : scenes)
+    view.objects[name] = see(rig, scenes, library, name, pose);
+  return view;
+}
+
+std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
                                    const ObjectScenes& scenes, const ObjectLibrary& library,
-                                   const std::optional<calib::PoseResult>& shared_pose,
-                                   bool quiet) {
-  std::map<std::string, std::shared_ptr<const SeenObject>> shared;
-  if (shared_pose) {
-    for (const auto& [name, scene] : scenes) {
-      shared[name] = see(rig, scenes, library, name, *shared_pose);
-    }
+                                   const std::optional<SharedView>& shared, bool quiet) {
+  const FrameSource* frames = std::get_if<FrameSource>(&source.open);
+  if (!shared && frames == nullptr) {
+    throw std::invalid_argument("open_shots: samples without a pose from the rig's points");
   }
   // A free scale works in units of its own: counts per second.
   const std::array<double, 3> responsivity =
       rig.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0});
-  std::vector<OpenedShot> shots(paths.size());
-  Progress progress("reading shots", static_cast<int>(paths.size()), quiet);
-  tbb::parallel_for(std::size_t{0}, paths.size(), [&](std::size_t i) {
+  std::vector<OpenedShot> shots(source.shot_idxs.size());
+  Progress progress("reading shots", static_cast<int>(shots.size()), quiet);
+  tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) {
     OpenedShot& shot = shots[i];
-    shot.rig = &rig.shots[i];
-    shot.path = paths[i];
-    const capture::RawFrame frame = open_shot(rig, shot.path);
-    shot.exposure_s = frame.exposure_s;
-    shot.iso = frame.iso;
-    shot.f_number = frame.f_number;
-    shot.pose = shared_pose ? *shared_pose : pose_from_board(rig, frame, shot.path);
-    shot.seen = shared_pose ? shared.at(shot.rig->object)
-                            : see(rig, scenes, library, shot.rig->object, shot.pose);
-    const SampleMap& map = shot.seen->map;
-    shot.observation =
-        observe(capture::linear_samples(frame, rig.camera.sensor.noise, frame.exposure_s, map.x0,
-                                        map.y0, map.width, map.height),
-                map, responsivity);
+    const std::size_t idx = source.shot_idxs[i];
+    shot.rig = &rig.shots.at(idx);
+    if (shared) {
+      shot.pose = shared->pose;
+      shot.seen = shared->objects.at(shot.rig->object);
+    }
+    CfaSamples samples;
+    if (frames != nullptr) {
+      const capture::RawFrame frame = (*frames)(idx);
+      shot.iso = frame.iso;
+      shot.f_number = frame.f_number;
+      if (!shared) {
+        shot.pose = pose_from_board(rig, frame, source.names.at(i));
+        shot.seen = see(rig, scenes, library, shot.rig->object, shot.pose);
+      }
+      const SampleMap& map = shot.seen->map;
+      samples = capture::linear_samples(frame, rig.camera.sensor.noise, frame.exposure_s, map.x0,
+                                        map.y0, map.width, map.height);
+    } else {
+      shot.iso = rig.camera.iso;
+      shot.f_number = rig.camera.f_number;
+      samples = std::get<SampleSource>(source.open)(idx, shot.seen->map);
+    }
+    shot.exposure_s = samples.exposure_s;
+    shot.observation = observe(samples, shot.seen->map, responsivity);
     progress.step();
   });
   return shots;

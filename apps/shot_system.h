@@ -1,4 +1,4 @@
-// The linear systems of all shots, from files to W and l.
+// The linear systems of all shots, from frames to W and l.
 #pragma once
 
 #include <map>
@@ -11,6 +11,7 @@
 #include "apps/camera_view.h"
 #include "apps/object_scene.h"
 #include "apps/rig.h"
+#include "apps/shot_source.h"
 #include "calib/pose.h"
 #include "core/distance_weights.h"
 #include "core/incident_light.h"
@@ -31,7 +32,6 @@ struct SeenObject {
 
 struct OpenedShot {
   const RigShot* rig = nullptr;
-  std::string path;
   std::shared_ptr<const SeenObject> seen;
   Observation observation;
   calib::PoseResult pose;
@@ -62,10 +62,21 @@ class ObjectLibrary {
   std::map<std::pair<std::string, std::string>, IncidentLight> lights_;
 };
 
-// Decodes every shot and reduces it to one l per visible patch and channel. With the pose from the
-// rig's points, shots of one object share their map; with a board in each shot they do not.
-std::vector<OpenedShot> open_shots(const Rig& rig, const std::vector<std::string>& paths,
+// One pose for all shots, and the objects as seen from it.
+struct SharedView {
+  calib::PoseResult pose;
+  std::map<std::string, std::shared_ptr<const SeenObject>> objects;
+};
+
+// Throws InputError when an object is out of view.
+SharedView see_all(const Rig& rig, const ObjectScenes& scenes, const ObjectLibrary& library,
+                   const calib::PoseResult& pose);
+
+// Gets every shot of the source and reduces it to one l per visible patch and channel. With the
+// pose from the rig's points (`shared`), shots of one object share their map; without, each has a
+// board to take its pose from (a FrameSource, then: std::invalid_argument otherwise).
+std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
                                    const ObjectScenes& scenes, const ObjectLibrary& library,
-                                   const std::optional<calib::PoseResult>& shared_pose, bool quiet);
+                                   const std::optional<SharedView>& shared, bool quiet);
 
 }  // namespace scattermeter::apps

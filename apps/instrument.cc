@@ -1,0 +1,82 @@
+#include "apps/instrument.h"
+
+#include <algorithm>
+
+#include "apps/shot_pose.h"
+
+namespace scattermeter::apps {
+namespace {
+
+std::optional<calib::PoseResult> shared_pose(const Rig& rig) {
+  if (rig.pose.charuco) return std::nullopt;
+  return pose_from_points(rig);
+}
+
+// To the farthest object; 0 where the pose is not known before the shots are.
+double distance_to_camera_mm(const Rig& rig, const ObjectScenes& scenes,
+                             const std::optional<calib::PoseResult>& pose) {
+  if (!pose) return 0.0;
+  const CameraView view{rig.camera.intrinsics, pose->camera_from_world};
+  double distance_mm = 0.0;
+  for (const auto& [name, scene] : scenes) {
+    distance_mm = std::max(distance_mm, (view.center_in_world_mm() - scene.box.center_mm()).norm());
+  }
+  return distance_mm;
+}
+
+}  // namespace
+
+Instrument::Instrument(const Rig& rig, const ObjectScenes& scenes, const MeasureOptions& options)
+    : rig_(rig),
+      scenes_(scenes),
+      options_(options),
+      pose_(shared_pose(rig)),
+      library_(rig, scenes, options.patch_size_mm, distance_to_camera_mm(rig, scenes, pose_)) {
+  if (pose_) view_ = see_all(rig, scenes, library_, *pose_);
+}
+
+Measurement Instrument::measure(const ShotSource& source) {
+  std::vector<std::pair<std::string, double>> timing_s;
+  Stopwatch watch(timing_s);
+  Measurement out = measure(source, watch);
+  watch.total();
+  out.timing_s = timing_s;
+  return out;
+}
+
+Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
+  Measurement out;
+  out.model = options_.model;
+  for (const auto& [name, scene] : scenes_) {
+    out.patch_size_mm[name] = library_.patches(name).patch_size_mm();
+  }
+  if (!view_) {
+    // Those of views that are gone.
+    weights_.clear();
+    changed_weights_.clear();
+  }
+  const std::vector<OpenedShot> shots =
+      open_shots(rig_, source, scenes_, library_, view_, options_.quiet);
+  watch.lap("shots");
+  const std::vector<Task> tasks = tasks_of(rig_, shots);
+  for (const Task& task : tasks) {
+    ChannelResult result{task.material, kRgbName[task.channel], task.eta, {}, {}};
+    for (const OpenedShot* shot : task.shots) {
+      result.shots.push_back(shot->rig->file);
+      if (const std::string problem = shot_problem(*shot, task.channel); !problem.empty()) {
+        result.estimate.reasons.push_back(problem);
+      }
+    }
+    out.results.push_back(result);
+  }
+  Estimation estimation{rig_,     shots, tasks,      library_, weights_, changed_weights_,
+                        options_, watch, out.results};
+  if (options_.model == Model::kPaper) {
+    estimate_paper(estimation);
+  } else {
+    estimate_dipole(estimation);
+  }
+  return out;
+}
+
+}  // namespace scattermeter::apps

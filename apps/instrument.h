@@ -1,0 +1,45 @@
+// A rig made ready to measure: geometry, light and weights are computed once and serve many sets of
+// shots.
+#pragma once
+
+#include <optional>
+
+#include "apps/estimation_task.h"
+#include "apps/measure.h"
+#include "apps/object_scene.h"
+#include "apps/rig.h"
+#include "apps/shot_source.h"
+#include "apps/shot_system.h"
+#include "apps/stopwatch.h"
+
+namespace scattermeter::apps {
+
+class Instrument {
+ public:
+  // Rig and scenes must outlive it; the scenes may have been opened for another rig that has the
+  // same objects. Throws InputError for a pose that the rig's points do not give, an object out of
+  // view, or patches too small.
+  Instrument(const Rig& rig, const ObjectScenes& scenes, const MeasureOptions& options);
+  Instrument(const Instrument&) = delete;
+  Instrument& operator=(const Instrument&) = delete;
+
+  // Measures the materials in these shots, jointly over the shots of each. The light in each patch
+  // (W of every view and lamp) is computed when first needed and kept, as long as the pose comes
+  // from the rig's points; with a board in the shots each set is seen anew. The digits are the same
+  // either way. Results, patch sizes and timing are filled; notes and inputs are the caller's.
+  // Throws InputError as measure() does. Not for several threads at once (it uses all of them).
+  Measurement measure(const ShotSource& source);
+  Measurement measure(const ShotSource& source, Stopwatch& watch);  // timing goes there only
+
+ private:
+  const Rig& rig_;
+  const ObjectScenes& scenes_;
+  MeasureOptions options_;
+  std::optional<calib::PoseResult> pose_;  // from the rig's points
+  ObjectLibrary library_;
+  std::optional<SharedView> view_;
+  Weights weights_;
+  ChangedWeightsByLight changed_weights_;
+};
+
+}  // namespace scattermeter::apps

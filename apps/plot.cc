@@ -1,0 +1,138 @@
+#include "apps/plot.h"
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include "apps/child_process.h"
+#include "capture/pending_file.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// Wong's palette, which colour-blind readers can tell apart (Nature Methods 8, 441, 2011).
+constexpr const char* kColours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                    "#E69F00", "#56B4E9", "#000000", "#F0E442"};
+
+// In gnuplot's single quotes only the quote itself has a meaning; it is doubled.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (char c : text) {
+    if (c == '\'') out += '\'';
+    const auto byte = static_cast<unsigned char>(c);
+    out += byte < 0x20U || byte == 0x7FU ? ' ' : c;
+  }
+  return out + "'";
+}
+
+std::string axis(const char* name, const PlotAxis& a) {
+  const auto end = [](const std::optional<double>& v) { return v ? fmt::format("{}", *v) : "*"; };
+  return fmt::format("set {0}label {1} noenhanced\n{2}set {0}range [{3}:{4}]\n", name,
+                     quoted(a.label), a.log ? fmt::format("set logscale {}\n", name) : "",
+                     end(a.min), end(a.max));
+}
+
+bool can_stand(const PlotAxis& a, double value) {
+  return std::isfinite(value) && (!a.log || value > 0.0);
+}
+
+// The points that can be drawn, as a block of the script; counts them.
+std::string data_block(const Plot& plot, std::size_t index, std::size_t& drawn) {
+  const PlotSeries& s = plot.series[index];
+  if (s.x.size() != s.y.size() || (!s.y_std.empty() && s.y_std.size() != s.x.size())) {
+    throw std::invalid_argument(fmt::format("write_plot: series {} has {} x, {} y, {} y_std",
+                                            s.name, s.x.size(), s.y.size(), s.y_std.size()));
+  }
+  std::string out = fmt::format("$series{} << END_OF_DATA\n", index);
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    if (!can_stand(plot.x, s.x[i]) || !can_stand(plot.y, s.y[i])) continue;
+    const double std = s.y_std.empty() || !std::isfinite(s.y_std[i]) ? 0.0 : s.y_std[i];
+    out += fmt::format("{} {} {}\n", s.x[i], s.y[i], std);
+    ++drawn;
+  }
+  return out + "END_OF_DATA\n";
+}
+
+std::string style_of(const PlotSeries& s, std::size_t index) {
+  const std::string colour = kColours[index % std::size(kColours)];
+  switch (s.style) {
+    case PlotSeries::Style::kLine:
+      return fmt::format("with lines lw 2 lc rgb '{}'", colour);
+    case PlotSeries::Style::kPoints:
+      return fmt::format("with points pt 7 ps 0.8 lc rgb '{}'", colour);
+    case PlotSeries::Style::kLineAndPoints:
+      return fmt::format("with linespoints lw 2 pt 7 ps 0.8 lc rgb '{}'", colour);
+    case PlotSeries::Style::kBoxes:
+      return fmt::format("with boxes fs solid 0.35 border lc rgb '{}'", colour);
+  }
+  throw std::invalid_argument("write_plot: no such style");
+}
+
+std::string script_of(const Plot& plot, const std::string& terminal) {
+  std::string script = terminal;
+  script += fmt::format("set title {} noenhanced\n", quoted(plot.title));
+  script += axis("x", plot.x) + axis("y", plot.y);
+  script += "set grid lc rgb '#DDDDDD'\nset key top right noenhanced\nset boxwidth 1.0 relative\n";
+  std::string curves;
+  std::size_t drawn = 0;
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    const std::size_t before = drawn;
+    script += data_block(plot, i, drawn);
+    if (drawn == before) continue;  // gnuplot takes an empty block for an error
+    const PlotSeries& s = plot.series[i];
+    if (!curves.empty()) curves += ", ";
+    // The bars first: gnuplot blanks the place of their points.
+    if (!s.y_std.empty()) {
+      curves += fmt::format("$series{} using 1:2:3 notitle with yerrorbars pt 7 ps 0 lc rgb '{}', ",
+                            i, kColours[i % std::size(kColours)]);
+    }
+    const std::string title = s.name.empty() ? "notitle" : "title " + quoted(s.name);
+    curves += fmt::format("$series{} using 1:2 {} {}", i, title, style_of(s, i));
+  }
+  if (drawn == 0) throw std::invalid_argument("write_plot: nothing to draw: " + plot.title);
+  return script + "plot " + curves + "\n";
+}
+
+std::string terminal_of(const Plot& plot, const std::string& extension) {
+  const std::string size = fmt::format("size {},{}", plot.width_px, plot.height_px);
+  if (extension == ".png") {
+    return "set terminal pngcairo noenhanced " + size + " font 'sans,11'\n";
+  }
+  if (extension == ".svg") {
+    return "set terminal svg noenhanced " + size + " font 'sans,14' background '#FFFFFF'\n";
+  }
+  throw std::invalid_argument("write_plot: .png or .svg expected, got '" + extension + "'");
+}
+
+}  // namespace
+
+// Neither path nor data touch a shell or gnuplot's command line: the script goes in on stdin, the
+// picture comes out on stdout, straight into the pending file. -d: the user's ~/.gnuplot stays out.
+void write_plot(const Plot& plot, const std::string& path) {
+  const std::filesystem::path file_path(path);
+  const std::string script = script_of(plot, terminal_of(plot, file_path.extension().string()));
+  std::error_code error;
+  const std::filesystem::path folder = file_path.parent_path();
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder.string(), "the folder cannot be made: " + error.message());
+  capture::PendingFile file(path);
+  const ChildResult child = run_child({"gnuplot", "-d"}, script, file.descriptor());
+  if (child.status == ChildResult::kNotStarted) {
+    throw InputError(path, "is not drawn: gnuplot cannot be started (" + child.errors +
+                               "); install it (Debian: gnuplot-nox)");
+  }
+  std::error_code size_error;
+  const auto size = std::filesystem::file_size(file.temporary_path(), size_error);
+  if (child.status != 0 || size_error || size == 0) {
+    throw InputError(path,
+                     fmt::format("is not drawn: gnuplot ended with status {}, {} bytes drawn: {}",
+                                 child.status, size_error ? 0 : size, child.errors));
+  }
+  file.commit();
+}
+
+}  // namespace scattermeter::apps

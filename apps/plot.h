@@ -1,0 +1,43 @@
+// Line and scatter plots as PNG or SVG.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scattermeter::apps {
+
+struct PlotAxis {
+  std::string label;  // with its unit in brackets
+  bool log = false;
+  std::optional<double> min = std::nullopt;  // absent: chosen from the data
+  std::optional<double> max = std::nullopt;
+};
+
+struct PlotSeries {
+  enum class Style { kLine, kPoints, kLineAndPoints, kBoxes };
+  std::string name;  // in the legend; "": not there
+  Style style = Style::kLine;
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> y_std = {};  // error bars; empty: none. Not for boxes
+};
+
+struct Plot {
+  std::string title;
+  PlotAxis x;
+  PlotAxis y;
+  std::vector<PlotSeries> series;
+  int width_px = 1000;
+  int height_px = 640;
+};
+
+// Draws the plot into `path`, whose ending says the format: .png or .svg. The folder is made where
+// it is missing; the file appears complete or not at all. Points with a coordinate that is not
+// finite (or not positive on a log axis) are left out. Text is taken as it is: no markup, any
+// quotes; control characters become spaces. Throws std::invalid_argument for another ending, for
+// lists of unequal length, or when nothing is left to draw; InputError when gnuplot, which draws,
+// is not installed or fails, or when the file cannot be written.
+void write_plot(const Plot& plot, const std::string& path);
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,122 @@
+#include "apps/shot_renderer.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "apps/board_picture.h"
+#include "apps/shot_pose.h"
+#include "core/fresnel.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+CameraView true_view(const Rig& rig) {
+  if (rig.truth_pose) {
+    const RigTruthPose& t = *rig.truth_pose;
+    return {rig.camera.intrinsics, look_at(t.position_mm, t.look_at_mm, t.up)};
+  }
+  if (rig.pose.charuco) {
+    throw InputError(
+        rig.at(rig.pose.line) + ": truth.pose",
+        "is missing: a rig whose pose comes from a board in the shots cannot be simulated "
+        "without it");
+  }
+  return {rig.camera.intrinsics, pose_from_points(rig).camera_from_world};
+}
+
+const std::array<Medium, 3>& truth_of(const Rig& rig, const RigShot& shot) {
+  const auto it = rig.truth_materials.find(shot.material);
+  if (it == rig.truth_materials.end()) {
+    throw InputError(rig.at(shot.line) + ": truth.materials." + shot.material,
+                     "is missing: simulate needs the truth of every material in shots");
+  }
+  return it->second;
+}
+
+}  // namespace
+
+ShotRenderer::ShotRenderer(const Rig& rig, const ObjectScenes& scenes)
+    : rig_(rig), scenes_(scenes), view_(true_view(rig)) {
+  for (const RigShot& shot : rig.shots) truth_of(rig, shot);
+  for (std::size_t p = 0; p < 4; ++p) {
+    channel_of_phase_[p] = static_cast<int>(rig.camera.sensor.cfa.phase[p]);
+  }
+}
+
+ShotRenderer::Stage& ShotRenderer::stage(const std::string& object) {
+  auto [it, is_new] = stages_.try_emplace(object);
+  if (is_new) {
+    const ObjectScene& scene = scenes_.at(object);
+    require_in_view(rig_, scenes_, view_, object);
+    double patch_mm = scene.size_mm();
+    for (const RigShot& shot : rig_.shots) {
+      if (shot.object == object) {
+        patch_mm = std::min(patch_mm, render_patch_size_mm(truth_of(rig_, shot), scene.size_mm()));
+      }
+    }
+    Stage& s = it->second;
+    s.patches = std::make_unique<PatchMesh>(scene.mesh(), patch_mm);
+    s.pixels = std::make_unique<ShadeMap>(rays_around(view_, scene.mesh(), 2), *scene.rays,
+                                          *s.patches, scene.rig->eta_int_over_ext);
+    s.needed = s.pixels->needed_patches(s.patches->size());
+  }
+  return it->second;
+}
+
+SurfaceField ShotRenderer::field(const RigShot& shot, Stage& s) const {
+  const ObjectScene& scene = scenes_.at(shot.object);
+  std::array<Medium, 3> media = truth_of(rig_, shot);
+  for (Medium& m : media) m.eta_int_over_ext = scene.rig->eta_int_over_ext;
+  SurfaceField field(*s.patches, s.needed);
+  for (const std::string& name : shot.lights) {
+    const RigLight& light = rig_.light(name);
+    const auto [it, is_new] = s.lights.try_emplace(name);
+    if (is_new) {
+      it->second = illuminate(*s.patches, *scene.rays, light.led, scene.rig->eta_int_over_ext);
+    }
+    field.add(dipole_radiosity(field.nodes_mm(), it->second, scene.box.center_mm(),
+                               1.001 * scene.diagonal_mm(), media, light.led.intensity_W_per_sr));
+  }
+  return field;
+}
+
+RadiancePicture ShotRenderer::render(const RigShot& shot) {
+  Stage& s = stage(shot.object);
+  const SurfaceField light = field(shot, s);
+  const double eta = scenes_.at(shot.object).rig->eta_int_over_ext;
+  const ShadeMap& pixels = *s.pixels;
+  RadiancePicture out;
+  out.brightest = light.max() * fresnel_transmittance(eta, 1.0) / std::numbers::pi;
+  if (rig_.pose.charuco) {
+    out.width = rig_.camera.intrinsics.width_px;
+    out.height = rig_.camera.intrinsics.height_px;
+  } else {
+    out.x0 = pixels.x0();
+    out.y0 = pixels.y0();
+    out.width = pixels.width();
+    out.height = pixels.height();
+  }
+  out.radiance.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height),
+                      0.0F);
+  tbb::parallel_for(0, pixels.height(), [&](int y) {
+    for (int x = 0; x < pixels.width(); ++x) {
+      const int xx = pixels.x0() + x;
+      const int yy = pixels.y0() + y;
+      out.radiance[static_cast<std::size_t>(yy - out.y0) * static_cast<std::size_t>(out.width) +
+                   static_cast<std::size_t>(xx - out.x0)] =
+          static_cast<float>(pixels.radiance(x, y, light, channel(xx, yy)));
+    }
+  });
+  if (rig_.pose.charuco) {
+    std::vector<Led> leds;
+    for (const std::string& name : shot.lights) leds.push_back(rig_.light(name).led);
+    add_board(view_, *rig_.pose.charuco, leds, *scenes_.at(shot.object).rays, channel_of_phase_,
+              out.radiance);
+  }
+  return out;
+}
+
+}  // namespace scattermeter::apps

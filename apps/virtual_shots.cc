@@ -1,0 +1,149 @@
+#include "apps/virtual_shots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "apps/progress.h"
+#include "apps/shot_renderer.h"
+#include "capture/decoded_frame.h"
+#include "capture/ideal_samples.h"
+#include "capture/tone_curve.h"
+
+namespace scattermeter::apps {
+namespace {
+
+constexpr double kExposedTo = 0.75;  // of the range, for a chosen exposure
+
+std::uint64_t stream_of(std::uint64_t seed, std::size_t shot) { return seed * 1'000'003ULL + shot; }
+
+}  // namespace
+
+VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& scenes,
+                           const VirtualShotOptions& options)
+    : rig_(rig), options_(options) {
+  ShotRenderer renderer(rig, scenes);
+  Eigen::Array3d brightest = Eigen::Array3d::Zero();
+  Progress progress("rendering", static_cast<int>(rig.shots.size()), options.quiet);
+  for (const RigShot& shot : rig.shots) {
+    RadiancePicture p = renderer.render(shot);
+    brightest = brightest.max(p.brightest);
+    pictures_.push_back({p.x0, p.y0, p.width, p.height, std::move(p.radiance)});
+    progress.step();
+  }
+  choose_exposure(brightest);
+  for (std::size_t i = 0; i < size(); ++i) {
+    LinearPicture& p = pictures_[i];
+    exposure_s_.push_back(
+        rig.shots[i].exposure_s.value_or(rig.camera.exposure_s.value_or(default_exposure_s_)));
+    tbb::parallel_for(0, p.height, [&](int y) {
+      for (int x = 0; x < p.width; ++x) {
+        const auto c = static_cast<std::size_t>(renderer.channel(p.x0 + x, p.y0 + y));
+        p.counts[static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) +
+                 static_cast<std::size_t>(x)] *=
+            static_cast<float>(responsivity_[c] * exposure_s_[i]);
+      }
+    });
+  }
+}
+
+// Fills responsivity_ and default_exposure_s_ where the rig leaves them open.
+void VirtualShots::choose_exposure(const Eigen::Array3d& brightest) {
+  const RigSensor& sensor = rig_.camera.sensor;
+  const double top = sensor.nef_lossy_curve
+                         ? std::min<double>(sensor.white_counts, capture::nef_lossy_curve().back())
+                         : sensor.white_counts;
+  const double range = kExposedTo * (top - *std::max_element(sensor.black_counts.begin(),
+                                                             sensor.black_counts.end()));
+  if (rig_.camera.responsivity) {
+    responsivity_ = *rig_.camera.responsivity;
+    double peak = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      peak = std::max(peak, responsivity_[c] * brightest[static_cast<Eigen::Index>(c)]);
+    }
+    // Two digits, rounded down.
+    const double exact_s = peak > 0.0 ? range / peak : 1.0;
+    const double unit = std::pow(10.0, std::floor(std::log10(exact_s)) - 1.0);
+    default_exposure_s_ = std::floor(exact_s / unit) * unit;
+  } else {
+    default_exposure_s_ = rig_.camera.exposure_s.value_or(0.1);
+    const double peak = brightest.maxCoeff();
+    responsivity_.fill(peak > 0.0 ? range / (peak * default_exposure_s_) : 1.0);
+  }
+}
+
+capture::SensorModel VirtualShots::sensor() const {
+  const RigSensor& from = rig_.camera.sensor;
+  capture::SensorModel sensor;
+  sensor.noise = from.noise;
+  sensor.black_counts = from.black_counts;
+  sensor.white_counts = from.white_counts;
+  if (from.nef_lossy_curve) sensor.tone_curve = capture::nef_lossy_curve();
+  sensor.noise_on = options_.noise;
+  return sensor;
+}
+
+capture::DngMetadata VirtualShots::metadata(std::size_t shot) const {
+  const RigCamera& camera = rig_.camera;
+  capture::DngMetadata metadata;
+  // "NIKON D80" is model D80 by NIKON; cameras write both tags with the maker's name in the model.
+  if (!camera.model.empty()) {
+    metadata.model = camera.model;
+    metadata.make = camera.model.substr(0, camera.model.find(' '));
+  }
+  metadata.cfa = camera.sensor.cfa;
+  metadata.black_counts = camera.sensor.black_counts;
+  metadata.white_counts = camera.sensor.white_counts;
+  metadata.exposure_s = exposure_s(shot);
+  metadata.iso = camera.iso;
+  metadata.f_number = camera.f_number;
+  metadata.linearization_table = sensor().tone_curve;
+  return metadata;
+}
+
+std::vector<float> VirtualShots::whole_signal_counts(std::size_t shot) const {
+  const LinearPicture& p = picture(shot);
+  const auto width = static_cast<std::ptrdiff_t>(rig_.camera.intrinsics.width_px);
+  std::vector<float> whole(static_cast<std::size_t>(width * rig_.camera.intrinsics.height_px),
+                           0.0F);
+  for (std::ptrdiff_t y = 0; y < p.height; ++y) {
+    std::copy_n(p.counts.begin() + y * p.width, p.width, whole.begin() + (p.y0 + y) * width + p.x0);
+  }
+  return whole;
+}
+
+std::vector<std::uint16_t> VirtualShots::codes(std::size_t shot, std::uint64_t seed) const {
+  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
+  return capture::expose(whole_signal_counts(shot), k.width_px, k.height_px, sensor(),
+                         stream_of(seed, shot));
+}
+
+capture::RawFrame VirtualShots::frame(std::size_t shot, std::uint64_t seed) const {
+  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
+  return capture::decoded_frame(k.width_px, k.height_px, codes(shot, seed), metadata(shot));
+}
+
+void VirtualShots::write(std::size_t shot, std::uint64_t seed, const std::string& path) const {
+  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
+  capture::write_dng(path, k.width_px, k.height_px, codes(shot, seed), metadata(shot));
+}
+
+CfaSamples VirtualShots::ideal_samples(std::size_t shot, int x0, int y0, int width,
+                                       int height) const {
+  const LinearPicture& p = picture(shot);
+  std::vector<float> part(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0F);
+  // Where the two rectangles meet.
+  const int from_x = std::max(x0, p.x0);
+  const int to_x = std::min(x0 + width, p.x0 + p.width);
+  for (int y = std::max(y0, p.y0); y < std::min(y0 + height, p.y0 + p.height); ++y) {
+    if (from_x >= to_x) break;
+    const auto from = static_cast<std::ptrdiff_t>(y - p.y0) * p.width + (from_x - p.x0);
+    const auto to = static_cast<std::ptrdiff_t>(y - y0) * width + (from_x - x0);
+    std::copy_n(p.counts.begin() + from, to_x - from_x, part.begin() + to);
+  }
+  return capture::ideal_samples(part, x0, y0, width, height, sensor(), rig_.camera.sensor.cfa,
+                                exposure_s(shot));
+}
+
+}  // namespace scattermeter::apps

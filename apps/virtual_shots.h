@@ -1,0 +1,73 @@
+// The shots that a rig would take of its truth: rendered once, exposed as often as wanted.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/object_scene.h"
+#include "apps/rig.h"
+#include "capture/dng_writer.h"
+#include "capture/raw_frame.h"
+#include "capture/sensor.h"
+#include "core/cfa_samples.h"
+
+namespace scattermeter::apps {
+
+struct VirtualShotOptions {
+  bool noise = true;  // off: rounding only
+  bool quiet = false;
+};
+
+// Expected signal above black, counts, in the part of the frame where there is any.
+struct LinearPicture {
+  int x0 = 0, y0 = 0, width = 0, height = 0;  // px
+  std::vector<float> counts;                  // row by row
+};
+
+// Rig and scenes must outlive it. Everything const may be called from several threads at once.
+class VirtualShots {
+ public:
+  // Renders every shot of the rig with the dipole on the rig's truth materials. The camera stands
+  // at truth.pose, or where the pose points put it. Without an exposure time in the rig one is
+  // chosen for all shots so that the brightest sample reaches three quarters of the range; without
+  // a responsivity 0.1 s is taken and the responsivity chosen instead. Throws InputError for what
+  // the rig lacks or an object out of view.
+  VirtualShots(const Rig& rig, const ObjectScenes& scenes, const VirtualShotOptions& options);
+
+  std::size_t size() const { return pictures_.size(); }
+  double exposure_s(std::size_t shot) const { return exposure_s_.at(shot); }
+  // Counts per (W/(mm^2 sr)) and second, the rig's or the one that was chosen.
+  const std::array<double, 3>& responsivity() const { return responsivity_; }
+
+  // Without noise: the rectangle around the object (with a board in the shot, the whole frame), and
+  // the same spread over the frame, zero elsewhere.
+  const LinearPicture& picture(std::size_t shot) const { return pictures_.at(shot); }
+  std::vector<float> whole_signal_counts(std::size_t shot) const;
+
+  // One exposure. Each shot draws from a stream of the seed of its own: the same seed gives the
+  // same codes, in memory and in a file.
+  std::vector<std::uint16_t> codes(std::size_t shot, std::uint64_t seed) const;
+  // As the raw reader delivers the written file (exceptions: capture/decoded_frame.h).
+  capture::RawFrame frame(std::size_t shot, std::uint64_t seed) const;
+  // Writes the 12-bit DNG; it appears complete or not at all. Throws InputError naming the file.
+  void write(std::size_t shot, std::uint64_t seed, const std::string& path) const;
+
+  // A rectangle of the frame as a sensor without noise and rounding sees it.
+  CfaSamples ideal_samples(std::size_t shot, int x0, int y0, int width, int height) const;
+
+ private:
+  void choose_exposure(const Eigen::Array3d& brightest);
+  capture::SensorModel sensor() const;
+  capture::DngMetadata metadata(std::size_t shot) const;
+
+  const Rig& rig_;
+  VirtualShotOptions options_;
+  std::vector<LinearPicture> pictures_;
+  std::vector<double> exposure_s_;
+  std::array<double, 3> responsivity_{};
+  double default_exposure_s_ = 0;
+};
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,100 @@
+#include "apps/plot.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/input_error.h"
+#include "tests/apps/small_rig.h"
+#include "tests/temporary_folder.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+Plot example() {
+  Plot plot;
+  plot.title = "It's \"quoted\" `date` $HOME _sub\nsecond";
+  plot.x = {"distance [mm]", true};
+  plot.y = {"R [1/mm^2]", true};
+  plot.series = {
+      {"line", PlotSeries::Style::kLine, {1, 2, 4}, {1, 0.5, 0.1}},
+      {"with 'errors'", PlotSeries::Style::kPoints, {1, 2, 4}, {1.1, 0.4, 0.1}, {0.1, 0.1, 0.05}},
+      // Off the logarithmic axis, and no number.
+      {"undrawn",
+       PlotSeries::Style::kLine,
+       {-1, 2},
+       {1, std::numeric_limits<double>::quiet_NaN()}}};
+  return plot;
+}
+
+TEST(Plot, DrawsPngAndSvg) {
+  const TemporaryFolder folder;
+  const std::string odd = folder / "it's a $(folder)/a b";
+  write_plot(example(), odd + ".png");
+  const std::string png = slurp(odd + ".png");
+  EXPECT_THAT(png, StartsWith("\x89PNG"));
+  EXPECT_GT(png.size(), 5000U);
+  write_plot(example(), odd + ".svg");
+  const std::string svg = slurp(odd + ".svg");
+  EXPECT_THAT(svg, HasSubstr("<svg"));
+  EXPECT_THAT(svg, HasSubstr("</svg>"));
+  EXPECT_THAT(svg, HasSubstr("distance [mm]"));
+  EXPECT_THAT(svg, HasSubstr("`date` $HOME _sub second"));
+  EXPECT_THAT(svg, ::testing::Not(HasSubstr("undrawn")));
+  // Nothing else lies there.
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "it's a $(folder)"), {}), 2);
+}
+
+TEST(Plot, Boxes) {
+  const TemporaryFolder folder;
+  Plot plot;
+  plot.series = {{"", PlotSeries::Style::kBoxes, {0, 1, 2}, {3, 5, 1}}};
+  write_plot(plot, folder / "boxes.svg");
+  EXPECT_THAT(slurp(folder / "boxes.svg"), HasSubstr("</svg>"));
+}
+
+TEST(Plot, RefusesWhatCannotBeDrawn) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_plot(example(), folder / "a.gif"), std::invalid_argument);
+  EXPECT_THROW(write_plot({}, folder / "a.png"), std::invalid_argument);
+  Plot uneven = example();
+  uneven.series[0].y.pop_back();
+  EXPECT_THROW(write_plot(uneven, folder / "a.png"), std::invalid_argument);
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+// A place without gnuplot.
+TEST(Plot, MissingGnuplotIsNamed) {
+  const TemporaryFolder folder;
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", folder.path().c_str(), 1);
+  try {
+    write_plot(example(), folder / "a.png");
+    ADD_FAILURE() << "drawn without gnuplot";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("gnuplot-nox"));
+    EXPECT_THAT(e.what(), HasSubstr("a.png"));
+  }
+  // One that fails says why.
+  write_file(folder / "gnuplot", std::string("#!/bin/sh\necho 'no font' >&2\nexit 5\n"));
+  std::filesystem::permissions(folder / "gnuplot", std::filesystem::perms::owner_all);
+  try {
+    write_plot(example(), folder / "a.png");
+    ADD_FAILURE() << "drawn by a gnuplot that fails";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("status 5"));
+    EXPECT_THAT(e.what(), HasSubstr("no font"));
+  }
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(folder.entries(), 1);
+}
+
+}  // namespace
+}  // namespace scattermeter::apps
