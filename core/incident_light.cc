@@ -123,6 +123,8 @@ class Illuminator {
   IncidentLightOptions options_;
 };
 
+}  // namespace
+
 double power_sr(const LitTriangle& t) {
   const double area_mm2 =
       0.5 * (t.corners_mm[1] - t.corners_mm[0]).cross(t.corners_mm[2] - t.corners_mm[0]).norm();
@@ -130,8 +132,6 @@ double power_sr(const LitTriangle& t) {
          (t.irradiance_sr_per_mm2[0] + t.irradiance_sr_per_mm2[1] + t.irradiance_sr_per_mm2[2]) /
          3.0;
 }
-
-}  // namespace
 
 IncidentLight illuminate(const PatchMesh& patches, const RayScene& scene, const Led& led,
                          double eta_int_over_ext, const IncidentLightOptions& options) {

@@ -21,6 +21,9 @@ struct LitTriangle {
   int patch_idx;
 };
 
+// Integral of the irradiance over the triangle, sr.
+double power_sr(const LitTriangle& triangle);
+
 // The paper's c_k (eq. 12, with the patch area), per unit of on-axis intensity, and its density
 // over the patches.
 struct IncidentLight {
