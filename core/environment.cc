@@ -31,20 +31,18 @@ Eigen::Quaterniond world_from_probe(const Eigen::Vector3d& forward, const Eigen:
   return Eigen::Quaterniond(rotation).normalized();
 }
 
-std::string environment_problem(const Environment& environment) {
-  const int width = environment.width_px;
-  const int height = environment.height_px;
+std::string probe_problem(int width, int height, const std::vector<float>& radiance) {
   if (width < 1 || height < 1) {
     return "the probe is " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
   }
   const std::size_t values = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  if (environment.radiance.size() != values) {
-    return "the probe holds " + std::to_string(environment.radiance.size()) + " values, not " +
+  if (radiance.size() != values) {
+    return "the probe holds " + std::to_string(radiance.size()) + " values, not " +
            std::to_string(values);
   }
   bool any = false;
   for (std::size_t i = 0; i < values; ++i) {
-    const float v = environment.radiance[i];
+    const float v = radiance[i];
     if (!(v >= 0.0F) || !std::isfinite(v)) {
       const std::size_t pixel = i / 3;
       std::ostringstream message;

@@ -29,9 +29,9 @@ struct Environment {
 // parallel.
 Eigen::Quaterniond world_from_probe(const Eigen::Vector3d& forward, const Eigen::Vector3d& up);
 
-// Says what makes the environment unusable, or an empty string: a size that is not positive or does
-// not fit the pixels, no light at all, or radiance that is negative or not finite, named by pixel
-// and channel.
-std::string environment_problem(const Environment& environment);
+// Says what makes a picture unusable as a probe, or an empty string: a size that is not positive or
+// does not fit the number of values (3 a pixel), no light at all, or radiance that is negative or
+// not finite, named by pixel (x, y from the upper left, from 0) and channel.
+std::string probe_problem(int width_px, int height_px, const std::vector<float>& radiance);
 
 }  // namespace scattermeter

@@ -20,7 +20,7 @@ constexpr double kSpread = 5e-4;
 constexpr double kHorizonSpread = 2e-3;
 // An edge of shadow runs straight through cells of this share of the tolerance. The error of one is
 // some 0.035 of its energy and differs from cell to cell; a horizon's worth of cells has 400.
-constexpr double kEdgeShare = 0.5;
+constexpr double kEdgeShare = 1.0;
 // A pixel is cut at most into 2^n parts across.
 constexpr int kPixelCuts = 5;
 constexpr int kSumCuts = 8;

@@ -14,7 +14,9 @@ namespace {
 constexpr std::size_t kMostBright = 4096;
 
 Environment checked(Environment environment) {
-  if (const std::string problem = environment_problem(environment); !problem.empty()) {
+  if (const std::string problem =
+          probe_problem(environment.width_px, environment.height_px, environment.radiance);
+      !problem.empty()) {
     throw std::invalid_argument("ProbeTree: " + problem);
   }
   return environment;

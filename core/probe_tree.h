@@ -40,7 +40,7 @@ class ProbeTree {
     // pixels that are not.
     double bright_share = 3e-3;
   };
-  // Throws std::invalid_argument unless environment_problem() is empty.
+  // Throws std::invalid_argument unless probe_problem() is empty.
   explicit ProbeTree(Environment environment);
   ProbeTree(Environment environment, const Options& options);
 
