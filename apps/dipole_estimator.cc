@@ -29,7 +29,8 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
     const Estimate& first = e.results[i].estimate;
     for (const OpenedShot* shot : e.tasks[i].shots) {
       for (const std::string& light : shot->rig->lights) {
-        const LightKey key{shot->seen.get(), light};
+        const LightKey key{shot->seen.get(), light,
+                           e.rig.light(light).environment ? e.tasks[i].channel : 0};
         const auto [it, is_new] =
             column[i].try_emplace(key, static_cast<Eigen::Index>(media[key].size()));
         if (is_new) {
@@ -42,7 +43,8 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
   Sensitivities all;
   Progress progress("uncertainties", static_cast<int>(media.size()), e.options.quiet);
   for (const auto& [key, list] : media) {
-    all.by_light[key] = sensitivity(*key.first, e.rig.light(key.second).led, list, knots);
+    const auto& [seen, light, channel] = key;
+    all.by_light[key] = sensitivity(*seen, e.rig.light(light), channel, e.library, list, knots);
     progress.step();
   }
   all.of_task.resize(e.tasks.size());

@@ -37,8 +37,10 @@ std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
   return {first, normal.cross(first)};
 }
 
-LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
-                             const std::vector<LitMedium>& media, const DistanceKnots& knots) {
+LightSensitivity sensitivity(const SeenObject& seen, const RigLight& rig_light, std::size_t channel,
+                             ObjectLibrary& library, const std::vector<LitMedium>& media,
+                             const DistanceKnots& knots) {
+  const Led& led = rig_light.led;
   const ObjectScene& object = *seen.object;
   const double eta = object.rig->eta_int_over_ext;
   const PatchMesh coarse(object.mesh(), 2.0 * seen.patches->patch_size_mm());
@@ -48,8 +50,11 @@ LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
   pairs.near_ratio = 1.5;
   const auto predict = [&](const std::vector<ExitSite>& sites, const Led& light,
                            double eta_here) -> Eigen::MatrixXd {
-    const SourceCloud sources(illuminate(coarse, *object.rays, light, eta_here),
-                              object.box.center_mm());
+    const SourceCloud sources(
+        rig_light.environment
+            ? library.environment_light(object.rig->name, rig_light.name, channel, coarse, eta_here)
+            : illuminate(coarse, *object.rays, light, eta_here),
+        object.box.center_mm());
     return smooth_weights(sites, sources, knots, pairs) * curves(media, knots, eta_here);
   };
   LightSensitivity out;
@@ -57,7 +62,7 @@ LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
   // A hundredth of the distance: shadow edges then move by several of the parts that patches are
   // cut into, and the next order is still a hundredth of the first.
   const double step_mm = 0.01 * (led.position_mm - object.box.center_mm()).norm();
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3 && !rig_light.environment; ++i) {
     Led moved = led;
     moved.position_mm[i] += step_mm;
     out.per_mm[static_cast<std::size_t>(i)] = (predict(seen.sites, moved, eta) - out.l) / step_mm;
@@ -65,7 +70,9 @@ LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
   constexpr double kExponentStep = 0.02;
   Led other = led;
   other.exponent += kExponentStep;
-  out.per_exponent = (predict(seen.sites, other, eta) - out.l) / kExponentStep;
+  if (!rig_light.environment) {
+    out.per_exponent = (predict(seen.sites, other, eta) - out.l) / kExponentStep;
+  }
 
   constexpr double kEtaStep = 0.01;
   out.per_eta = (predict(seen.sites, led, eta + kEtaStep) - out.l) / kEtaStep;
@@ -122,8 +129,8 @@ struct RowContext {
   Eigen::Matrix<double, 6, 6> pose_root;  // pose covariance = root root^T
 };
 
-void add_led(const RowContext& c, const RigLight& light, double intensity,
-             const TaskSensitivity& task, Columns& columns, Entries& entries) {
+void add_light(const RowContext& c, const RigLight& light, double intensity,
+               const TaskSensitivity& task, Columns& columns, Entries& entries) {
   const auto row = static_cast<Eigen::Index>(c.row);
   const LightSensitivity& s = *task.sensitivity;
   for (std::size_t i = 0; light.position_std_mm > 0.0 && i < 3; ++i) {
@@ -135,9 +142,10 @@ void add_led(const RowContext& c, const RigLight& light, double intensity,
     entries.emplace_back(columns.at(light.name + ".exponent", "LED exponent", light.exponent_std),
                          intensity * s.per_exponent(row, task.medium));
   }
-  if (light.intensity_relative_std > 0.0) {
+  if (light.power_relative_std > 0.0) {
     entries.emplace_back(
-        columns.at(light.name + ".power", "LED power", light.intensity_relative_std),
+        columns.at(light.name + ".power", light.environment ? "environment power" : "LED power",
+                   light.power_relative_std),
         intensity * s.l(row, task.medium));
   }
 }
@@ -168,9 +176,10 @@ Entries row_entries(const RowContext& c, std::size_t channel,
   const double eta_std = c.shot.seen->object->rig->eta_std;
   for (const std::string& name : c.shot.rig->lights) {
     const RigLight& light = c.rig.light(name);
-    const TaskSensitivity& task = sensitivities.at({c.shot.seen.get(), name});
-    const double intensity = light.led.intensity_W_per_sr[static_cast<Eigen::Index>(channel)];
-    add_led(c, light, intensity, task, columns, entries);
+    const TaskSensitivity& task =
+        sensitivities.at({c.shot.seen.get(), name, light.environment ? channel : 0});
+    const double intensity = light.power()[static_cast<Eigen::Index>(channel)];
+    add_light(c, light, intensity, task, columns, entries);
     add_pose(c, intensity, task, columns, entries);
     if (eta_std > 0.0) {
       entries.emplace_back(

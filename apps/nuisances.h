@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -26,29 +27,33 @@ struct LitMedium {
 struct LightSensitivity {
   Eigen::MatrixXd l;                              // nominal
   std::array<Eigen::MatrixXd, 3> per_mm;          // by the LED's position, world x, y, z
-  Eigen::MatrixXd per_exponent;                   // by the lobe's exponent
+  Eigen::MatrixXd per_exponent;                   // by the lobe's exponent; of an LED only, too
   Eigen::MatrixXd per_eta;                        // by eta, of l - observed l: both depend on it
   std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by moving the sites along two tangents
 };
 
 // Computed by differences on patches of twice the size: errors of discretisation cancel in
 // differences.
-LightSensitivity sensitivity(const SeenObject& seen, const Led& led,
-                             const std::vector<LitMedium>& media, const DistanceKnots& knots);
+// `channel`: of the library's light.
+LightSensitivity sensitivity(const SeenObject& seen, const RigLight& light, std::size_t channel,
+                             ObjectLibrary& library, const std::vector<LitMedium>& media,
+                             const DistanceKnots& knots);
 
 // Two unit tangents of a row's facet; per_tangent_mm goes along them.
 std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal);
 
-// Sensitivities by (view, light), and which column of theirs belongs to a task.
-using LightKey = std::pair<const SeenObject*, std::string>;
+// Sensitivities by (view, light, channel; 0 for an LED), and which column of theirs belongs to a
+// task.
+using LightKey = std::tuple<const SeenObject*, std::string, std::size_t>;
 struct TaskSensitivity {
   const LightSensitivity* sensitivity;
   Eigen::Index medium;
 };
 
 // Fills the system's nuisances and their columns for the used rows of the shots, in the order of
-// stack(): place, exponent and power of every LED in use, pose (six independent combinations of
-// each pose's covariance), eta; those with a standard deviation of 0 are left out.
+// stack(): place, exponent and power of every LED in use, power of every environment, pose (six
+// independent combinations of each pose's covariance), eta; those with a standard deviation of 0
+// are left out.
 void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots, std::size_t channel,
                    const std::map<LightKey, TaskSensitivity>& sensitivities, DenseSystem& system);
 

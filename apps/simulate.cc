@@ -17,12 +17,14 @@
 #include "apps/camera_view.h"
 #include "apps/object_scene.h"
 #include "apps/progress.h"
+#include "apps/rig_probes.h"
 #include "apps/shot_pose.h"
 #include "capture/dng_writer.h"
 #include "capture/sensor.h"
 #include "capture/tone_curve.h"
 #include "core/cfa_samples.h"
 #include "core/dipole_image.h"
+#include "core/environment_light.h"
 #include "core/fresnel.h"
 #include "core/input_error.h"
 #include "core/shade_map.h"
@@ -30,7 +32,8 @@
 namespace scattermeter::apps {
 namespace {
 
-constexpr double kExposedTo = 0.75;  // of the range, for a chosen exposure
+constexpr double kSmoothPatches = 60.0;  // across an object, for the light of an environment
+constexpr double kExposedTo = 0.75;      // of the range, for a chosen exposure
 
 CameraView true_view(const Rig& rig) {
   if (rig.truth_pose) {
@@ -55,18 +58,23 @@ const std::array<Medium, 3>& truth_of(const Rig& rig, const RigShot& shot) {
   return it->second;
 }
 
-// An object from the camera, with the light of each LED on it; shared by its shots.
+// An object from the camera, with the light of each LED (one) or environment (R, G, B) on it;
+// shared by its shots.
 struct Stage {
   std::unique_ptr<PatchMesh> patches;
   std::unique_ptr<ShadeMap> pixels;
   std::vector<bool> needed;
-  std::map<std::string, IncidentLight> lights;
+  std::map<std::string, std::vector<IncidentLight>> lights;
 };
 
 class Simulator {
  public:
   Simulator(const Rig& rig, const SimulateOptions& options)
-      : rig_(rig), options_(options), scenes_(open_objects(rig)), view_(true_view(rig)) {
+      : rig_(rig),
+        options_(options),
+        scenes_(open_objects(rig)),
+        probes_(open_probes(rig)),
+        view_(true_view(rig)) {
     for (const RigShot& shot : rig.shots) truth_of(rig, shot);
     for (std::size_t p = 0; p < 4; ++p) {
       channel_of_phase_[p] = static_cast<int>(rig.camera.sensor.cfa.phase[p]);
@@ -111,6 +119,17 @@ class Simulator {
     return it->second;
   }
 
+  std::vector<IncidentLight> light_on(const RigLight& light, const ObjectScene& scene,
+                                      const PatchMesh& patches) const {
+    const double eta = scene.rig->eta_int_over_ext;
+    if (!light.environment) return {illuminate(patches, *scene.rays, light.led, eta)};
+    // An environment's light is smooth but for edges that are found on any patches.
+    const PatchMesh coarse(scene.mesh(),
+                           std::max(patches.patch_size_mm(), scene.size_mm() / kSmoothPatches));
+    const auto rgb = illuminate(coarse, *scene.rays, probes_.at(light.name), eta);
+    return {rgb.begin(), rgb.end()};
+  }
+
   SurfaceField render(const RigShot& shot) {
     Stage& s = stage(shot.object);
     const ObjectScene& scene = scenes_.at(shot.object);
@@ -120,11 +139,17 @@ class Simulator {
     for (const std::string& name : shot.lights) {
       const RigLight& light = rig_.light(name);
       const auto [it, is_new] = s.lights.try_emplace(name);
-      if (is_new) {
-        it->second = illuminate(*s.patches, *scene.rays, light.led, scene.rig->eta_int_over_ext);
+      if (is_new) it->second = light_on(light, scene, *s.patches);
+      for (std::size_t c = 0; c < it->second.size(); ++c) {
+        Eigen::Array3d power = light.power();
+        if (light.environment) {
+          power.setZero();
+          power[static_cast<Eigen::Index>(c)] = light.power()[static_cast<Eigen::Index>(c)];
+        }
+        if (it->second[c].lit.empty()) continue;
+        field.add(dipole_radiosity(field.nodes_mm(), it->second[c], scene.box.center_mm(),
+                                   1.001 * scene.diagonal_mm(), media, power));
       }
-      field.add(dipole_radiosity(field.nodes_mm(), it->second, scene.box.center_mm(),
-                                 1.001 * scene.diagonal_mm(), media, light.led.intensity_W_per_sr));
     }
     return field;
   }
@@ -183,9 +208,19 @@ class Simulator {
     });
     if (rig_.pose.charuco) {
       std::vector<Led> leds;
-      for (const std::string& name : shot.lights) leds.push_back(rig_.light(name).led);
-      add_board(view_, *rig_.pose.charuco, leds, *scenes_.at(shot.object).rays, channel_of_phase_,
-                signal);
+      const Eigen::Vector3d normal =
+          rig_.pose.charuco->world_from_board.rotation * Eigen::Vector3d::UnitZ();
+      Eigen::Array3d ambient = Eigen::Array3d::Zero();
+      for (const std::string& name : shot.lights) {
+        const RigLight& light = rig_.light(name);
+        if (light.environment) {
+          ambient += light.power() * open_irradiance(probes_.at(name), normal, 1.0);
+        } else {
+          leds.push_back(light.led);
+        }
+      }
+      add_board(view_, *rig_.pose.charuco, leds, ambient, *scenes_.at(shot.object).rays,
+                channel_of_phase_, signal);
     }
     tbb::parallel_for(0, height, [&](int y) {
       for (int x = 0; x < width; ++x) {
@@ -228,6 +263,7 @@ class Simulator {
   const Rig& rig_;
   SimulateOptions options_;
   ObjectScenes scenes_;
+  RigProbes probes_;
   CameraView view_;
   std::array<int, 4> channel_of_phase_{};
   std::map<std::string, Stage> stages_;

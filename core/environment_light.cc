@@ -188,7 +188,7 @@ std::array<IncidentLight, 3> illuminate(const PatchMesh& patches, const RayScene
                                         const EnvironmentLightOptions& options) {
   const TransmittedCosine transmitted(eta_int_over_ext);
   tbb::enumerable_thread_specific<ProbeIrradiance> workspace(
-      [&] { return ProbeIrradiance(probe, scene, transmitted, options.tolerance); });
+      [&] { return ProbeIrradiance(probe, &scene, transmitted, options.tolerance); });
   const std::vector<Chunk> chunks = chunks_of(patches);
   std::vector<ChunkLight> parts(chunks.size());
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
@@ -210,6 +210,14 @@ std::array<IncidentLight, 3> illuminate(const PatchMesh& patches, const RayScene
     one.shadow_rays = rays;
   }
   return light;
+}
+
+Eigen::Array3d open_irradiance(const ProbeTree& probe, const Eigen::Vector3d& normal,
+                               double eta_int_over_ext, double tolerance) {
+  const TransmittedCosine transmitted(eta_int_over_ext);
+  ProbeIrradiance irradiance(probe, nullptr, transmitted, tolerance);
+  irradiance.set_facet(normal, {});
+  return irradiance.open(Part::kSky) + irradiance.open(Part::kBright);
 }
 
 }  // namespace scattermeter

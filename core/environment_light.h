@@ -31,4 +31,9 @@ std::array<IncidentLight, 3> illuminate(const PatchMesh& patches, const RayScene
                                         const ProbeTree& probe, double eta_int_over_ext,
                                         const EnvironmentLightOptions& options = {});
 
+// Irradiance of a surface with nothing before it, R, G, B, per W/(mm^2 sr) of a probe value of 1,
+// sr.
+Eigen::Array3d open_irradiance(const ProbeTree& probe, const Eigen::Vector3d& normal,
+                               double eta_int_over_ext, double tolerance = 1e-4);
+
 }  // namespace scattermeter

@@ -50,7 +50,7 @@ struct BrightEmitter : SkyEmitter {
   }
 };
 
-ProbeIrradiance::ProbeIrradiance(const ProbeTree& tree, const RayScene& scene,
+ProbeIrradiance::ProbeIrradiance(const ProbeTree& tree, const RayScene* scene,
                                  const TransmittedCosine& transmitted, double tolerance)
     : tree_(tree),
       scene_(scene),
@@ -164,7 +164,7 @@ bool ProbeIrradiance::trace(double x_px, double y_px) {
     if (!(w.squaredNorm() > 1e-4)) w = normal_;  // straight down
   }
   ++rays_;
-  return !scene_.occluded_toward(point_mm_, normal_, w);
+  return !scene_->occluded_toward(point_mm_, normal_, w);
 }
 
 bool ProbeIrradiance::visible(double x_px, double y_px) {

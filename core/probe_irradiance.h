@@ -20,7 +20,8 @@ class ProbeIrradiance {
  public:
   enum class Part { kSky, kBright };
 
-  ProbeIrradiance(const ProbeTree& tree, const RayScene& scene,
+  // scene: may be nullptr where only open() is asked for. What is pointed to must outlive this.
+  ProbeIrradiance(const ProbeTree& tree, const RayScene* scene,
                   const TransmittedCosine& transmitted, double tolerance);
 
   // The facet that the calls below are about: its unit normal, and the mesh's vertices before its
@@ -47,7 +48,7 @@ class ProbeIrradiance {
   bool trace(double x_px, double y_px);
 
   const ProbeTree& tree_;
-  const RayScene& scene_;
+  const RayScene* scene_;
   const TransmittedCosine& transmitted_;
   double tolerance_;
   Eigen::Quaterniond world_from_probe_;
