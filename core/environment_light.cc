@@ -23,6 +23,9 @@ using Triangle = std::array<Eigen::Vector3d, 3>;
 constexpr double kSmooth = 3.0;
 constexpr double kEdged = 10.0;
 
+// Of the patch size: how far from a facet's border its points are kept.
+constexpr double kInset = 0.002;
+
 // Patches of one facet, at most so many: the unit of work.
 constexpr int kPatchesAtOnce = 256;
 struct Chunk {
@@ -106,7 +109,7 @@ class Illuminator {
       out.lit.push_back({patches_.corners_mm(k), {level, level, level}, k});
     }
     if (open) return out;
-    const FacetInset inset(corners, 0.01 * patches_.patch_size_mm());
+    const FacetInset inset(corners, kInset * patches_.patch_size_mm());
     const PointIrradiance sky = [&](const Eigen::Vector3d& p) {
       return probe_.at(inset(p), Part::kSky);
     };
@@ -150,14 +153,12 @@ class Illuminator {
     if ((probe_.open(Part::kBright) == 0.0).all()) return;
     const Triangle t = patches_.corners_mm(k);
     const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
-    // Drawn a little towards the centre, as for an LED.
-    const auto probe = [&](const Eigen::Vector3d& p) { return bright(p + 0.02 * (center - p)); };
-    LitTriangleRgb patch{t, {probe(t[0]), probe(t[1]), probe(t[2])}, k};
+    LitTriangleRgb patch{t, {bright(t[0]), bright(t[1]), bright(t[2])}, k};
     Eigen::Array3d low = patch.irradiance[0].min(patch.irradiance[1]).min(patch.irradiance[2]);
     Eigen::Array3d high = patch.irradiance[0].max(patch.irradiance[1]).max(patch.irradiance[2]);
     for (const Eigen::Vector3d& p : {center, (0.5 * (t[0] + t[1])).eval(),
                                      (0.5 * (t[1] + t[2])).eval(), (0.5 * (t[2] + t[0])).eval()}) {
-      const Eigen::Array3d e = probe(p);
+      const Eigen::Array3d e = bright(p);
       low = low.min(e);
       high = high.max(e);
     }

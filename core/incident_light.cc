@@ -19,6 +19,9 @@ using Triangle = std::array<Eigen::Vector3d, 3>;
 // Of the irradiance in full light: how well it is linear on each part of a half shadow.
 constexpr double kHalfShadowError = 1e-3;
 
+// A disc's points of a patch are drawn towards its centre by this share, away from folds.
+constexpr double kDrawn = 0.002;
+
 struct PatchLight {
   std::vector<LitTriangle> lit;
   bool on_shadow_edge = false;
@@ -78,7 +81,7 @@ class Illuminator {
     double least = 1.0;
     double most = 0.0;
     const auto probe = [&](const Eigen::Vector3d& p) {
-      const double share = disc_->visible_share(p + 0.02 * (center - p), n, out.rays);
+      const double share = disc_->visible_share(p + kDrawn * (center - p), n, out.rays);
       least = std::min(least, share);
       most = std::max(most, share);
       return share;
@@ -94,7 +97,8 @@ class Illuminator {
       lit.push_back(patch);
     } else {
       out.on_shadow_edge = true;
-      const PointIrradiance irradiance = [&](const Eigen::Vector3d& p) -> Eigen::Array3d {
+      const PointIrradiance irradiance = [&](const Eigen::Vector3d& at) -> Eigen::Array3d {
+        const Eigen::Vector3d p = at + kDrawn * (center - at);
         return Eigen::Array3d::Constant(disc_->open_per_mm2(p, n) *
                                         disc_->visible_share(p, n, out.rays));
       };

@@ -101,8 +101,12 @@ void append_smooth(const LitTriangleRgb& patch, const PointIrradiance& irradianc
   const Eigen::Vector3d middle = 0.5 * (patch.corners_mm[b] + patch.corners_mm[c]);
   const Eigen::Array3d at_middle = irradiance(middle);
   if (((at_middle - 0.5 * (e[b] + e[c])).abs() <= allowed).all()) {
-    out.push_back(patch);
-    return;
+    const Eigen::Array3d at_center =
+        irradiance((patch.corners_mm[0] + patch.corners_mm[1] + patch.corners_mm[2]) / 3.0);
+    if (((at_center - mean_of(e)).abs() <= allowed).all()) {
+      out.push_back(patch);
+      return;
+    }
   }
   for (const LitTriangleRgb& half : halves(patch, apex, middle, at_middle)) {
     append_smooth(half, irradiance, allowed, level, bisections - 1, out);

@@ -21,9 +21,10 @@ struct LitTriangleRgb {
 using PointIrradiance = std::function<Eigen::Array3d(const Eigen::Vector3d& point_mm)>;
 
 // Appends the patch's triangle, bisected at its longest edges (at most `bisections` times) until
-// the irradiance in the middle of the longest edge is within `allowed` of the mean of its ends.
+// the irradiance in the middle of the longest edge is within `allowed` of the mean of its ends, and
+// that in the centre of the mean of the corners.
 // Where the corners differ by so little that a smooth field would pass (difference^2 / (8 level),
-// `level`: the irradiance of an open facet), the middle is not asked for. `values`: at the corners.
+// `level`: the irradiance of an open facet), they are not asked for. `values`: at the corners.
 void append_smooth(const LitTriangleRgb& patch, const PointIrradiance& irradiance,
                    const Eigen::Array3d& allowed, const Eigen::Array3d& level, int bisections,
                    std::vector<LitTriangleRgb>& out);

@@ -167,16 +167,33 @@ double ProbeMap::density(double x_px, double y_px) const {
 }
 
 Eigen::Vector3d ProbeMap::mean_direction(const ImageRect& rect) const {
-  constexpr double kGauss = 0.2886751345948129;  // 1 / (2 sqrt 3)
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double weight = 0.0;
-  for (double sx : {-kGauss, kGauss}) {
-    for (double sy : {-kGauss, kGauss}) {
-      const double x = 0.5 * (rect.x0 + rect.x1) + sx * (rect.x1 - rect.x0);
-      const double y = 0.5 * (rect.y0 + rect.y1) + sy * (rect.y1 - rect.y0);
-      const double w = density(x, y);
-      sum += w * direction(x, y);
-      weight += w;
+  const auto add = [&](double x, double y) {
+    const double w = density(x, y);
+    sum += w * direction(x, y);
+    weight += w;
+  };
+  const double w = rect.x1 - rect.x0;
+  const double h = rect.y1 - rect.y0;
+  const double far_x =
+      std::max(std::abs(rect.x0 - 0.5 * width_px_), std::abs(rect.x1 - 0.5 * width_px_));
+  const double far_y =
+      std::max(std::abs(rect.y0 - 0.5 * height_px_), std::abs(rect.y1 - 0.5 * height_px_));
+  if (projection_ == ProbeProjection::kEquirectangular ||
+      std::hypot(far_x, far_y) < 0.9 * radius_px_) {
+    constexpr double kGauss = 0.2886751345948129;  // 1 / (2 sqrt 3)
+    for (double sx : {-kGauss, kGauss}) {
+      for (double sy : {-kGauss, kGauss}) {
+        add(rect.x0 + (0.5 + sx) * w, rect.y0 + (0.5 + sy) * h);
+      }
+    }
+  } else {
+    // Across the rim, or near it, where a ball's directions crowd.
+    constexpr int kSide = 8;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      add(rect.x0 + (i % kSide + 0.5) / kSide * w,
+          rect.y0 + (static_cast<double>(i / kSide) + 0.5) / kSide * h);
     }
   }
   if (weight > 0.0) return sum / weight;

@@ -39,7 +39,7 @@ class ProbeMap {
   // side.
   double solid_angle_sr(const ImageRect& rect) const;
   // Mean direction over a rectangle by solid angle (length below 1: the shorter, the wider the
-  // rectangle); to fourth order in its size.
+  // rectangle); to fourth order in its size, near the rim of a disc to second.
   Eigen::Vector3d mean_direction(const ImageRect& rect) const;
 
  private:
