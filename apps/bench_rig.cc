@@ -35,7 +35,7 @@ DrawnRigs draw_rigs(const Rig& exact, const RigBenchOptions& options, int draw) 
   for (std::size_t i = 0; i < exact.lights.size(); ++i) {
     RigLight& told = rigs.told.lights[i];
     told.position_std_mm = options.led_position_std_mm;
-    told.intensity_relative_std = options.led_power_relative_std;
+    told.power_relative_std = options.led_power_relative_std;
     Led& led = rigs.truth.lights[i].led;
     for (int k = 0; k < 3; ++k) {
       led.position_mm[k] += options.led_position_std_mm * normal(generator);

@@ -30,8 +30,9 @@ TriangleMesh outline(const calib::CharucoBoard& board) {
 }  // namespace
 
 void add_board(const CameraView& view, const calib::CharucoBoard& board,
-               const std::vector<Led>& leds, const RayScene& object,
-               const std::array<int, 4>& channel_of_phase, std::vector<float>& radiance) {
+               const std::vector<Led>& leds, const Eigen::Array3d& ambient_W_per_mm2,
+               const RayScene& object, const std::array<int, 4>& channel_of_phase,
+               std::vector<float>& radiance) {
   const TriangleMesh corners = outline(board);
   const ViewCheck check = check_view(view, corners);
   if (!check.in_front || !check.in_frame) return;
@@ -77,7 +78,7 @@ void add_board(const CameraView& view, const calib::CharucoBoard& board,
     const int xx = rays.x0 + x;
     const int yy = rays.y0 + y;
     const int channel = channel_of_phase[cfa_phase(xx, yy)];
-    double irradiance = 0.0;
+    double irradiance = ambient_W_per_mm2[channel];
     for (const Led& led : leds) {
       const double e = led.transmitted_irradiance_per_mm2(point, normal, 1.0);
       if (e > 0.0 && !object.occluded(point, normal, led.position_mm)) {

@@ -29,7 +29,8 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
     const Estimate& first = e.results[i].estimate;
     for (const OpenedShot* shot : e.tasks[i].shots) {
       for (const std::string& light : shot->rig->lights) {
-        const LightKey key{shot->seen.get(), light};
+        const LightKey key{shot->seen.get(), light,
+                           e.rig.light(light).environment ? e.tasks[i].channel : 0};
         const auto [it, is_new] =
             column[i].try_emplace(key, static_cast<Eigen::Index>(media[key].size()));
         if (is_new) {
@@ -42,11 +43,12 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
   Sensitivities all;
   Progress progress("uncertainties", static_cast<int>(media.size()), e.options.quiet);
   for (const auto& [key, list] : media) {
+    const auto& [seen, light, channel] = key;
     const auto [changed, is_new] = e.changed_weights.try_emplace(key);
     if (is_new) {
-      changed->second = changed_weights(*key.first, e.rig.light(key.second).led, knots);
+      changed->second = changed_weights(*seen, e.rig.light(light), channel, e.library, knots);
     }
-    all.by_light[key] = sensitivity(*key.first, changed->second, list, knots);
+    all.by_light[key] = sensitivity(*seen, changed->second, list, knots);
     progress.step();
   }
   all.of_task.resize(e.tasks.size());
@@ -80,8 +82,7 @@ void estimate_dipole(Estimation& e) {
   for_open_tasks("fitting", e, [&](std::size_t i) {
     DipoleFitOptions own = fit;
     own.eta_int_over_ext = e.tasks[i].eta;
-    e.results[i].estimate =
-        fit_dipole(system_of(e.rig, e.tasks[i], weights), knots, own).estimate;
+    e.results[i].estimate = fit_dipole(system_of(e.rig, e.tasks[i], weights), knots, own).estimate;
     fitted[i] = e.results[i].estimate.converged ? 1 : 0;
   });
   e.watch.lap("first fit");

@@ -67,16 +67,19 @@ void add_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, b
   std::vector<WeightKey> keys;
   for (const OpenedShot& shot : shots) {
     for (const std::string& light : shot.rig->lights) {
-      const WeightKey key{shot.seen.get(), light};
-      const bool is_new =
-          !weights.contains(key) && std::find(keys.begin(), keys.end(), key) == keys.end();
-      if (is_new) keys.push_back(key);
+      for (std::size_t c = 0; c < library.channels(light); ++c) {
+        const WeightKey key{shot.seen.get(), light, c};
+        const bool is_new =
+            !weights.contains(key) && std::find(keys.begin(), keys.end(), key) == keys.end();
+        if (is_new) keys.push_back(key);
+      }
     }
   }
   Progress progress("light in each patch", static_cast<int>(keys.size()), quiet);
   for (const WeightKey& key : keys) {
-    const SeenObject& seen = *key.first;
-    const IncidentLight& light = library.light(seen.object->rig->name, key.second);
+    const auto& [view, name, channel] = key;
+    const SeenObject& seen = *view;
+    const IncidentLight& light = library.light(seen.object->rig->name, name, channel);
     weights[key] = make(seen, SourceCloud(light, seen.object->box.center_mm()));
     progress.step();
   }
@@ -87,9 +90,9 @@ DenseSystem system_of(const Rig& rig, const Task& task, const Weights& weights) 
   for (const OpenedShot* shot : task.shots) {
     LinearShot linear{{}, &shot->observation.channel[task.channel]};
     for (const std::string& light : shot->rig->lights) {
-      linear.lights.push_back(
-          {&weights.at({shot->seen.get(), light}),
-           rig.light(light).led.intensity_W_per_sr[static_cast<Eigen::Index>(task.channel)]});
+      const std::size_t own = rig.light(light).environment ? task.channel : 0;
+      linear.lights.push_back({&weights.at({shot->seen.get(), light, own}),
+                               rig.light(light).power()[static_cast<Eigen::Index>(task.channel)]});
     }
     shots.push_back(linear);
   }

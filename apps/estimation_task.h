@@ -4,7 +4,7 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "apps/measure.h"
@@ -30,8 +30,8 @@ std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots)
 // nothing.
 std::string shot_problem(const OpenedShot& shot, std::size_t channel);
 
-// Weights by (view of an object, light).
-using WeightKey = std::pair<const SeenObject*, std::string>;
+// Weights by (view of an object, light, channel; 0 for an LED, whose channels share theirs).
+using WeightKey = std::tuple<const SeenObject*, std::string, std::size_t>;
 using Weights = std::map<WeightKey, WeightMatrix>;
 
 // Makes W of every view and light that a shot needs, each once; those that are there already stay.

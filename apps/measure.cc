@@ -21,6 +21,15 @@ void list_inputs(const Rig& rig, const ObjectScenes& scenes, const std::vector<s
       files.push_back(scene.rig->mesh_path);
     }
   }
+  for (const RigShot& shot : rig.shots) {
+    for (const std::string& name : shot.lights) {
+      const RigLight& light = rig.light(name);
+      if (light.environment &&
+          std::find(files.begin(), files.end(), light.environment->image_path) == files.end()) {
+        files.push_back(light.environment->image_path);
+      }
+    }
+  }
   files.insert(files.end(), paths.begin(), paths.end());
   out.inputs.resize(files.size());
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {

@@ -39,7 +39,7 @@ struct Measurement {
   std::vector<ChannelResult> results;                    // materials in the rig's order, R G B each
   std::vector<std::string> notes;                        // for the user: skipped files and the like
   std::vector<std::pair<std::string, double>> timing_s;  // stages in order, then "total"
-  std::vector<InputFile> inputs;                         // rig, meshes, shots
+  std::vector<InputFile> inputs;                         // rig, meshes, probes, shots
   std::map<std::string, double> patch_size_mm;           // by object
   bool any_refused() const;
 };

@@ -40,7 +40,10 @@ std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
   return {first, normal.cross(first)};
 }
 
-ChangedWeights changed_weights(const SeenObject& seen, const Led& led, const DistanceKnots& knots) {
+ChangedWeights changed_weights(const SeenObject& seen, const RigLight& rig_light,
+                               std::size_t channel, ObjectLibrary& library,
+                               const DistanceKnots& knots) {
+  const Led& led = rig_light.led;
   const ObjectScene& object = *seen.object;
   const double eta = object.rig->eta_int_over_ext;
   const PatchMesh coarse(object.mesh(), 2.0 * seen.patches->patch_size_mm());
@@ -49,8 +52,11 @@ ChangedWeights changed_weights(const SeenObject& seen, const Led& led, const Dis
   pairs.far_ratio = 3.0;
   pairs.near_ratio = 0.7;
   const auto weights = [&](const std::vector<ExitSite>& sites, const Led& light, double eta_here) {
-    const SourceCloud sources(illuminate(coarse, *object.rays, light, eta_here),
-                              object.box.center_mm());
+    const SourceCloud sources(
+        rig_light.environment
+            ? library.environment_light(object.rig->name, rig_light.name, channel, coarse, eta_here)
+            : illuminate(coarse, *object.rays, light, eta_here),
+        object.box.center_mm());
     return smooth_weights(sites, sources, knots, pairs);
   };
   ChangedWeights out;
@@ -58,15 +64,17 @@ ChangedWeights changed_weights(const SeenObject& seen, const Led& led, const Dis
   // A hundredth of the distance: shadow edges then move by several of the parts that patches are
   // cut into, and the next order is still a hundredth of the first.
   out.move_mm = 0.01 * (led.position_mm - object.box.center_mm()).norm();
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3 && rig_light.position_std_mm > 0.0; ++i) {
     Led moved = led;
     moved.position_mm[i] += out.move_mm;
     out.moved[static_cast<std::size_t>(i)] = weights(seen.sites, moved, eta);
   }
-  Led other = led;
-  other.exponent += kExponentStep;
-  out.other_exponent = weights(seen.sites, other, eta);
-  out.other_eta = weights(seen.sites, led, eta + kEtaStep);
+  if (rig_light.exponent_std > 0.0) {
+    Led other = led;
+    other.exponent += kExponentStep;
+    out.other_exponent = weights(seen.sites, other, eta);
+  }
+  if (object.rig->eta_std > 0.0) out.other_eta = weights(seen.sites, led, eta + kEtaStep);
   std::array<std::vector<ExitSite>, 2> shifted = {seen.sites, seen.sites};
   out.shift_mm = 0.1 * seen.patches->patch_size_mm();
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
@@ -85,13 +93,16 @@ LightSensitivity sensitivity(const SeenObject& seen, const ChangedWeights& weigh
   const Eigen::MatrixXd r = curves(media, knots, eta);
   LightSensitivity out;
   out.l = weights.nominal * r;
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.per_mm[i] = (weights.moved[i] * r - out.l) / weights.move_mm;
-  }
-  out.per_exponent = (weights.other_exponent * r - out.l) / kExponentStep;
+  const auto change = [&](const WeightMatrix& changed, double by) -> Eigen::MatrixXd {
+    if (changed.size() == 0) return {};
+    return (changed * r - out.l) / by;
+  };
+  for (std::size_t i = 0; i < 3; ++i) out.per_mm[i] = change(weights.moved[i], weights.move_mm);
+  out.per_exponent = change(weights.other_exponent, kExponentStep);
   for (std::size_t t = 0; t < 2; ++t) {
-    out.per_tangent_mm[t] = (weights.shifted[t] * r - out.l) / weights.shift_mm;
+    out.per_tangent_mm[t] = change(weights.shifted[t], weights.shift_mm);
   }
+  if (weights.other_eta.size() == 0) return out;
   out.per_eta = (weights.other_eta * curves(media, knots, eta + kEtaStep) - out.l) / kEtaStep;
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
     const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
@@ -99,11 +110,11 @@ LightSensitivity sensitivity(const SeenObject& seen, const ChangedWeights& weigh
     const Eigen::Vector3d to_camera =
         (seen.camera_center_mm - seen.sites[j].center_mm).normalized();
     const double cos_theta = normal.dot(to_camera);
-    const double change =
+    const double growth =
         fresnel_transmittance(eta, cos_theta) / fresnel_transmittance(eta + kEtaStep, cos_theta) -
         1.0;
     const auto row = static_cast<Eigen::Index>(j);
-    out.per_eta.row(row) -= out.l.row(row) * (change / kEtaStep);
+    out.per_eta.row(row) -= out.l.row(row) * (growth / kEtaStep);
   }
   return out;
 }
@@ -136,8 +147,8 @@ struct RowContext {
   Eigen::Matrix<double, 6, 6> pose_root;  // pose covariance = root root^T
 };
 
-void add_led(const RowContext& c, const RigLight& light, double intensity,
-             const TaskSensitivity& task, Columns& columns, Entries& entries) {
+void add_light(const RowContext& c, const RigLight& light, double intensity,
+               const TaskSensitivity& task, Columns& columns, Entries& entries) {
   const auto row = static_cast<Eigen::Index>(c.row);
   const LightSensitivity& s = *task.sensitivity;
   for (std::size_t i = 0; light.position_std_mm > 0.0 && i < 3; ++i) {
@@ -149,9 +160,10 @@ void add_led(const RowContext& c, const RigLight& light, double intensity,
     entries.emplace_back(columns.at(light.name + ".exponent", "LED exponent", light.exponent_std),
                          intensity * s.per_exponent(row, task.medium));
   }
-  if (light.intensity_relative_std > 0.0) {
+  if (light.power_relative_std > 0.0) {
     entries.emplace_back(
-        columns.at(light.name + ".power", "LED power", light.intensity_relative_std),
+        columns.at(light.name + ".power", light.environment ? "environment power" : "LED power",
+                   light.power_relative_std),
         intensity * s.l(row, task.medium));
   }
 }
@@ -182,9 +194,10 @@ Entries row_entries(const RowContext& c, std::size_t channel,
   const double eta_std = c.shot.seen->object->rig->eta_std;
   for (const std::string& name : c.shot.rig->lights) {
     const RigLight& light = c.rig.light(name);
-    const TaskSensitivity& task = sensitivities.at({c.shot.seen.get(), name});
-    const double intensity = light.led.intensity_W_per_sr[static_cast<Eigen::Index>(channel)];
-    add_led(c, light, intensity, task, columns, entries);
+    const TaskSensitivity& task =
+        sensitivities.at({c.shot.seen.get(), name, light.environment ? channel : 0});
+    const double intensity = light.power()[static_cast<Eigen::Index>(channel)];
+    add_light(c, light, intensity, task, columns, entries);
     add_pose(c, intensity, task, columns, entries);
     if (eta_std > 0.0) {
       entries.emplace_back(

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,18 +23,19 @@ struct LitMedium {
   double scale = 1;  // measured over predicted, of the first estimate
 };
 
-// Change of l (per W/sr of intensity) on the rows of a view for each medium: rows x media.
+// Change of l (per unit of the light's power) on the rows of a view for each medium: rows x media.
+// Empty where the rig knows the quantity exactly.
 struct LightSensitivity {
   Eigen::MatrixXd l;                              // nominal
   std::array<Eigen::MatrixXd, 3> per_mm;          // by the LED's position, world x, y, z
-  Eigen::MatrixXd per_exponent;                   // by the lobe's exponent
+  Eigen::MatrixXd per_exponent;                   // by the lobe's exponent; of an LED only, too
   Eigen::MatrixXd per_eta;                        // by eta, of l - observed l: both depend on it
   std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by moving the sites along two tangents
 };
 
 // W of a view under a light, nominal and with one thing changed at a time: all that the
 // sensitivities of any medium need of the geometry. On patches of twice the size: errors of
-// discretisation cancel in differences.
+// discretisation cancel in differences. What the rig knows exactly is not changed (no rows).
 struct ChangedWeights {
   WeightMatrix nominal;
   std::array<WeightMatrix, 3> moved;  // the LED, by move_mm along world x, y, z
@@ -43,7 +45,9 @@ struct ChangedWeights {
   std::array<WeightMatrix, 2> shifted;  // the sites, by shift_mm along two tangents
   double shift_mm = 0;
 };
-ChangedWeights changed_weights(const SeenObject& seen, const Led& led, const DistanceKnots& knots);
+// `channel`: of the library's light.
+ChangedWeights changed_weights(const SeenObject& seen, const RigLight& light, std::size_t channel,
+                               ObjectLibrary& library, const DistanceKnots& knots);
 
 // By differences of the changed weights and the nominal ones.
 LightSensitivity sensitivity(const SeenObject& seen, const ChangedWeights& weights,
@@ -52,8 +56,9 @@ LightSensitivity sensitivity(const SeenObject& seen, const ChangedWeights& weigh
 // Two unit tangents of a row's facet; per_tangent_mm goes along them.
 std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal);
 
-// Sensitivities by (view, light), and which column of theirs belongs to a task.
-using LightKey = std::pair<const SeenObject*, std::string>;
+// Sensitivities by (view, light, channel; 0 for an LED), and which column of theirs belongs to a
+// task.
+using LightKey = std::tuple<const SeenObject*, std::string, std::size_t>;
 using ChangedWeightsByLight = std::map<LightKey, ChangedWeights>;
 struct TaskSensitivity {
   const LightSensitivity* sensitivity;
@@ -61,8 +66,9 @@ struct TaskSensitivity {
 };
 
 // Fills the system's nuisances and their columns for the used rows of the shots, in the order of
-// stack(): place, exponent and power of every LED in use, pose (six independent combinations of
-// each pose's covariance), eta; those with a standard deviation of 0 are left out.
+// stack(): place, exponent and power of every LED in use, power of every environment, pose (six
+// independent combinations of each pose's covariance), eta; those with a standard deviation of 0
+// are left out.
 void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots, std::size_t channel,
                    const std::map<LightKey, TaskSensitivity>& sensitivities, DenseSystem& system);
 

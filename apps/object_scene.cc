@@ -44,6 +44,7 @@ ObjectScenes open_objects(const Rig& rig,
     }
     for (const std::string& name : shot.lights) {
       const RigLight& light = rig.light(name);
+      if (light.environment) continue;
       if (it->second.rays->contains(light.led.position_mm)) {
         throw InputError(
             rig.at(light.line) + ": lights." + name + ".position_mm",

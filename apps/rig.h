@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "calib/camera_model.h"
 #include "calib/charuco_board.h"
 #include "calib/pose.h"
@@ -16,6 +18,7 @@
 #include "capture/raw_frame.h"
 #include "core/led.h"
 #include "core/medium.h"
+#include "core/probe_projection.h"
 
 namespace scattermeter::apps {
 
@@ -57,14 +60,28 @@ struct RigObject {
   int line = 0;
 };
 
+struct RigEnvironment {
+  std::string image_path;
+  ProbeProjection projection = ProbeProjection::kEquirectangular;
+  Eigen::Quaterniond world_from_probe = Eigen::Quaterniond::Identity();
+  Eigen::Array3d radiance_W_per_mm2_sr = Eigen::Array3d::Ones();  // of a probe value of 1
+};
+
+// An LED, or an environment where one is given.
 struct RigLight {
   std::string name;
-  std::string type;  // "led"
   Led led;
+  std::optional<RigEnvironment> environment;
   double position_std_mm = 0;  // in each coordinate
   double exponent_std = 0;
-  double intensity_relative_std = 0;  // common to the three channels of one fit
+  double power_relative_std = 0;  // common to the three channels of one fit
   int line = 0;
+
+  // What the light's IncidentLight counts in: an LED's intensity on its axis, W/sr, or the radiance
+  // of a probe value of 1, W/(mm^2 sr).
+  const Eigen::Array3d& power() const {
+    return environment ? environment->radiance_W_per_mm2_sr : led.intensity_W_per_sr;
+  }
 };
 
 struct RigShot {

@@ -7,11 +7,14 @@
 
 #include "apps/board_picture.h"
 #include "apps/shot_pose.h"
+#include "core/environment_light.h"
 #include "core/fresnel.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
 namespace {
+
+constexpr double kSmoothPatches = 60.0;  // across an object, for the light of an environment
 
 CameraView true_view(const Rig& rig) {
   if (rig.truth_pose) {
@@ -39,7 +42,7 @@ const std::array<Medium, 3>& truth_of(const Rig& rig, const RigShot& shot) {
 }  // namespace
 
 ShotRenderer::ShotRenderer(const Rig& rig, const ObjectScenes& scenes)
-    : rig_(rig), scenes_(scenes), view_(true_view(rig)) {
+    : rig_(rig), scenes_(scenes), probes_(open_probes(rig)), view_(true_view(rig)) {
   for (const RigShot& shot : rig.shots) truth_of(rig, shot);
   for (std::size_t p = 0; p < 4; ++p) {
     channel_of_phase_[p] = static_cast<int>(rig.camera.sensor.cfa.phase[p]);
@@ -66,6 +69,17 @@ ShotRenderer::Stage& ShotRenderer::stage(const std::string& object) {
   return it->second;
 }
 
+std::vector<IncidentLight> ShotRenderer::light_on(const RigLight& light, const ObjectScene& scene,
+                                                  const PatchMesh& patches) const {
+  const double eta = scene.rig->eta_int_over_ext;
+  if (!light.environment) return {illuminate(patches, *scene.rays, light.led, eta)};
+  // An environment's light is smooth but for edges that are found on any patches.
+  const PatchMesh coarse(scene.mesh(),
+                         std::max(patches.patch_size_mm(), scene.size_mm() / kSmoothPatches));
+  const auto rgb = illuminate(coarse, *scene.rays, probes_.at(light.name), eta);
+  return {rgb.begin(), rgb.end()};
+}
+
 SurfaceField ShotRenderer::field(const RigShot& shot, Stage& s) const {
   const ObjectScene& scene = scenes_.at(shot.object);
   std::array<Medium, 3> media = truth_of(rig_, shot);
@@ -74,11 +88,17 @@ SurfaceField ShotRenderer::field(const RigShot& shot, Stage& s) const {
   for (const std::string& name : shot.lights) {
     const RigLight& light = rig_.light(name);
     const auto [it, is_new] = s.lights.try_emplace(name);
-    if (is_new) {
-      it->second = illuminate(*s.patches, *scene.rays, light.led, scene.rig->eta_int_over_ext);
+    if (is_new) it->second = light_on(light, scene, *s.patches);
+    for (std::size_t c = 0; c < it->second.size(); ++c) {
+      Eigen::Array3d power = light.power();
+      if (light.environment) {
+        power.setZero();
+        power[static_cast<Eigen::Index>(c)] = light.power()[static_cast<Eigen::Index>(c)];
+      }
+      if (it->second[c].lit.empty()) continue;
+      field.add(dipole_radiosity(field.nodes_mm(), it->second[c], scene.box.center_mm(),
+                                 1.001 * scene.diagonal_mm(), media, power));
     }
-    field.add(dipole_radiosity(field.nodes_mm(), it->second, scene.box.center_mm(),
-                               1.001 * scene.diagonal_mm(), media, light.led.intensity_W_per_sr));
   }
   return field;
 }
@@ -112,9 +132,19 @@ RadiancePicture ShotRenderer::render(const RigShot& shot) {
   });
   if (rig_.pose.charuco) {
     std::vector<Led> leds;
-    for (const std::string& name : shot.lights) leds.push_back(rig_.light(name).led);
-    add_board(view_, *rig_.pose.charuco, leds, *scenes_.at(shot.object).rays, channel_of_phase_,
-              out.radiance);
+    const Eigen::Vector3d normal =
+        rig_.pose.charuco->world_from_board.rotation * Eigen::Vector3d::UnitZ();
+    Eigen::Array3d ambient = Eigen::Array3d::Zero();
+    for (const std::string& name : shot.lights) {
+      const RigLight& light = rig_.light(name);
+      if (light.environment) {
+        ambient += light.power() * open_irradiance(probes_.at(name), normal, 1.0);
+      } else {
+        leds.push_back(light.led);
+      }
+    }
+    add_board(view_, *rig_.pose.charuco, leds, ambient, *scenes_.at(shot.object).rays,
+              channel_of_phase_, out.radiance);
   }
   return out;
 }

@@ -12,6 +12,7 @@
 #include "apps/camera_view.h"
 #include "apps/object_scene.h"
 #include "apps/rig.h"
+#include "apps/rig_probes.h"
 #include "core/cfa_samples.h"
 #include "core/dipole_image.h"
 #include "core/incident_light.h"
@@ -33,7 +34,7 @@ struct RadiancePicture {
 // its shots. Rig and scenes must outlive it. Not for several threads at once (it uses all of them).
 class ShotRenderer {
  public:
-  // Throws InputError where the rig lacks a truth material or pose.
+  // Throws InputError where the rig lacks a truth material or pose, or for a probe.
   ShotRenderer(const Rig& rig, const ObjectScenes& scenes);
 
   // Throws InputError when the object is out of view. The rectangle is the object's; with a board
@@ -43,18 +44,21 @@ class ShotRenderer {
   int channel(int x, int y) const { return channel_of_phase_[cfa_phase(x, y)]; }
 
  private:
-  // An object from the camera, with the light of each LED on it.
+  // An object from the camera, with the light of each LED (one) or environment (R, G, B) on it.
   struct Stage {
     std::unique_ptr<PatchMesh> patches;
     std::unique_ptr<ShadeMap> pixels;
     std::vector<bool> needed;
-    std::map<std::string, IncidentLight> lights;
+    std::map<std::string, std::vector<IncidentLight>> lights;
   };
   Stage& stage(const std::string& object);
+  std::vector<IncidentLight> light_on(const RigLight& light, const ObjectScene& scene,
+                                      const PatchMesh& patches) const;
   SurfaceField field(const RigShot& shot, Stage& s) const;
 
   const Rig& rig_;
   const ObjectScenes& scenes_;
+  RigProbes probes_;
   CameraView view_;
   std::array<int, 4> channel_of_phase_{};
   std::map<std::string, Stage> stages_;

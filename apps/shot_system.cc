@@ -10,6 +10,7 @@
 #include "apps/progress.h"
 #include "apps/shot_pose.h"
 #include "capture/linear_samples.h"
+#include "core/environment_light.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
@@ -38,7 +39,7 @@ std::shared_ptr<const SeenObject> see(const Rig& rig, const ObjectScenes& scenes
 
 ObjectLibrary::ObjectLibrary(const Rig& rig, const ObjectScenes& scenes,
                              std::optional<double> patch_size_mm, double distance_to_camera_mm)
-    : rig_(rig), scenes_(scenes) {
+    : rig_(rig), scenes_(scenes), probes_(open_probes(rig)) {
   for (const auto& [name, scene] : scenes) {
     // Fewer than about six samples across a patch, and its mean says where they fell, not what it
     // is.
@@ -53,11 +54,19 @@ ObjectLibrary::ObjectLibrary(const Rig& rig, const ObjectScenes& scenes,
   }
 }
 
-const IncidentLight& ObjectLibrary::light(const std::string& object, const std::string& light) {
-  const auto [it, is_new] = lights_.try_emplace({object, light});
+std::size_t ObjectLibrary::channels(const std::string& light) const {
+  return rig_.light(light).environment ? 3 : 1;
+}
+
+const IncidentLight& ObjectLibrary::light(const std::string& object, const std::string& light,
+                                          std::size_t channel) {
+  const RigLight& rig_light = rig_.light(light);
+  const ObjectScene& scene = scenes_.at(object);
+  if (rig_light.environment) {
+    return environment_light(object, light, channel, patches(object), scene.rig->eta_int_over_ext);
+  }
+  const auto [it, is_new] = leds_.try_emplace({object, light});
   if (is_new) {
-    const RigLight& rig_light = rig_.light(light);
-    const ObjectScene& scene = scenes_.at(object);
     it->second =
         illuminate(patches(object), *scene.rays, rig_light.led, scene.rig->eta_int_over_ext);
     if (it->second.lit.empty()) {
@@ -67,6 +76,18 @@ const IncidentLight& ObjectLibrary::light(const std::string& object, const std::
     }
   }
   return it->second;
+}
+
+const IncidentLight& ObjectLibrary::environment_light(const std::string& object,
+                                                      const std::string& light, std::size_t channel,
+                                                      const PatchMesh& patches,
+                                                      double eta_int_over_ext) {
+  const auto [it, is_new] =
+      environments_.try_emplace({object, light, patches.patch_size_mm(), eta_int_over_ext});
+  if (is_new) {
+    it->second = illuminate(patches, *scenes_.at(object).rays, probes_.at(light), eta_int_over_ext);
+  }
+  return it->second[channel];
 }
 
 double ObjectLibrary::smallest_patch_mm() const {

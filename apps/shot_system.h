@@ -1,16 +1,19 @@
 // The linear systems of all shots, from frames to W and l.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "apps/camera_view.h"
 #include "apps/object_scene.h"
 #include "apps/rig.h"
+#include "apps/rig_probes.h"
 #include "apps/shot_source.h"
 #include "calib/pose.h"
 #include "core/distance_weights.h"
@@ -49,9 +52,17 @@ class ObjectLibrary {
                 double distance_to_camera_mm);
 
   const PatchMesh& patches(const std::string& object) const { return *patches_.at(object); }
-  // c_k of one light on one object; computed at the first call. Throws InputError when the light
-  // reaches no part of the object. Not for several threads at once.
-  const IncidentLight& light(const std::string& object, const std::string& light);
+  // Channels that differ in where the light goes: 3 for an environment, 1 for an LED.
+  std::size_t channels(const std::string& light) const;
+  // c_k of one light on one object, for a channel 0 .. 2 (an LED's channels are one and the same);
+  // computed at the first call. Throws InputError when the light reaches no part of the object.
+  // Not for several threads at once.
+  const IncidentLight& light(const std::string& object, const std::string& light,
+                             std::size_t channel);
+  // The same on other patches of the object or for another eta, of an environment; kept, too.
+  const IncidentLight& environment_light(const std::string& object, const std::string& light,
+                                         std::size_t channel, const PatchMesh& patches,
+                                         double eta_int_over_ext);
   double smallest_patch_mm() const;
   double longest_distance_mm() const;
 
@@ -59,7 +70,11 @@ class ObjectLibrary {
   const Rig& rig_;
   const ObjectScenes& scenes_;
   std::map<std::string, std::unique_ptr<PatchMesh>> patches_;
-  std::map<std::pair<std::string, std::string>, IncidentLight> lights_;
+  RigProbes probes_;
+  std::map<std::pair<std::string, std::string>, IncidentLight> leds_;
+  // By object, light, patch size, eta.
+  std::map<std::tuple<std::string, std::string, double, double>, std::array<IncidentLight, 3>>
+      environments_;
 };
 
 // One pose for all shots, and the objects as seen from it.

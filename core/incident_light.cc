@@ -1,15 +1,26 @@
 #include "core/incident_light.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <optional>
 
 #include <Eigen/Geometry>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/disc_light.h"
+#include "core/lit_layer.h"
+
 namespace scattermeter {
 namespace {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
+
+// Of the irradiance in full light: how well it is linear on each part of a half shadow.
+constexpr double kHalfShadowError = 1e-3;
+
+// A disc's points of a patch are drawn towards its centre by this share, away from folds.
+constexpr double kDrawn = 0.002;
 
 struct PatchLight {
   std::vector<LitTriangle> lit;
@@ -21,12 +32,15 @@ class Illuminator {
  public:
   Illuminator(const PatchMesh& patches, const RayScene& scene, const Led& led, double eta,
               const IncidentLightOptions& options)
-      : patches_(patches), scene_(scene), led_(led), eta_(eta), options_(options) {}
+      : patches_(patches), scene_(scene), led_(led), eta_(eta), options_(options) {
+    if (led.radius_mm > 0.0) disc_.emplace(led, scene, eta);
+  }
 
   PatchLight patch(int k) const {
     PatchLight out;
     const Triangle t = patches_.corners_mm(k);
     const Eigen::Vector3d& n = patches_.normal(k);
+    if (disc_) return disc_patch(k, t, n);
     if (!(n.dot(led_.position_mm - t[0]) > 0.0)) return out;
     // Probes at corners and edge middles are drawn a little towards the centre, so that a fold of
     // the surface at the patch's own border does not count as a shadow.
@@ -52,6 +66,53 @@ class Illuminator {
   }
 
  private:
+  // A disc throws half shadows: the irradiance itself is what varies.
+  PatchLight disc_patch(int k, const Triangle& t, const Eigen::Vector3d& n) const {
+    PatchLight out;
+    LitTriangleRgb patch{t, {}, k};
+    double brightest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double e = disc_->open_per_mm2(t[i], n);
+      patch.irradiance[i].setConstant(e);
+      brightest = std::max(brightest, e);
+    }
+    if (!(brightest > 0.0)) return out;
+    const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
+    double least = 1.0;
+    double most = 0.0;
+    const auto probe = [&](const Eigen::Vector3d& p) {
+      const double share = disc_->visible_share(p + kDrawn * (center - p), n, out.rays);
+      least = std::min(least, share);
+      most = std::max(most, share);
+      return share;
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+      patch.irradiance[i] *= probe(t[i]);
+      probe(0.5 * (t[i] + t[(i + 1) % 3]));
+    }
+    probe(center);
+    if (most == 0.0) return out;
+    std::vector<LitTriangleRgb> lit;
+    if (least == 1.0) {
+      lit.push_back(patch);
+    } else {
+      out.on_shadow_edge = true;
+      const PointIrradiance irradiance = [&](const Eigen::Vector3d& at) -> Eigen::Array3d {
+        const Eigen::Vector3d p = at + kDrawn * (center - at);
+        return Eigen::Array3d::Constant(disc_->open_per_mm2(p, n) *
+                                        disc_->visible_share(p, n, out.rays));
+      };
+      append_edged(patch, irradiance, Eigen::Array3d::Constant(kHalfShadowError * brightest),
+                   options_.shadow_bisections, lit);
+    }
+    for (const LitTriangleRgb& part : lit) {
+      LitTriangle one{part.corners_mm, {}, k};
+      for (std::size_t i = 0; i < 3; ++i) one.irradiance_sr_per_mm2[i] = part.irradiance[i][0];
+      out.lit.push_back(one);
+    }
+    return out;
+  }
+
   bool is_lit(const Eigen::Vector3d& p, const Eigen::Vector3d& n, PatchLight& out) const {
     ++out.rays;
     return !scene_.occluded(p, n, led_.position_mm);
@@ -129,8 +190,11 @@ class Illuminator {
   const RayScene& scene_;
   const Led& led_;
   double eta_;
+  std::optional<DiscLight> disc_;
   IncidentLightOptions options_;
 };
+
+}  // namespace
 
 double power_sr(const LitTriangle& t) {
   const double area_mm2 =
@@ -139,8 +203,6 @@ double power_sr(const LitTriangle& t) {
          (t.irradiance_sr_per_mm2[0] + t.irradiance_sr_per_mm2[1] + t.irradiance_sr_per_mm2[2]) /
          3.0;
 }
-
-}  // namespace
 
 IncidentLight illuminate(const PatchMesh& patches, const RayScene& scene, const Led& led,
                          double eta_int_over_ext, const IncidentLightOptions& options) {

@@ -104,7 +104,18 @@ bool RayScene::occluded(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d
   const Eigen::Vector3d start_mm = surface_mm - center_mm_ + 1e-5 * size_mm_ * normal;
   const Eigen::Vector3d to_target_mm = target_mm - center_mm_ - start_mm;
   const double distance_mm = to_target_mm.norm();
-  const Eigen::Vector3d unit = to_target_mm / distance_mm;
+  return occluded_between(start_mm, to_target_mm / distance_mm, distance_mm);
+}
+
+bool RayScene::occluded_toward(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,
+                               const Eigen::Vector3d& direction) const {
+  return occluded_between(surface_mm - center_mm_ + 1e-5 * size_mm_ * normal,
+                          direction.normalized(), std::numeric_limits<double>::infinity());
+}
+
+// `start_mm`: relative to the centre.
+bool RayScene::occluded_between(const Eigen::Vector3d& start_mm, const Eigen::Vector3d& unit,
+                                double distance_mm) const {
   RTCRay ray{};
   ray.org_x = static_cast<float>(start_mm.x());
   ray.org_y = static_cast<float>(start_mm.y());

@@ -35,6 +35,10 @@ class RayScene {
   bool occluded(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,
                 const Eigen::Vector3d& target_mm) const;
 
+  // The same for a target infinitely far away in a direction of any length.
+  bool occluded_toward(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,
+                       const Eigen::Vector3d& direction) const;
+
   // Whether a point lies inside the closed mesh, by the solid angle the mesh fills around it.
   bool contains(const Eigen::Vector3d& point_mm) const;
 
@@ -42,6 +46,8 @@ class RayScene {
 
  private:
   struct Embree;
+  bool occluded_between(const Eigen::Vector3d& start_mm, const Eigen::Vector3d& unit,
+                        double distance_mm) const;
   TriangleMesh mesh_;
   Eigen::Vector3d center_mm_;
   double size_mm_;

@@ -1,0 +1,33 @@
+#include "apps/rig_probes.h"
+
+#include <utility>
+
+#include "capture/probe_reader.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+
+RigProbes open_probes(const Rig& rig) {
+  RigProbes probes;
+  for (const RigShot& shot : rig.shots) {
+    for (const std::string& name : shot.lights) {
+      const RigLight& light = rig.light(name);
+      if (!light.environment || probes.contains(name)) continue;
+      try {
+        capture::ProbeImage image = capture::read_probe(light.environment->image_path);
+        Environment environment;
+        environment.width_px = image.width_px;
+        environment.height_px = image.height_px;
+        environment.radiance = std::move(image.radiance);
+        environment.projection = light.environment->projection;
+        environment.world_from_probe = light.environment->world_from_probe;
+        probes.try_emplace(name, std::move(environment));
+      } catch (const InputError& e) {
+        throw InputError(rig.at(light.line) + ": lights." + name + ".image", e.what());
+      }
+    }
+  }
+  return probes;
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,94 @@
+#include "capture/exr_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <stdexcept>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
+
+#include "core/input_error.h"
+
+namespace scattermeter::capture {
+namespace {
+
+class BytesStream : public Imf::IStream {
+ public:
+  BytesStream(const std::string& path, const std::string& bytes)
+      : Imf::IStream(path.c_str()), bytes_(bytes) {}
+  bool read(char c[], int n) override {
+    const auto wanted = static_cast<std::size_t>(n);
+    if (bytes_.size() - at_ < wanted) throw std::runtime_error("unexpected end of file");
+    std::memcpy(c, bytes_.data() + at_, wanted);
+    at_ += wanted;
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t pos) override {
+    if (pos > bytes_.size()) throw std::runtime_error("unexpected end of file");
+    at_ = pos;
+  }
+
+ private:
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+ProbeImage decode(const std::string& path, const std::string& bytes, const ProbeLimits& limits) {
+  BytesStream stream(path, bytes);
+  Imf::InputFile file(stream, 0);
+  const Imath::Box2i data = file.header().dataWindow();
+  if (data != file.header().displayWindow()) {
+    throw InputError(path, "its data window is not its display window: only a part of a picture?");
+  }
+  const auto width = static_cast<long long>(data.max.x) - data.min.x + 1;
+  const auto height = static_cast<long long>(data.max.y) - data.min.y + 1;
+  if (width < 1 || height < 1 || width > 1'000'000 || height > 1'000'000 ||
+      static_cast<std::size_t>(width * height) > limits.max_pixels) {
+    throw InputError(path, "is " + std::to_string(width) + " x " + std::to_string(height) +
+                               " pixels, at most " + std::to_string(limits.max_pixels) +
+                               " are read");
+  }
+  ProbeImage probe{static_cast<int>(width), static_cast<int>(height), {}};
+  probe.radiance.resize(3 * static_cast<std::size_t>(width * height));
+  const std::size_t pixel_bytes = 3 * sizeof(float);
+  const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(width);
+  Imf::FrameBuffer frame;
+  const std::array<const char*, 3> names = {"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Imf::Channel* channel = file.header().channels().findChannel(names[c]);
+    if (channel == nullptr) throw InputError(path, std::string("has no channel ") + names[c]);
+    if (channel->type == Imf::UINT || channel->xSampling != 1 || channel->ySampling != 1) {
+      throw InputError(
+          path, std::string("channel ") + names[c] + " must be half or float, one value a pixel");
+    }
+    frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, probe.radiance.data() + c, data,
+                                            pixel_bytes, row_bytes));
+  }
+  file.setFrameBuffer(frame);
+  file.readPixels(data.min.y, data.max.y);
+  return probe;
+}
+
+}  // namespace
+
+bool is_exr(const std::string& bytes) { return bytes.starts_with("\x76\x2f\x31\x01"); }
+
+ProbeImage decode_exr(const std::string& path, const std::string& bytes,
+                      const ProbeLimits& limits) {
+  try {
+    return decode(path, bytes, limits);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& e) {
+    std::string what = e.what();
+    std::replace(what.begin(), what.end(), '\n', ' ');
+    throw InputError(path, "is damaged or cut short: " + what);
+  }
+}
+
+}  // namespace scattermeter::capture
