@@ -1,0 +1,218 @@
+#include "core/smooth_reflectance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include <Eigen/QR>
+
+#include "core/eliminated_nuisances.h"
+#include "core/log_linear_fit.h"
+#include "core/log_spline.h"
+#include "core/reflectance_pilot.h"
+
+namespace scattermeter {
+namespace {
+
+constexpr double kMinStep = std::numbers::ln2 / 3.0;  // in t, between breaks
+// lambda: from what leaves nothing beyond the pilot's family to what leaves the breaks alone.
+constexpr double kLargestLog10 = 7.0;
+constexpr double kSmallestLog10 = -5.0;
+
+// Breaks as indices into the DistanceKnots, and what the image says between each and the next:
+// squared inverse deviation of log r in the interval, all else known.
+struct Breaks {
+  std::vector<Eigen::Index> at;
+  std::vector<double> information;
+};
+
+Breaks place_breaks(const EliminatedNuisances& image, const ReflectancePilot& pilot,
+                    const Eigen::VectorXd& t, double wanted) {
+  Breaks out;
+  out.at.push_back(0);
+  const Eigen::VectorXd r = pilot.log_r.array().exp();
+  Eigen::VectorXd interval = Eigen::VectorXd::Zero(image.kernel.rows());
+  for (Eigen::Index j = 0; j + 1 < t.size(); ++j) {
+    interval += image.kernel.col(j) * r[j];
+    if (t[j + 1] - t[out.at.back()] < kMinStep || interval.squaredNorm() < wanted) continue;
+    out.at.push_back(j + 1);
+    out.information.push_back(interval.squaredNorm());
+    interval.setZero();
+  }
+  if (out.at.back() + 1 < t.size()) {
+    out.at.push_back(t.size() - 1);
+    out.information.push_back(
+        (interval + image.kernel.col(t.size() - 1) * r[t.size() - 1]).squaredNorm());
+  }
+  return out;
+}
+
+struct Smoothed {
+  double log10_lambda = 0;
+  LogLinearFit fit;
+  Eigen::MatrixXd jacobian;      // of the image
+  Eigen::MatrixXd inverse_root;  // S with S S^T = inverse of J^T J + lambda Q^T Q
+  double effective_parameters = 0;
+  double criterion = 0;  // -2 log marginal likelihood, up to a constant
+};
+
+// One lambda.
+Smoothed smooth_at(LogLinearProblem& problem, const Eigen::MatrixXd& roughness, double log10_lambda,
+                   const Eigen::VectorXd& start, double floor_chi2, double rows) {
+  Smoothed out;
+  out.log10_lambda = log10_lambda;
+  problem.penalty = std::pow(10.0, 0.5 * log10_lambda) * roughness;
+  out.fit = fit_log_linear(problem, start);
+  out.jacobian = log_linear_jacobian(problem, out.fit.theta);
+  const Eigen::Index n = start.size();
+  Eigen::MatrixXd all(out.jacobian.rows() + roughness.rows(), n);
+  all << out.jacobian, problem.penalty;
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(all);
+  Eigen::MatrixXd root = qr.matrixR().topLeftCorner(n, n);
+  // A direction of which neither the image nor smoothness says anything keeps a huge deviation.
+  const double least = std::max(1e-14 * std::abs(root(0, 0)), 1e-150);
+  double log_determinant = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (std::abs(root(i, i)) < least) root(i, i) = least;
+    log_determinant += 2.0 * std::log(std::abs(root(i, i)));
+  }
+  out.inverse_root = qr.colsPermutation() *
+                     root.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(n, n));
+  out.effective_parameters = (out.jacobian * out.inverse_root).squaredNorm();
+  // The constants, powers and exponentials, which cost nothing, are integrated over: 3 parameters.
+  const double cost = out.fit.chi2 + floor_chi2 + out.fit.penalty;
+  const double dof = std::max(1.0, rows - 3.0);
+  const double variance = std::max(1.0, cost / dof);
+  out.criterion = dof * std::log(variance) + cost / variance + log_determinant -
+                  static_cast<double>(n - 3) * std::numbers::ln10 * log10_lambda;
+  static const bool gcv = std::getenv("GCV") != nullptr;
+  if (gcv)
+    out.criterion = rows * std::log((out.fit.chi2 + floor_chi2) /
+                                    std::pow(1 - out.effective_parameters / rows, 2));
+  return out;
+}
+
+Smoothed choose_smoothing(LogLinearProblem& problem, const Eigen::MatrixXd& roughness,
+                          Eigen::VectorXd start, double floor_chi2, double rows) {
+  std::vector<Smoothed> tried;
+  std::size_t best = 0;
+  const auto at = [&](double log10_lambda) {
+    return smooth_at(problem, roughness, log10_lambda, start, floor_chi2, rows);
+  };
+  for (double log10_lambda = kLargestLog10; log10_lambda >= kSmallestLog10; log10_lambda -= 1.0) {
+    tried.push_back(at(log10_lambda));
+    start = tried.back().fit.theta;
+    if (tried.back().criterion < tried[best].criterion) best = tried.size() - 1;
+    // Three decades past the best, and clearly worse: the rest is worse still.
+    if (tried.size() > best + 3 && tried.back().criterion > tried[best].criterion + 20.0) break;
+  }
+  if (best == 0 || best + 1 == tried.size()) return tried[best];
+  // The parabola through the best and its neighbours.
+  const double left = tried[best - 1].criterion - tried[best].criterion;
+  const double right = tried[best + 1].criterion - tried[best].criterion;
+  const double shift = left + right > 0.0 ? 0.5 * (right - left) / (left + right) : 0.0;
+  start = tried[best].fit.theta;
+  Smoothed refined = at(tried[best].log10_lambda + shift);
+  return refined.criterion < tried[best].criterion ? refined : tried[best];
+}
+
+}  // namespace
+
+void SmoothReflectanceOptions::Check() const {
+  if (!(scale.relative_std >= 0.0)) {
+    throw std::invalid_argument("SmoothReflectanceOptions.scale");
+  }
+  if (!(max_log_std > 0.0)) throw std::invalid_argument("SmoothReflectanceOptions.max_log_std");
+}
+
+SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
+                                     const std::vector<Nuisance>& nuisances,
+                                     const DistanceKnots& knots,
+                                     const SmoothReflectanceOptions& options) {
+  options.Check();
+  SmoothReflectance out;
+  out.r_per_mm2 = Eigen::VectorXd::Zero(knots.size());
+  if (!recovered.sqrt_information.allFinite() || !recovered.whitened.allFinite() ||
+      !std::isfinite(recovered.floor_chi2)) {
+    out.reasons.push_back("the system holds values that are not finite");
+    return out;
+  }
+  const EliminatedNuisances image =
+      eliminate_nuisances(recovered, nuisances, knots.size(), NuisanceUse::kFitted);
+  const std::optional<ReflectancePilot> pilot =
+      recovered.whitened.size() > 0 ? reflectance_pilot(image, knots) : std::nullopt;
+  if (!pilot) {
+    out.reasons.push_back("no light reaches the object in these shots");
+    return out;
+  }
+  out.source_depth_mm = pilot->source_depth_mm;
+  const Eigen::VectorXd t = log_squared_depth(knots, pilot->source_depth_mm);
+  const double wanted = 1.0 / (options.max_log_std * options.max_log_std);
+  const Breaks breaks = place_breaks(image, *pilot, t, wanted);
+  std::vector<double> break_t;
+  for (Eigen::Index i : breaks.at) break_t.push_back(t[i]);
+  const LogSpline spline(break_t);
+  LogLinearProblem problem{image.kernel, image.data, Eigen::MatrixXd(t.size(), spline.size()), {}};
+  for (Eigen::Index i = 0; i < t.size(); ++i) problem.basis.row(i) = spline.row(t[i]);
+  Eigen::VectorXd start = problem.basis.colPivHouseholderQr().solve(pilot->log_r);
+  start.tail(start.size() - 1) = start.tail(start.size() - 1).cwiseMax(0.0);
+  const auto rows = static_cast<double>(recovered.rows);
+  const Smoothed best =
+      choose_smoothing(problem, spline.roughness(), start, recovered.floor_chi2, rows);
+
+  out.smoothing_weight = std::pow(10.0, best.log10_lambda);
+  out.effective_parameters = best.effective_parameters;
+  out.reduced_chi2 =
+      (best.fit.chi2 + recovered.floor_chi2) / std::max(1.0, rows - best.effective_parameters);
+  out.r_per_mm2 = (problem.basis * best.fit.theta).array().exp();
+  const double inflation = std::max(1.0, out.reduced_chi2);
+  const Eigen::MatrixXd pushes = best.inverse_root * (best.inverse_root.transpose() *
+                                                      (best.jacobian.transpose() * image.held));
+  for (std::size_t k = 0; k < breaks.at.size(); ++k) {
+    const Eigen::Index at = breaks.at[k];
+    const Eigen::RowVectorXd f = problem.basis.row(at);
+    ReflectanceKnot knot;
+    knot.distance_mm = knots.knots_mm()[static_cast<std::size_t>(at)];
+    knot.r_per_mm2 = out.r_per_mm2[at];
+    knot.shape_log_std =
+        std::sqrt(inflation * (f * best.inverse_root).squaredNorm() + (f * pushes).squaredNorm());
+    knot.log_std = std::hypot(knot.shape_log_std, options.scale.relative_std);
+    knot.low95_per_mm2 = knot.r_per_mm2 * std::exp(-1.96 * knot.log_std);
+    knot.high95_per_mm2 = knot.r_per_mm2 * std::exp(1.96 * knot.log_std);
+    // d(log r here) / d(log r at every DistanceKnot).
+    const Eigen::ArrayXd average =
+        ((((f * best.inverse_root) * best.inverse_root.transpose()) * best.jacobian.transpose()) *
+         image.kernel)
+            .transpose()
+            .array()
+            .abs() *
+        out.r_per_mm2.array();
+    double spread = 0.0;
+    for (Eigen::Index j = 0; j < average.size(); ++j) {
+      spread +=
+          average[j] * std::abs(knots.knots_mm()[static_cast<std::size_t>(j)] - knot.distance_mm);
+    }
+    knot.spread_mm = spread / std::max(average.sum(), 1e-300);
+    knot.determined = k < breaks.information.size() &&
+                      breaks.information[k] >= inflation * wanted &&
+                      knot.shape_log_std <= options.max_log_std;
+    out.knots.push_back(knot);
+  }
+  if (!best.fit.converged)
+    out.reasons.push_back("the fit of the smooth reflectance did not converge");
+  if (std::none_of(out.knots.begin(), out.knots.end(),
+                   [](const ReflectanceKnot& k) { return k.determined; })) {
+    out.reasons.push_back("these shots do not determine the reflectance at any distance");
+  }
+  if (!std::isfinite(options.scale.relative_std)) {
+    out.reasons.push_back("the scale is free: only the shape of the reflectance is known");
+  }
+  return out;
+}
+
+}  // namespace scattermeter
