@@ -59,10 +59,10 @@ Eigen::MatrixXd LogSpline::roughness() const {
   for (Eigen::Index i = 0; i < intervals; ++i) {
     const double a = padded_[static_cast<std::size_t>(i) + 3];
     const double h = padded_[static_cast<std::size_t>(i) + 4] - a;
-    // Gauss's two points: exact, for the square of a linear function.
     for (Eigen::Index g = 0; g < 2; ++g) {
       const double t = a + h * (g == 0 ? 0.21132486540518712 : 0.78867513459481288);
-      out.row(2 * i + g) = std::sqrt(0.5 * h) * (row(t, 3) - 0.5 * row(t, 2));
+      const double weight = 0.5 * h * std::exp(0.5 * (t - padded_.front()));
+      out.row(2 * i + g) = std::sqrt(weight) * (row(t, 3) - 0.5 * row(t, 2));
     }
   }
   return out;

@@ -19,10 +19,12 @@ class LogSpline {
   // Row: f or one of its first three derivatives at t in terms of theta; t is clamped to the
   // breaks.
   Eigen::RowVectorXd row(double t, int derivative = 0) const;
-  // Matrix Q with |Q theta|^2 = ∫ (f''' - f''/2)^2 dt, exactly. It vanishes for f = a - p t -
-  // b exp(t/2): with t = log(d^2 + z0^2) that is r = const (d^2 + z0^2)^-p exp(-b sqrt(d^2 +
-  // z0^2)), a power law that goes over into an exponential, as light that diffuses from a depth z0
-  // does.
+  // Matrix Q with |Q theta|^2 = ∫ (f''' - f''/2)^2 exp((t - t_0) / 2) dt, t_0 the first break, by
+  // Gauss's two points in each interval. It vanishes for f = a - p t - b exp(t/2): with
+  // t = log(d^2 + z0^2) that is r = const (d^2 + z0^2)^-p exp(-b sqrt(d^2 + z0^2)), a power law
+  // that goes over into an exponential, as light that diffuses from a depth z0 does. The weight,
+  // which is the distance itself, lets f bend more freely near the source, where r depends on how
+  // the light came in, than far away, where diffusion has made it forget.
   Eigen::MatrixXd roughness() const;
 
  private:

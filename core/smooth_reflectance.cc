@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -23,6 +22,8 @@ constexpr double kMinStep = std::numbers::ln2 / 3.0;  // in t, between breaks
 // lambda: from what leaves nothing beyond the pilot's family to what leaves the breaks alone.
 constexpr double kLargestLog10 = 7.0;
 constexpr double kSmallestLog10 = -5.0;
+// Of the level, the power, the tail and the depth: the penalty is blind to this many directions.
+constexpr double kFreeShapes = 4.0;
 
 // Breaks as indices into the DistanceKnots, and what the image says between each and the next:
 // squared inverse deviation of log r in the interval, all else known.
@@ -61,6 +62,17 @@ struct Smoothed {
   double criterion = 0;  // -2 log marginal likelihood, up to a constant
 };
 
+// Q with |Q theta|^2 the penalty of lambda = 1: the spline's roughness, less what a small change of
+// the depth would answer for, log(d^2 + z^2) - t being proportional to exp(-t) to first order.
+Eigen::MatrixXd penalty_root(const LogSpline& spline, const Eigen::MatrixXd& basis,
+                             const Eigen::VectorXd& t) {
+  Eigen::MatrixXd q = spline.roughness();
+  const Eigen::VectorXd depth = (t[0] - t.array()).exp();
+  const Eigen::VectorXd answered = (q * basis.colPivHouseholderQr().solve(depth)).normalized();
+  q -= answered * (answered.transpose() * q).eval();
+  return q;
+}
+
 // One lambda.
 Smoothed smooth_at(LogLinearProblem& problem, const Eigen::MatrixXd& roughness, double log10_lambda,
                    const Eigen::VectorXd& start, double floor_chi2, double rows) {
@@ -84,16 +96,12 @@ Smoothed smooth_at(LogLinearProblem& problem, const Eigen::MatrixXd& roughness, 
   out.inverse_root = qr.colsPermutation() *
                      root.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(n, n));
   out.effective_parameters = (out.jacobian * out.inverse_root).squaredNorm();
-  // The constants, powers and exponentials, which cost nothing, are integrated over: 3 parameters.
+  // What costs nothing is integrated over.
   const double cost = out.fit.chi2 + floor_chi2 + out.fit.penalty;
-  const double dof = std::max(1.0, rows - 3.0);
+  const double dof = std::max(1.0, rows - kFreeShapes);
   const double variance = std::max(1.0, cost / dof);
   out.criterion = dof * std::log(variance) + cost / variance + log_determinant -
-                  static_cast<double>(n - 3) * std::numbers::ln10 * log10_lambda;
-  static const bool gcv = std::getenv("GCV") != nullptr;
-  if (gcv)
-    out.criterion = rows * std::log((out.fit.chi2 + floor_chi2) /
-                                    std::pow(1 - out.effective_parameters / rows, 2));
+                  (static_cast<double>(n) - kFreeShapes) * std::numbers::ln10 * log10_lambda;
   return out;
 }
 
@@ -162,8 +170,8 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
   Eigen::VectorXd start = problem.basis.colPivHouseholderQr().solve(pilot->log_r);
   start.tail(start.size() - 1) = start.tail(start.size() - 1).cwiseMax(0.0);
   const auto rows = static_cast<double>(recovered.rows);
-  const Smoothed best =
-      choose_smoothing(problem, spline.roughness(), start, recovered.floor_chi2, rows);
+  const Smoothed best = choose_smoothing(problem, penalty_root(spline, problem.basis, t), start,
+                                         recovered.floor_chi2, rows);
 
   out.smoothing_weight = std::pow(10.0, best.log10_lambda);
   out.effective_parameters = best.effective_parameters;
