@@ -12,7 +12,7 @@ namespace {
 struct Case {
   RecoveredReflectance recovered;
   std::vector<Nuisance> nuisances = {
-      {"pose", 0.3, true}, {"eta", 1e5, true}, {"method", 0.7, false}};
+      {"pose", 0.3, true}, {"eta", 1e3, true}, {"method", 0.7, false}};
   Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(5, 2.0, -1.0);
 };
 
