@@ -16,12 +16,13 @@ Eigen::VectorXd log_squared_depth(const DistanceKnots& knots, double source_dept
   return t;
 }
 
-std::optional<ReflectancePilot> reflectance_pilot(const EliminatedNuisances& image,
+std::optional<ReflectancePilot> reflectance_pilot(const EliminatedNuisances& nominal,
+                                                  const EliminatedNuisances& image,
                                                   const DistanceKnots& knots) {
   std::optional<ReflectancePilot> best;
   for (double z0 = knots.resolution_mm(); z0 < knots.max_distance_mm(); z0 *= std::numbers::sqrt2) {
     const Eigen::VectorXd t = log_squared_depth(knots, z0);
-    LogLinearProblem problem{image.kernel, image.data, Eigen::MatrixXd(t.size(), 3),
+    LogLinearProblem problem{nominal.kernel, nominal.data, Eigen::MatrixXd(t.size(), 3),
                              Eigen::MatrixXd::Zero(2, 3)};
     problem.basis.col(0).setOnes();
     problem.basis.col(1) = t[0] - t.array();
@@ -31,11 +32,13 @@ std::optional<ReflectancePilot> reflectance_pilot(const EliminatedNuisances& ima
     // The static dipole's power, and half of it with a tail.
     for (const Eigen::Vector3d& shape :
          {Eigen::Vector3d(0.0, 1.5, 0.0), Eigen::Vector3d(0, 0.75, 0.3)}) {
-      const Eigen::VectorXd p = image.kernel * (problem.basis * shape).array().exp().matrix();
-      const double level = p.dot(image.data) / p.squaredNorm();
+      const Eigen::VectorXd p = nominal.kernel * (problem.basis * shape).array().exp().matrix();
+      const double level = p.dot(nominal.data) / p.squaredNorm();
       if (!std::isfinite(level) || !(level > 0.0)) continue;
-      const LogLinearFit fit =
+      const LogLinearFit there =
           fit_log_linear(problem, Eigen::Vector3d(std::log(level), shape[1], shape[2]));
+      const LogLinearFit fit =
+          fit_log_linear({image.kernel, image.data, problem.basis, problem.penalty}, there.theta);
       if (!best || fit.chi2 < best->chi2) best = {z0, problem.basis * fit.theta, fit.chi2};
     }
   }

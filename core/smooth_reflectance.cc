@@ -59,7 +59,8 @@ struct Smoothed {
   Eigen::MatrixXd jacobian;      // of the image
   Eigen::MatrixXd inverse_root;  // S with S S^T = inverse of J^T J + lambda Q^T Q
   double effective_parameters = 0;
-  double criterion = 0;  // -2 log marginal likelihood, up to a constant
+  Eigen::VectorXd drift;  // of theta, when log lambda goes one standard deviation up
+  double criterion = 0;   // -2 log marginal likelihood, up to a constant
 };
 
 // Q with |Q theta|^2 the penalty of lambda = 1: the spline's roughness, less what a small change of
@@ -119,14 +120,23 @@ Smoothed choose_smoothing(LogLinearProblem& problem, const Eigen::MatrixXd& roug
     // Three decades past the best, and clearly worse: the rest is worse still.
     if (tried.size() > best + 3 && tried.back().criterion > tried[best].criterion + 20.0) break;
   }
-  if (best == 0 || best + 1 == tried.size()) return tried[best];
+  if (best == 0 || best + 1 == tried.size()) {
+    const Smoothed& beside = best == 0 ? tried[1] : tried[best - 1];
+    tried[best].drift = beside.fit.theta - tried[best].fit.theta;
+    return tried[best];
+  }
   // The parabola through the best and its neighbours.
   const double left = tried[best - 1].criterion - tried[best].criterion;
   const double right = tried[best + 1].criterion - tried[best].criterion;
   const double shift = left + right > 0.0 ? 0.5 * (right - left) / (left + right) : 0.0;
   start = tried[best].fit.theta;
   Smoothed refined = at(tried[best].log10_lambda + shift);
-  return refined.criterion < tried[best].criterion ? refined : tried[best];
+  if (!(refined.criterion < tried[best].criterion)) refined = tried[best];
+  // A decade up and a decade down, and how far the likelihood lets lambda go: its second derivative
+  // by decades is half of left + right. Not further than the decade that was tried.
+  const double decades = std::min(1.0, std::sqrt(2.0 / std::max(left + right, 1e-3)));
+  refined.drift = 0.5 * decades * (tried[best - 1].fit.theta - tried[best + 1].fit.theta);
+  return refined;
 }
 
 }  // namespace
@@ -152,8 +162,10 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
   }
   const EliminatedNuisances image =
       eliminate_nuisances(recovered, nuisances, knots.size(), NuisanceUse::kFitted);
+  const EliminatedNuisances nominal{
+      recovered.sqrt_information.leftCols(knots.size()), recovered.whitened, {}};
   const std::optional<ReflectancePilot> pilot =
-      recovered.whitened.size() > 0 ? reflectance_pilot(image, knots) : std::nullopt;
+      recovered.whitened.size() > 0 ? reflectance_pilot(nominal, image, knots) : std::nullopt;
   if (!pilot) {
     out.reasons.push_back("no light reaches the object in these shots");
     return out;
@@ -162,8 +174,10 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
   const Eigen::VectorXd t = log_squared_depth(knots, pilot->source_depth_mm);
   const double wanted = 1.0 / (options.max_log_std * options.max_log_std);
   const Breaks breaks = place_breaks(image, *pilot, t, wanted);
+  // The curve may bend everywhere, whatever is reported: with breaks only where the image speaks it
+  // would be stiff, and its bars short, exactly where the image says least.
   std::vector<double> break_t;
-  for (Eigen::Index i : breaks.at) break_t.push_back(t[i]);
+  for (Eigen::Index i : place_breaks(image, *pilot, t, 0.0).at) break_t.push_back(t[i]);
   const LogSpline spline(break_t);
   LogLinearProblem problem{image.kernel, image.data, Eigen::MatrixXd(t.size(), spline.size()), {}};
   for (Eigen::Index i = 0; i < t.size(); ++i) problem.basis.row(i) = spline.row(t[i]);
@@ -187,8 +201,8 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
     ReflectanceKnot knot;
     knot.distance_mm = knots.knots_mm()[static_cast<std::size_t>(at)];
     knot.r_per_mm2 = out.r_per_mm2[at];
-    knot.shape_log_std =
-        std::sqrt(inflation * (f * best.inverse_root).squaredNorm() + (f * pushes).squaredNorm());
+    knot.shape_log_std = std::sqrt(inflation * (f * best.inverse_root).squaredNorm() +
+                                   (f * pushes).squaredNorm() + std::pow(f.dot(best.drift), 2));
     knot.log_std = std::hypot(knot.shape_log_std, options.scale.relative_std);
     knot.low95_per_mm2 = knot.r_per_mm2 * std::exp(-1.96 * knot.log_std);
     knot.high95_per_mm2 = knot.r_per_mm2 * std::exp(1.96 * knot.log_std);

@@ -56,10 +56,11 @@ struct SmoothReflectance {
 // best member is the start; z0 is the one, of depths a factor sqrt(2) apart, whose best member fits
 // best.
 //
-// The spline's breaks, which are also the knots reported, are chosen among the DistanceKnots: from
-// d = 0 outwards, the next one stands where the image tells the level of r in between to
-// max_log_std, all else known, and at least a third of an octave of d^2 + z0^2 on. What is left
-// beyond the last such break is one interval that nothing is said about.
+// The spline has three breaks an octave of d^2 + z0^2 throughout. The knots reported are chosen
+// among the DistanceKnots by what the image tells: from d = 0 outwards, the next one stands where
+// the image, all else known, tells the level of r in between to max_log_std, and at least a third
+// of an octave on. What is left beyond the last such knot is one interval, to the longest distance,
+// that nothing is said about.
 //
 // lambda maximises the marginal likelihood, r seen as a draw from the normal process of which the
 // last term is the logarithm (generalised maximum likelihood, Wahba 1985; Laplace's approximation,
@@ -72,9 +73,10 @@ struct SmoothReflectance {
 //
 // Error bars are the posterior deviations of that process. They hold the smoothing bias, as the
 // mean over draws (Wahba 1983): 95 % of the distances lie within 1.96 deviations, though where f
-// bends most it may be fewer. The bounds are not counted: where they hold, the bars are too wide.
-// A nuisance that is not fitted widens them. A non-zero std of the scale adds to them, as log r +
-// log scale is what the image shows.
+// bends most it may be fewer. What the curve does when lambda moves by its own standard deviation,
+// from the curvature of the likelihood, is added (Kass and Steffey 1989). The bounds are not
+// counted: where they hold, the bars are too wide. A nuisance that is not fitted widens them. A
+// non-zero std of the scale adds to them, as log r + log scale is what the image shows.
 //
 // `nuisances`: those of the system that `recovered` comes from. Never throws for valid options and
 // fitting sizes; whatever cannot be told stands in `reasons`.

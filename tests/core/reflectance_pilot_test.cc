@@ -17,7 +17,7 @@ TEST(ReflectancePilot, FindsItsOwnFamily) {
         Eigen::MatrixXd((100.0 * (-log_r.array()).exp()).matrix().asDiagonal()),
         Eigen::VectorXd::Constant(knots.size(), 100.0),
         {}};
-    const auto pilot = reflectance_pilot(image, knots);
+    const auto pilot = reflectance_pilot(image, image, knots);
     ASSERT_TRUE(pilot.has_value());
     EXPECT_NEAR(pilot->source_depth_mm / depth, 1.0, 0.2);
     EXPECT_LT((pilot->log_r - log_r).cwiseAbs().maxCoeff(), 0.3);
@@ -27,10 +27,10 @@ TEST(ReflectancePilot, FindsItsOwnFamily) {
 TEST(ReflectancePilot, OfNothingIsNone) {
   const DistanceKnots knots(0.1, 40.0);
   EliminatedNuisances image{Eigen::MatrixXd::Zero(3, knots.size()), Eigen::VectorXd::Ones(3), {}};
-  EXPECT_FALSE(reflectance_pilot(image, knots).has_value());
+  EXPECT_FALSE(reflectance_pilot(image, image, knots).has_value());
   image.kernel.setOnes();
   image.data.setConstant(-1.0);
-  EXPECT_FALSE(reflectance_pilot(image, knots).has_value());
+  EXPECT_FALSE(reflectance_pilot(image, image, knots).has_value());
 }
 
 }  // namespace
