@@ -19,9 +19,11 @@ namespace scattermeter {
 namespace {
 
 constexpr double kMinStep = std::numbers::ln2 / 3.0;  // in t, between breaks
-// lambda: from what leaves nothing beyond the pilot's family to what leaves the breaks alone.
-constexpr double kLargestLog10 = 7.0;
+// lambda considered: from smoother than any material is (dipoles seen without noise ask for 1 to
+// 400) to what leaves r to the image alone, in steps far finer than its likelihood.
+constexpr double kLargestLog10 = 3.0;
 constexpr double kSmallestLog10 = -5.0;
+constexpr double kStepLog10 = 0.5;
 // Of the level, the power, the tail and the depth: the penalty is blind to this many directions.
 constexpr double kFreeShapes = 4.0;
 
@@ -59,8 +61,8 @@ struct Smoothed {
   Eigen::MatrixXd jacobian;      // of the image
   Eigen::MatrixXd inverse_root;  // S with S S^T = inverse of J^T J + lambda Q^T Q
   double effective_parameters = 0;
-  Eigen::VectorXd drift;  // of theta, when log lambda goes one standard deviation up
-  double criterion = 0;   // -2 log marginal likelihood, up to a constant
+  double probability = 0;  // of this lambda among those tried
+  double criterion = 0;    // -2 log marginal likelihood, up to a constant
 };
 
 // Q with |Q theta|^2 the penalty of lambda = 1: the spline's roughness, less what a small change of
@@ -106,37 +108,23 @@ Smoothed smooth_at(LogLinearProblem& problem, const Eigen::MatrixXd& roughness, 
   return out;
 }
 
-Smoothed choose_smoothing(LogLinearProblem& problem, const Eigen::MatrixXd& roughness,
-                          Eigen::VectorXd start, double floor_chi2, double rows) {
+// The lambdas tried, each with its probability, all being alike before the image is seen.
+std::vector<Smoothed> smooth(LogLinearProblem& problem, const Eigen::MatrixXd& roughness,
+                             Eigen::VectorXd start, double floor_chi2, double rows) {
   std::vector<Smoothed> tried;
-  std::size_t best = 0;
-  const auto at = [&](double log10_lambda) {
-    return smooth_at(problem, roughness, log10_lambda, start, floor_chi2, rows);
-  };
-  for (double log10_lambda = kLargestLog10; log10_lambda >= kSmallestLog10; log10_lambda -= 1.0) {
-    tried.push_back(at(log10_lambda));
+  double best = std::numeric_limits<double>::infinity();
+  for (double log10_lambda = kLargestLog10; log10_lambda >= kSmallestLog10;
+       log10_lambda -= kStepLog10) {
+    tried.push_back(smooth_at(problem, roughness, log10_lambda, start, floor_chi2, rows));
     start = tried.back().fit.theta;
-    if (tried.back().criterion < tried[best].criterion) best = tried.size() - 1;
-    // Three decades past the best, and clearly worse: the rest is worse still.
-    if (tried.size() > best + 3 && tried.back().criterion > tried[best].criterion + 20.0) break;
+    best = std::min(best, tried.back().criterion);
+    // A probability of e^-10 of the best's, and falling: the rest does not count.
+    if (tried.back().criterion > best + 20.0) break;
   }
-  if (best == 0 || best + 1 == tried.size()) {
-    const Smoothed& beside = best == 0 ? tried[1] : tried[best - 1];
-    tried[best].drift = beside.fit.theta - tried[best].fit.theta;
-    return tried[best];
-  }
-  // The parabola through the best and its neighbours.
-  const double left = tried[best - 1].criterion - tried[best].criterion;
-  const double right = tried[best + 1].criterion - tried[best].criterion;
-  const double shift = left + right > 0.0 ? 0.5 * (right - left) / (left + right) : 0.0;
-  start = tried[best].fit.theta;
-  Smoothed refined = at(tried[best].log10_lambda + shift);
-  if (!(refined.criterion < tried[best].criterion)) refined = tried[best];
-  // A decade up and a decade down, and how far the likelihood lets lambda go: its second derivative
-  // by decades is half of left + right. Not further than the decade that was tried.
-  const double decades = std::min(1.0, std::sqrt(2.0 / std::max(left + right, 1e-3)));
-  refined.drift = 0.5 * decades * (tried[best - 1].fit.theta - tried[best + 1].fit.theta);
-  return refined;
+  double sum = 0.0;
+  for (Smoothed& s : tried) sum += s.probability = std::exp(-0.5 * (s.criterion - best));
+  for (Smoothed& s : tried) s.probability /= sum;
+  return tried;
 }
 
 }  // namespace
@@ -184,15 +172,28 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
   Eigen::VectorXd start = problem.basis.colPivHouseholderQr().solve(pilot->log_r);
   start.tail(start.size() - 1) = start.tail(start.size() - 1).cwiseMax(0.0);
   const auto rows = static_cast<double>(recovered.rows);
-  const Smoothed best = choose_smoothing(problem, penalty_root(spline, problem.basis, t), start,
-                                         recovered.floor_chi2, rows);
+  const std::vector<Smoothed> tried =
+      smooth(problem, penalty_root(spline, problem.basis, t), start, recovered.floor_chi2, rows);
 
-  out.smoothing_weight = std::pow(10.0, best.log10_lambda);
-  out.effective_parameters = best.effective_parameters;
+  // Means over lambda. theta_1 ... >= 0 of each makes the mean fall as well.
+  Eigen::VectorXd theta = Eigen::VectorXd::Zero(spline.size());
+  double log10_lambda = 0.0;
+  bool converged = true;
+  for (const Smoothed& s : tried) {
+    theta += s.probability * s.fit.theta;
+    log10_lambda += s.probability * s.log10_lambda;
+    out.effective_parameters += s.probability * s.effective_parameters;
+    converged = converged && (s.fit.converged || s.probability < 0.01);
+  }
+  out.smoothing_weight = std::pow(10.0, log10_lambda);
+  out.r_per_mm2 = (problem.basis * theta).array().exp();
   out.reduced_chi2 =
-      (best.fit.chi2 + recovered.floor_chi2) / std::max(1.0, rows - best.effective_parameters);
-  out.r_per_mm2 = (problem.basis * best.fit.theta).array().exp();
+      ((image.kernel * out.r_per_mm2 - image.data).squaredNorm() + recovered.floor_chi2) /
+      std::max(1.0, rows - out.effective_parameters);
   const double inflation = std::max(1.0, out.reduced_chi2);
+  const Smoothed& best = *std::max_element(
+      tried.begin(), tried.end(),
+      [](const Smoothed& a, const Smoothed& b) { return a.probability < b.probability; });
   const Eigen::MatrixXd pushes = best.inverse_root * (best.inverse_root.transpose() *
                                                       (best.jacobian.transpose() * image.held));
   for (std::size_t k = 0; k < breaks.at.size(); ++k) {
@@ -201,8 +202,12 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
     ReflectanceKnot knot;
     knot.distance_mm = knots.knots_mm()[static_cast<std::size_t>(at)];
     knot.r_per_mm2 = out.r_per_mm2[at];
-    knot.shape_log_std = std::sqrt(inflation * (f * best.inverse_root).squaredNorm() +
-                                   (f * pushes).squaredNorm() + std::pow(f.dot(best.drift), 2));
+    double variance = (f * pushes).squaredNorm();
+    for (const Smoothed& s : tried) {
+      variance += s.probability * (inflation * (f * s.inverse_root).squaredNorm() +
+                                   std::pow(f.dot(s.fit.theta - theta), 2));
+    }
+    knot.shape_log_std = std::sqrt(variance);
     knot.log_std = std::hypot(knot.shape_log_std, options.scale.relative_std);
     knot.low95_per_mm2 = knot.r_per_mm2 * std::exp(-1.96 * knot.log_std);
     knot.high95_per_mm2 = knot.r_per_mm2 * std::exp(1.96 * knot.log_std);
@@ -225,8 +230,7 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
                       knot.shape_log_std <= options.max_log_std;
     out.knots.push_back(knot);
   }
-  if (!best.fit.converged)
-    out.reasons.push_back("the fit of the smooth reflectance did not converge");
+  if (!converged) out.reasons.push_back("the fit of the smooth reflectance did not converge");
   if (std::none_of(out.knots.begin(), out.knots.end(),
                    [](const ReflectanceKnot& k) { return k.determined; })) {
     out.reasons.push_back("these shots do not determine the reflectance at any distance");

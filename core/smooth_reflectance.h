@@ -40,7 +40,7 @@ struct SmoothReflectance {
   std::vector<ReflectanceKnot> knots;  // by distance, a subset of the DistanceKnots
   Eigen::VectorXd r_per_mm2;           // on all DistanceKnots; beyond what is determined a guess
   double source_depth_mm = 0;          // z0 below
-  double smoothing_weight = 0;         // lambda below
+  double smoothing_weight = 0;         // lambda below, its geometric mean
   double effective_parameters = 0;     // trace of the influence of the data on the fit
   double reduced_chi2 = 0;             // of the image, per row not spent on effective parameters
   // Why the curve must not be trusted; empty: it may, wherever it is determined.
@@ -62,19 +62,19 @@ struct SmoothReflectance {
 // of an octave on. What is left beyond the last such knot is one interval, to the longest distance,
 // that nothing is said about.
 //
-// lambda maximises the marginal likelihood, r seen as a draw from the normal process of which the
-// last term is the logarithm (generalised maximum likelihood, Wahba 1985; Laplace's approximation,
-// as f stands in an exponent). Preferred to generalised cross-validation, which from image to image
-// swings between both sides (95 % bars that held 66 % on the half-lit plate at 10 % noise, against
-// 85 % by likelihood with the same penalty), and to the discrepancy principle, which always
-// oversmooths and with it makes the error bars too small. It needs no noise: for an image without
+// lambda is integrated over, weighted by its marginal likelihood, r seen as a draw from the normal
+// process of which the last term is the logarithm (Wahba's generalised maximum likelihood, 1985,
+// but its mean instead of its maximum; Laplace's approximation, as f stands in an exponent). The
+// one best lambda alone has bars that are too short just when noise makes it large. Preferred to
+// generalised cross-validation, which swings more from image to image (95 % bars that held 66 % on
+// the half-lit plate at 10 % noise, against 85 % by maximum likelihood with the same penalty), and
+// to the discrepancy principle, which always oversmooths. It needs no noise: for an image without
 // any, lambda settles at the roughness of f itself. The noise is as stated, or what the residual
 // says where that is more.
 //
 // Error bars are the posterior deviations of that process. They hold the smoothing bias, as the
 // mean over draws (Wahba 1983): 95 % of the distances lie within 1.96 deviations, though where f
-// bends most it may be fewer. What the curve does when lambda moves by its own standard deviation,
-// from the curvature of the likelihood, is added (Kass and Steffey 1989). The bounds are not
+// bends most it may be fewer. The bounds are not
 // counted: where they hold, the bars are too wide. A nuisance that is not fitted widens them. A
 // non-zero std of the scale adds to them, as log r + log scale is what the image shows.
 //

@@ -86,42 +86,43 @@ struct Tally {
 };
 
 // The truth by quadrature. 95 % bars hold 90 to 99 % over 100 seeds, averaged over the determined
-// knots; a scale known to 5 % (drawn, as a prior says) is in them; the error falls with the noise.
-void expect_bars_that_hold(const Kernel& kernel) {
+// knots; a scale known to 5 % (drawn, as a prior says) is in them.
+void expect_bars_that_hold(const Kernel& kernel, double noise) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   const Eigen::VectorXd l = kernel.image();
-  double rms_before = std::numeric_limits<double>::infinity();
-  for (double noise : {0.1, 0.01}) {
-    Tally exact, scaled;
-    for (unsigned seed = 1; seed <= 100; ++seed) {
-      const SmoothReflectance s = smooth_reflectance(
-          recover_reflectance(noisy_system(plate().w, l, noise, seed)), {}, plate().knots);
-      ASSERT_TRUE(s.reasons.empty()) << s.reasons.front();
-      expect_sound(s);
-      exact.add(s, kernel);
-      // log r and the log of the scale are only seen as a sum: no need to fit again.
-      const double scale = std::exp(0.05 * normal(random));
-      SmoothReflectance moved = s;
-      for (ReflectanceKnot& k : moved.knots) {
-        const double std = std::hypot(k.shape_log_std, 0.05);
-        k.r_per_mm2 *= scale;
-        k.low95_per_mm2 = k.r_per_mm2 * std::exp(-1.96 * std);
-        k.high95_per_mm2 = k.r_per_mm2 * std::exp(1.96 * std);
-      }
-      scaled.add(moved, kernel);
+  Tally exact, scaled;
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    const SmoothReflectance s = smooth_reflectance(
+        recover_reflectance(noisy_system(plate().w, l, noise, seed)), {}, plate().knots);
+    ASSERT_TRUE(s.reasons.empty()) << s.reasons.front();
+    expect_sound(s);
+    exact.add(s, kernel);
+    // log r and the log of the scale are only seen as a sum: no need to fit again.
+    const double scale = std::exp(0.05 * normal(random));
+    SmoothReflectance moved = s;
+    for (ReflectanceKnot& k : moved.knots) {
+      const double std = std::hypot(k.shape_log_std, 0.05);
+      k.r_per_mm2 *= scale;
+      k.low95_per_mm2 = k.r_per_mm2 * std::exp(-1.96 * std);
+      k.high95_per_mm2 = k.r_per_mm2 * std::exp(1.96 * std);
     }
-    EXPECT_GE(exact.coverage(), 0.90) << noise;
-    EXPECT_LE(exact.coverage(), 0.99) << noise;
-    EXPECT_GE(scaled.coverage(), 0.90) << noise;
-    EXPECT_GE(exact.determined / 100.0, 20.0) << noise;
-    EXPECT_LT(exact.rms(), rms_before);
-    rms_before = exact.rms();
+    scaled.add(moved, kernel);
   }
+  ::testing::Test::RecordProperty("coverage", std::to_string(exact.coverage()));
+  ::testing::Test::RecordProperty("coverage_with_scale", std::to_string(scaled.coverage()));
+  std::printf("coverage %.3f, with scale %.3f, %.1f knots, rms %.4f\n", exact.coverage(),
+              scaled.coverage(), exact.determined / 100.0, exact.rms());
+  EXPECT_GE(exact.coverage(), 0.90);
+  EXPECT_LE(exact.coverage(), 0.99);
+  EXPECT_GE(scaled.coverage(), 0.90);
+  EXPECT_GE(exact.determined / 100.0, 20.0);
 }
 
-TEST(SmoothReflectance, BarsHoldADipole) { expect_bars_that_hold(one_dipole()); }
-TEST(SmoothReflectance, BarsHoldTwoDipoles) { expect_bars_that_hold(two_dipoles()); }
+TEST(SmoothReflectance, BarsHoldADipole) { expect_bars_that_hold(one_dipole(), 0.01); }
+TEST(SmoothReflectance, BarsHoldADipoleInNoise) { expect_bars_that_hold(one_dipole(), 0.1); }
+TEST(SmoothReflectance, BarsHoldTwoDipoles) { expect_bars_that_hold(two_dipoles(), 0.01); }
+TEST(SmoothReflectance, BarsHoldTwoDipolesInNoise) { expect_bars_that_hold(two_dipoles(), 0.1); }
 
 // From noise-free to 30 %: the image made by W itself, so that nothing but noise is in the way.
 // Error and effective parameters go with the noise, and no noise is no collapse.
@@ -273,7 +274,7 @@ TEST(SmoothReflectance, EndsWhereTheImageEnds) {
   EXPECT_GE(inside, 10);
 }
 
-// Independent transport (MCML, core of the shared reference data): r where the dipole is known to
+// Independent transport (MCML, of the shared reference data): r where the dipole is known to
 // be off by half, and the alarm that it is. The table ends where its photons do; beyond and inside
 // the first bin r goes on as the neighbours do.
 TEST(SmoothReflectance, MeetsMonteCarlo) {
@@ -317,8 +318,9 @@ TEST(SmoothReflectance, MeetsMonteCarlo) {
   }
   std::printf("MCML: %.1f knots, coverage %.3f, rms %.4f\n", tally.determined / 20.0,
               tally.coverage(), tally.rms());
+  // The table's own noise, and its kinks, are no part of a smooth r.
   EXPECT_GE(tally.coverage(), 0.85);
-  EXPECT_LT(tally.rms(), 0.15);
+  EXPECT_LT(tally.rms(), 0.10);
 }
 
 }  // namespace
