@@ -31,7 +31,6 @@ RigLight led(const std::string& name, const Eigen::Vector3d& position_mm,
              const Eigen::Vector3d& towards) {
   RigLight light;
   light.name = name;
-  light.type = "led";
   light.led.position_mm = position_mm;
   light.led.axis = towards.normalized();
   light.led.exponent = 1.0;

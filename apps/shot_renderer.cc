@@ -136,11 +136,11 @@ RadiancePicture ShotRenderer::render(const RigShot& shot) {
         rig_.pose.charuco->world_from_board.rotation * Eigen::Vector3d::UnitZ();
     Eigen::Array3d ambient = Eigen::Array3d::Zero();
     for (const std::string& name : shot.lights) {
-      const RigLight& light = rig_.light(name);
-      if (light.environment) {
-        ambient += light.power() * open_irradiance(probes_.at(name), normal, 1.0);
+      const RigLight& lamp = rig_.light(name);
+      if (lamp.environment) {
+        ambient += lamp.power() * open_irradiance(probes_.at(name), normal, 1.0);
       } else {
-        leds.push_back(light.led);
+        leds.push_back(lamp.led);
       }
     }
     add_board(view_, *rig_.pose.charuco, leds, ambient, *scenes_.at(shot.object).rays,

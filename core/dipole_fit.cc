@@ -117,7 +117,7 @@ void set_misfit(const RecoveredReflectance& recovered, const DenseSystem& system
   const double noise =
       std::max(1.0, recovered.floor_chi2 / std::max(1.0, rows - static_cast<double>(rank)));
   const double chi2 = p.cost / noise;
-  estimate.misfit_p_value = chi_square_p_value(chi2, dof);
+  estimate.misfit_p_value = chi_square_tail(chi2, dof);
   const double image = system.l.cwiseQuotient(system.std_l).squaredNorm() / noise;
   estimate.misfit_relative = std::sqrt(std::max(0.0, chi2 - dof) / image);
 }

@@ -92,7 +92,7 @@ ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& kno
   }
   out.chi2 = std::max(0.0, apart.fall() - together.fall());
   out.dof = static_cast<int>(2 * (n_shots - 1));
-  out.p_value = chi_square_p_value(out.chi2, out.dof);
+  out.p_value = chi_square_tail(out.chi2, out.dof);
   return out;
 }
 

@@ -1,0 +1,34 @@
+// Least squares of a positive curve whose logarithm is linear in its parameters.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace scattermeter {
+
+// Minimises |kernel exp(basis theta) - data|^2 + |penalty theta|^2 over theta, with theta_1 .. >= 0
+// and theta_0 free. All finite; the penalty may have no rows. Sizes must fit.
+struct LogLinearProblem {
+  const Eigen::MatrixXd& kernel;
+  const Eigen::VectorXd& data;
+  Eigen::MatrixXd basis;
+  Eigen::MatrixXd penalty;
+};
+
+struct LogLinearFit {
+  Eigen::VectorXd theta;
+  double chi2 = 0;     // |kernel exp(basis theta) - data|^2
+  double penalty = 0;  // |penalty theta|^2
+  bool converged = false;
+};
+
+// Gauss-Newton; parameters that would cross their bound are held there and the others solved for
+// again, those at a bound are let go when the gradient says so; steps are cut back until the cost
+// falls, and none changes log r by more than 2. Converged: the step that
+// Gauss-Newton asks for promises to lower the cost by less than 1e-6, or by less than 1e-9 of it.
+// Not converged: 60 iterations, or no step falls. Any answer has a cost no higher than the start's.
+LogLinearFit fit_log_linear(const LogLinearProblem& problem, const Eigen::VectorXd& start);
+
+// d(kernel exp(basis theta)) / d theta.
+Eigen::MatrixXd log_linear_jacobian(const LogLinearProblem& problem, const Eigen::VectorXd& theta);
+
+}  // namespace scattermeter
