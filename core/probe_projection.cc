@@ -53,6 +53,7 @@ double arc_inside_rad(const ImageRect& r) {
   const double x_far = std::max(std::abs(r.x0), std::abs(r.x1));
   const double y_far = std::max(std::abs(r.y0), std::abs(r.y1));
   if (x_far * x_far + y_far * y_far <= 1.0) return 0.0;
+  if (r.x0 >= 1.0 || r.x1 <= -1.0 || r.y0 >= 1.0 || r.y1 <= -1.0) return 0.0;
   std::array<double, 10> at{};
   std::size_t n = 0;
   at[n++] = -kPi;
@@ -75,7 +76,7 @@ double arc_inside_rad(const ImageRect& r) {
     const double middle = 0.5 * (at[i] + at[i + 1]);
     const double x = std::cos(middle);
     const double y = std::sin(middle);
-    if (x > r.x0 && x < r.x1 && y > r.y0 && y < r.y1) arc += at[i + 1] - at[i];
+    if (x >= r.x0 && x <= r.x1 && y >= r.y0 && y <= r.y1) arc += at[i + 1] - at[i];
   }
   return arc;
 }
