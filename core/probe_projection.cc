@@ -190,11 +190,11 @@ Eigen::Vector3d ProbeMap::mean_direction(const ImageRect& rect) const {
       }
     }
   } else {
-    // Across the rim, or near it, where a ball's directions crowd.
-    constexpr int kSide = 8;
-    for (int i = 0; i < kSide * kSide; ++i) {
-      add(rect.x0 + (i % kSide + 0.5) / kSide * w,
-          rect.y0 + (static_cast<double>(i / kSide) + 0.5) / kSide * h);
+    // Near the rim, where a ball's directions crowd; finer across it, where a part counts or not.
+    const int side = std::hypot(far_x, far_y) < radius_px_ ? 8 : 32;
+    for (int i = 0; i < side * side; ++i) {
+      add(rect.x0 + (i % side + 0.5) / side * w,
+          rect.y0 + (static_cast<double>(i / side) + 0.5) / side * h);
     }
   }
   if (weight > 0.0) return sum / weight;
