@@ -114,11 +114,13 @@ bool ProbeIrradiance::is_fine(const ProbeLight& light, bool bright) const {
     const Eigen::Vector3d mean = light.first.col(c) / flux;
     // Rounding of the stored sums leaves a variance of 1e-7 to a single direction.
     const double variance = std::max(0.0, 1.0 - mean.squaredNorm());
-    const double radius = 2.0 * std::sqrt(variance);
+    // A ball's rim spreads one-sidedly, 2.83 deviations far. (What lies behind is held to the same:
+    // a cell's mean may stand behind the horizon and a small part of its light before it.)
+    const double radius = 3.0 * std::sqrt(variance);
     const double cosine = normal_in_probe_.dot(mean);
-    if (cosine < -radius) continue;  // behind
     if (flux * variance > kSpread * tolerance_ * all[c]) return false;
-    if (cosine < radius && flux * radius > kHorizonSpread * tolerance_ * all[c]) return false;
+    if (std::abs(cosine) < radius && flux * radius > kHorizonSpread * tolerance_ * all[c])
+      return false;
   }
   return true;
 }

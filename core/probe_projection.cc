@@ -53,6 +53,7 @@ double arc_inside_rad(const ImageRect& r) {
   const double x_far = std::max(std::abs(r.x0), std::abs(r.x1));
   const double y_far = std::max(std::abs(r.y0), std::abs(r.y1));
   if (x_far * x_far + y_far * y_far <= 1.0) return 0.0;
+  if (r.x0 >= 1.0 || r.x1 <= -1.0 || r.y0 >= 1.0 || r.y1 <= -1.0) return 0.0;
   std::array<double, 10> at{};
   std::size_t n = 0;
   at[n++] = -kPi;
@@ -75,7 +76,7 @@ double arc_inside_rad(const ImageRect& r) {
     const double middle = 0.5 * (at[i] + at[i + 1]);
     const double x = std::cos(middle);
     const double y = std::sin(middle);
-    if (x > r.x0 && x < r.x1 && y > r.y0 && y < r.y1) arc += at[i + 1] - at[i];
+    if (x >= r.x0 && x <= r.x1 && y >= r.y0 && y <= r.y1) arc += at[i + 1] - at[i];
   }
   return arc;
 }
@@ -189,11 +190,11 @@ Eigen::Vector3d ProbeMap::mean_direction(const ImageRect& rect) const {
       }
     }
   } else {
-    // Across the rim, or near it, where a ball's directions crowd.
-    constexpr int kSide = 8;
-    for (int i = 0; i < kSide * kSide; ++i) {
-      add(rect.x0 + (i % kSide + 0.5) / kSide * w,
-          rect.y0 + (static_cast<double>(i / kSide) + 0.5) / kSide * h);
+    // Near the rim, where a ball's directions crowd; finer across it, where a part counts or not.
+    const int side = std::hypot(far_x, far_y) < radius_px_ ? 8 : 32;
+    for (int i = 0; i < side * side; ++i) {
+      add(rect.x0 + (i % side + 0.5) / side * w,
+          rect.y0 + (static_cast<double>(i / side) + 0.5) / side * h);
     }
   }
   if (weight > 0.0) return sum / weight;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -12,6 +13,8 @@ namespace {
 
 // However bright the picture is in places, no more pixels than these stand apart.
 constexpr std::size_t kMostBright = 4096;
+// A bright pixel's radiance exceeds the mean of the whole by this factor.
+constexpr double kBrighter = 4.0;
 
 Environment checked(Environment environment) {
   if (const std::string problem =
@@ -108,6 +111,11 @@ void ProbeTree::find_bright(double share) {
   for (std::size_t i = 0; i < most; ++i) {
     const Eigen::Array3d f = flux[order[i].second].cast<double>();
     if (!(f > share * (rest - f).max(0.0)).any()) break;
+    // In a picture of few pixels each is a large share; that alone makes none bright.
+    const Eigen::Array3d radiance =
+        Eigen::Map<const Eigen::Array3f>(&environment_.radiance[3 * order[i].second])
+            .cast<double>();
+    if (!(radiance > kBrighter * total / (4.0 * std::numbers::pi)).any()) continue;
     rest -= f;
     bright.push_back(order[i].second);
   }

@@ -37,7 +37,7 @@ class ProbeTree {
  public:
   struct Options {
     // A pixel is bright when its flux, in any channel, exceeds this share of the flux of all the
-    // pixels that are not.
+    // pixels that are not, and its radiance four times the mean.
     double bright_share = 3e-3;
   };
   // Throws std::invalid_argument unless probe_problem() is empty.

@@ -138,6 +138,29 @@ TEST_F(BadInput, LedInsideTheObject) {
   expect_refused({"lights.led1.position_mm", "inside object cube", "[3, -6, 8]"});
 }
 
+TEST_F(BadInput, Probe) {
+  const std::string led = rig_.text();
+  const auto environment = [&](const std::string& fields) {
+    rig_.write(
+        replaced(replaced(led, "lights:\n",
+                          "lights:\n  sky: {type: environment, image: sky.hdr, " + fields + "}\n"),
+                 "lights: [led1]}", "lights: [led1, sky]}"));
+  };
+  environment("projection: equirectangular");
+  expect_refused({"rig.yaml:", "lights.sky.image", "sky.hdr", "no such file"});
+  write_file(rig_ / "sky.hdr",
+             std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\nabcd"));
+  expect_refused({"lights.sky.image", "sky.hdr", "cut short"});
+  environment("projection: cube");
+  expect_refused({"lights.sky.projection", "angular_map"});
+  environment("projection: mirror_ball, up: [0, 1, 0]");
+  expect_refused({"lights.sky", "parallel"});
+  environment("projection: mirror_ball, radiance_W_per_mm2_sr: [0, 0, 0]");
+  expect_refused({"lights.sky.radiance_W_per_mm2_sr", "at least one channel"});
+  environment("projection: mirror_ball, exponent: 1");
+  expect_refused({"lights.sky", "exponent"});
+}
+
 TEST_F(BadInput, LedThatShinesAway) {
   change("axis: [-30, 60, -70]", "axis: [30, -60, 70]");
   expect_refused({"lights.led1", "cube", "axis"});

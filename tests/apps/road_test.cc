@@ -1,11 +1,14 @@
 // The whole road: simulate -> files on disk -> measure -> truth, through every foreign library.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/sky_probe.h"
 #include "tests/apps/small_rig.h"
 
 namespace scattermeter::apps {
@@ -19,6 +22,21 @@ struct Truth {
 const std::map<std::string, Truth> kTruth = {{"PP", {{0.50, 0.62, 0.70}, {0.003, 0.002, 0.004}}},
                                              {"PE", {{0.90, 1.05, 1.20}, {0.002, 0.003, 0.006}}},
                                              {"POM", {{1.40, 1.60, 1.75}, {0.002, 0.004, 0.008}}}};
+
+// A Radiance picture without run lengths.
+std::string flat_hdr(const Environment& probe) {
+  std::string out = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(probe.height_px) +
+                    " +X " + std::to_string(probe.width_px) + "\n";
+  for (std::size_t i = 0; i < probe.radiance.size(); i += 3) {
+    const float* rgb = &probe.radiance[i];
+    int exponent = 0;
+    const float top = std::max({rgb[0], rgb[1], rgb[2]});
+    const float scale = std::frexp(top, &exponent) * 256.0F / top;
+    for (std::size_t c = 0; c < 3; ++c) out += static_cast<char>(static_cast<int>(rgb[c] * scale));
+    out += static_cast<char>(exponent + 128);
+  }
+  return out;
+}
 
 // Largest relative errors of sigma_s' and sigma_a over all results.
 std::pair<double, double> worst_errors(const Json& result) {
@@ -60,6 +78,50 @@ TEST(Road, TwelveSmallShotsWithNoise) {
   EXPECT_GT(result["timing_s"]["total"], 0.0);
   EXPECT_THAT(r.out, ::testing::HasSubstr("POM"));
   EXPECT_EQ(r.err, "");
+}
+
+// A light probe and an LED at once: sky and sun of the probe differ by channel, and its power is a
+// nuisance of its own.
+TEST(Road, ProbeAndLedInOneShot) {
+  SmallRig rig;
+  rig.keep_shots("PE_pyramid_1");
+  SkyProbe sky;
+  sky.width_px = 256;
+  const Environment probe = make_sky_probe(sky);
+  write_file(rig / "sky.hdr", flat_hdr(probe));
+  rig.write(
+      replaced(replaced(rig.text(), "lights: [led1]}", "lights: [led1, sky], exposure_s: 0.02}"),
+               "lights:\n",
+               "lights:\n  sky: {type: environment, image: sky.hdr, projection: "
+               "equirectangular, forward: [1, 0, 0], radiance_W_per_mm2_sr: [2e-7, 2e-7, "
+               "2e-7], radiance_relative_std: 0.01}\n"));
+  rig.simulate();
+  const Answer r = rig.measure();
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  const Json result = Json::parse(rig.result());
+  const auto [s, a] = worst_errors(result);
+  EXPECT_LT(s, 0.02) << r.out;
+  EXPECT_LT(a, 0.15) << r.out;
+  EXPECT_THAT(result["inputs"].dump(), ::testing::HasSubstr("sky.hdr"));
+  bool named = false;
+  for (const Json& line : result["results"][0]["budget"]) {
+    named = named || line["cause"] == "environment power";
+  }
+  EXPECT_TRUE(named);
+  // Without the probe in the rig, the answer would be another.
+  rig.write(replaced(rig.text(), "[led1, sky]", "[led1]"));
+  rig.measure();
+  EXPECT_GT(worst_errors(Json::parse(rig.result())).second, 0.15);
+}
+
+TEST(Road, DiscLed) {
+  SmallRig rig;
+  rig.keep_shots("PE_pyramid_1");
+  rig.write(replaced(rig.text(), "axis: [-30, 60, -70]", "radius_mm: 8, axis: [-30, 60, -70]"));
+  rig.simulate();
+  const Answer r = rig.measure();
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_LT(worst_errors(Json::parse(rig.result())).first, 0.02) << r.out;
 }
 
 // Without a responsivity the scale is free; a shadow edge still tells sigma_s'.

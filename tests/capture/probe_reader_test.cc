@@ -127,7 +127,7 @@ TEST_F(ProbeReader, PhotographedProbe) {
   EXPECT_LT(tree.bright().size(), 100U);
   EXPECT_GT(open_irradiance(tree, {0, 0, 1}, 1.49)[1],
             2.0 * open_irradiance(tree, {0, 0, -1}, 1.49)[1]);
-  EXPECT_GT(light_of(image)[1].shadow_edge_patches, 0);
+  EXPECT_GT(light_of(image)[1].shadow_rays, 0U);
 }
 
 }  // namespace

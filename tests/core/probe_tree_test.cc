@@ -47,8 +47,8 @@ TEST(ProbeTree, SetsTheSunApart) {
 }
 
 TEST(ProbeTree, PartsOfAPixelMakeThePixel) {
-  const ProbeTree tree(testing::even_probe(ProbeProjection::kAngularMap, 20, 20, {1, 1, 1}));
-  const ProbeCell pixel{0, 14, 7};
+  const ProbeTree tree(testing::even_probe(ProbeProjection::kAngularMap, 100, 100, {1, 1, 1}));
+  const ProbeCell pixel{0, 64, 37};
   ProbeLight sum;
   for (const ProbeCell& child : children(pixel)) sum += tree.sky(child);
   EXPECT_NEAR(sum.flux[0], tree.sky(pixel).flux[0], 1e-12);
