@@ -1,4 +1,5 @@
 // --model dipole: the dipole, with all that the rig knows only to a standard deviation.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,6 +11,10 @@
 #include "apps/progress.h"
 #include "core/dipole_curve.h"
 #include "core/dipole_fit.h"
+#include "core/dipole_misfit.h"
+#include "core/row_selection.h"
+#include "core/shot_agreement.h"
+#include "core/smooth_reflectance.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -60,49 +65,145 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
   return all;
 }
 
+// One material and channel on its way to an estimate.
+struct Work {
+  TaskRows rows;
+  bool estimated = false;  // a first estimate is there
+};
+
+class DipoleEstimator {
+ public:
+  explicit DipoleEstimator(Estimation& e)
+      : e_(e),
+        knots_(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm()),
+        work_(e.tasks.size()) {
+    fit_.scale.relative_std = e.rig.camera.responsivity ? e.rig.camera.responsivity_relative_std
+                                                        : std::numeric_limits<double>::infinity();
+  }
+
+  // Thrice: without nuisances, to know the material that rows are weighed for and that the image's
+  // dependence on the nuisances is computed for; with them; and once more where that shows rows
+  // that are outliers.
+  void run() {
+    const PairSumOptions pairs = pair_options(knots_);
+    add_weights(
+        e_.shots, e_.library, e_.options.quiet,
+        [&](const SeenObject& seen, const SourceCloud& sources) {
+          return smooth_weights(seen.sites, sources, knots_, pairs);
+        },
+        e_.weights);
+    e_.watch.lap("light");
+    for_open_tasks("fitting", e_, [&](std::size_t i) { first_fit(i); });
+    e_.watch.lap("first fit");
+    std::vector<bool> estimated;
+    for (const Work& w : work_) estimated.push_back(w.estimated);
+    sensitivities_ = sensitivities(e_, estimated, knots_);
+    e_.watch.lap("sensitivities");
+    tbb::parallel_for(std::size_t{0}, e_.tasks.size(), [&](std::size_t i) {
+      if (work_[i].estimated) final_fit(i);
+    });
+    e_.watch.lap("fit");
+  }
+
+ private:
+  DipoleFitOptions options_of(const Task& task) const {
+    DipoleFitOptions own = fit_;
+    own.eta_int_over_ext = task.eta;
+    return own;
+  }
+
+  void first_fit(std::size_t i) {
+    Work& work = work_[i];
+    const Task& task = e_.tasks[i];
+    work.rows = rows_of(e_.rig, task);
+    const DipoleFit fit =
+        fit_dipole(system_of(e_.rig, task, work.rows, e_.weights, 0.0), knots_, options_of(task));
+    e_.results[i].estimate = fit.estimate;
+    report_rows(task, work.rows, e_.results[i]);
+    work.estimated = fit.estimate.converged;
+    if (!work.estimated) return;
+    Eigen::Index at = 0;
+    for (ChannelObservation& o : work.rows) {
+      const auto n = static_cast<Eigen::Index>(o.rows_used);
+      expect(o, fit.predicted.segment(at, n));
+      at += n;
+    }
+  }
+
+  // The system with all that the rig knows only to a standard deviation, and with the errors of the
+  // method.
+  DenseSystem full_system(std::size_t i, const Estimate& first) const {
+    const Task& task = e_.tasks[i];
+    const double sigma_t = first.sigma_s_prime_per_mm.value + first.sigma_a_per_mm.value;
+    DenseSystem system = system_of(e_.rig, task, work_[i].rows, e_.weights, 1.0 / sigma_t);
+    const DipoleCurve curve =
+        dipole_curve(knots_, std::log(sigma_t), first.sigma_a_per_mm.value / sigma_t, task.eta);
+    add_nuisances(e_.rig, task.shots, work_[i].rows, task.channel, sensitivities_.of_task[i],
+                  system);
+    add_numerics(knots_, first.scale.value * curve.r, system);
+    return system;
+  }
+
+  bool leave_outliers_out(const DenseSystem& system, const DipoleFit& fit, TaskRows& rows) const {
+    if (fit.predicted.size() == 0) return false;
+    const std::vector<Eigen::Index> far = outliers(system.l, fit.predicted, system.std_l);
+    auto next = far.begin();
+    Eigen::Index at = 0;
+    for (ChannelObservation& o : rows) {
+      for (std::size_t j = 0; j < o.l.size(); ++j) {
+        if (o.state[j] != RowState::kUsed) continue;
+        if (next != far.end() && *next == at) {
+          leave_out(o, j, RowState::kOutlier);
+          ++next;
+        }
+        ++at;
+      }
+    }
+    return !far.empty();
+  }
+
+  void final_fit(std::size_t i) {
+    const Task& task = e_.tasks[i];
+    ChannelResult& result = e_.results[i];
+    const Estimate first = result.estimate;
+    const DipoleFitOptions options = options_of(task);
+    DenseSystem system = full_system(i, first);
+    DipoleFit fit = fit_dipole(system, knots_, options);
+    if (leave_outliers_out(system, fit, work_[i].rows)) {
+      system = full_system(i, first);
+      fit = fit_dipole(system, knots_, options);
+    }
+    report_rows(task, work_[i].rows, result);
+    result.estimate = fit.estimate;
+    if (!fit.estimate.converged) return;
+    SmoothReflectanceOptions smooth;
+    smooth.scale = options.scale;
+    result.recovered = smooth_reflectance(fit.recovered, system.nuisances, knots_, smooth);
+    DipoleMisfitOptions misfit;
+    misfit.scale = options.scale;
+    result.misfit =
+        dipole_misfit(fit.recovered, system.nuisances, knots_,
+                      {fit.optimum.sigma_s_prime_per_mm(), fit.optimum.sigma_a_per_mm(), task.eta},
+                      std::exp(fit.optimum.log_s), misfit);
+    if (task.shots.size() < 2) return;
+    for (std::size_t s = 0; s < task.shots.size(); ++s) {
+      result.singles.push_back(
+          {task.shots[s]->rig->file, fit_dipole(shot_of(system, s), knots_, options).estimate});
+    }
+    result.agreement = shot_agreement(system, knots_, fit.optimum, task.eta, options.scale,
+                                      std::max(1.0, fit.estimate.reduced_chi2));
+    widen_by_disagreement(result.agreement, result.estimate);
+  }
+
+  Estimation& e_;
+  DistanceKnots knots_;
+  DipoleFitOptions fit_;
+  std::vector<Work> work_;
+  Sensitivities sensitivities_;
+};
+
 }  // namespace
 
-// Twice: without nuisances, to know the material that the image's dependence on them is computed
-// for; then with them.
-void estimate_dipole(Estimation& e) {
-  const DistanceKnots knots(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm());
-  const PairSumOptions pairs = pair_options(knots);
-  const Weights& weights = e.weights;
-  add_weights(
-      e.shots, e.library, e.options.quiet,
-      [&](const SeenObject& seen, const SourceCloud& sources) {
-        return smooth_weights(seen.sites, sources, knots, pairs);
-      },
-      e.weights);
-  e.watch.lap("light");
-  DipoleFitOptions fit;
-  fit.scale.relative_std = e.rig.camera.responsivity ? e.rig.camera.responsivity_relative_std
-                                                     : std::numeric_limits<double>::infinity();
-  std::vector<char> fitted(e.tasks.size(), 0);
-  for_open_tasks("fitting", e, [&](std::size_t i) {
-    DipoleFitOptions own = fit;
-    own.eta_int_over_ext = e.tasks[i].eta;
-    e.results[i].estimate = fit_dipole(system_of(e.rig, e.tasks[i], weights), knots, own).estimate;
-    fitted[i] = e.results[i].estimate.converged ? 1 : 0;
-  });
-  e.watch.lap("first fit");
-  const std::vector<bool> estimated(fitted.begin(), fitted.end());
-  const Sensitivities all = sensitivities(e, estimated, knots);
-  e.watch.lap("sensitivities");
-  tbb::parallel_for(std::size_t{0}, e.tasks.size(), [&](std::size_t i) {
-    if (!estimated[i]) return;
-    DipoleFitOptions own = fit;
-    own.eta_int_over_ext = e.tasks[i].eta;
-    DenseSystem system = system_of(e.rig, e.tasks[i], weights);
-    const Estimate& first = e.results[i].estimate;
-    const double sigma_t = first.sigma_s_prime_per_mm.value + first.sigma_a_per_mm.value;
-    const DipoleCurve curve = dipole_curve(knots, std::log(sigma_t),
-                                           first.sigma_a_per_mm.value / sigma_t, e.tasks[i].eta);
-    add_nuisances(e.rig, e.tasks[i].shots, e.tasks[i].channel, all.of_task[i], system);
-    add_numerics(e.tasks[i].shots, e.tasks[i].channel, knots, first.scale.value * curve.r, system);
-    e.results[i].estimate = fit_dipole(system, knots, own).estimate;
-  });
-  e.watch.lap("fit");
-}
+void estimate_dipole(Estimation& e) { DipoleEstimator(e).run(); }
 
 }  // namespace scattermeter::apps

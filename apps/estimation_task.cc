@@ -7,6 +7,7 @@
 
 #include "apps/progress.h"
 #include "core/input_error.h"
+#include "core/row_selection.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -16,9 +17,14 @@ constexpr double kDarkSnr = 10.0;
 // A shot with more than this share of its patches clipped is over-exposed as a whole.
 constexpr double kClippedShare = 0.5;
 
-// Error of the predicted l by patches and pair sums: residual of the sample's noise-free shots
-// where the mean free path is shortest against the patches (POM, 0.4 mm for patches of 0.5 mm).
-constexpr double kNumericalStd = 5e-4;
+// Error of the predicted l by patches and pair sums: residuals of the sample's shots without noise,
+// for a patch as long as the mean free path; it grows as the square of their ratio.
+constexpr double kNumericalStd = 1e-4;
+constexpr double kLeastNumericalStd = 3e-5;
+constexpr double kFirstNumericalStd = 5e-4;  // while the material is not known
+
+// About the mirror direction of a light: as wide as the gloss of a satin surface.
+constexpr double kMirrorConeRad = 0.17;
 
 }  // namespace
 
@@ -85,10 +91,36 @@ void add_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, b
   }
 }
 
-DenseSystem system_of(const Rig& rig, const Task& task, const Weights& weights) {
-  std::vector<LinearShot> shots;
+TaskRows rows_of(const Rig& rig, const Task& task) {
+  TaskRows rows;
   for (const OpenedShot* shot : task.shots) {
-    LinearShot linear{{}, &shot->observation.channel[task.channel]};
+    const SeenObject& seen = *shot->seen;
+    ChannelObservation& o = rows.emplace_back(shot->observation.channel[task.channel]);
+    for (const std::string& name : shot->rig->lights) {
+      const RigLight& light = rig.light(name);
+      if (light.environment) continue;
+      for (std::size_t j = 0; j < o.l.size(); ++j) {
+        if (mirrors(seen.sites[j].center_mm, seen.patches->normal(seen.map.patch_of_row[j]),
+                    seen.camera_center_mm, light.led.position_mm, kMirrorConeRad)) {
+          leave_out(o, j, RowState::kMirror);
+        }
+      }
+    }
+  }
+  return rows;
+}
+
+DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,
+                      const Weights& weights, double mean_free_path_mm) {
+  std::vector<LinearShot> shots;
+  for (std::size_t i = 0; i < task.shots.size(); ++i) {
+    const OpenedShot* shot = task.shots[i];
+    LinearShot linear{{}, &rows[i], kFirstNumericalStd};
+    if (mean_free_path_mm > 0.0) {
+      const double ratio = shot->seen->patches->patch_size_mm() / mean_free_path_mm;
+      linear.numerical_relative_std =
+          std::max(kLeastNumericalStd, kNumericalStd * std::min(ratio * ratio, 16.0));
+    }
     for (const std::string& light : shot->rig->lights) {
       const std::size_t own = rig.light(light).environment ? task.channel : 0;
       linear.lights.push_back({&weights.at({shot->seen.get(), light, own}),
@@ -96,7 +128,18 @@ DenseSystem system_of(const Rig& rig, const Task& task, const Weights& weights) 
     }
     shots.push_back(linear);
   }
-  return stack(shots, kNumericalStd);
+  return stack(shots);
+}
+
+void report_rows(const Task& task, const TaskRows& rows, ChannelResult& result) {
+  result.patches_by_state.fill(0);
+  result.patches_partly_seen = 0;
+  for (const ChannelObservation& o : rows) {
+    for (RowState state : o.state) ++result.patches_by_state[static_cast<std::size_t>(state)];
+  }
+  for (const OpenedShot* shot : task.shots) {
+    result.patches_partly_seen += shot->seen->map.patches_partly_seen;
+  }
 }
 
 PairSumOptions pair_options(const DistanceKnots& knots) {

@@ -39,8 +39,20 @@ void add_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, b
                  const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make,
                  Weights& weights);
 
-// The task's used rows under all their lights.
-DenseSystem system_of(const Rig& rig, const Task& task, const Weights& weights);
+// What the task's shots show in its channel, one a shot; rows are left out as the estimate learns
+// more about them.
+using TaskRows = std::vector<ChannelObservation>;
+
+// As observed, without the rows that mirror a light into the camera.
+TaskRows rows_of(const Rig& rig, const Task& task);
+
+// The used rows under all their lights. `mean_free_path_mm`: of the material, for the error of
+// patches that are not small against it; 0: not known yet.
+DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,
+                      const Weights& weights, double mean_free_path_mm);
+
+// Counts of rows by what kept them out.
+void report_rows(const Task& task, const TaskRows& rows, ChannelResult& result);
 
 // Near-field options for these knots.
 PairSumOptions pair_options(const DistanceKnots& knots);

@@ -60,7 +60,10 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
   watch.lap("shots");
   const std::vector<Task> tasks = tasks_of(rig_, shots);
   for (const Task& task : tasks) {
-    ChannelResult result{task.material, kRgbName[task.channel], task.eta, {}, {}};
+    ChannelResult result;
+    result.material = task.material;
+    result.channel = kRgbName[task.channel];
+    result.eta_int_over_ext = task.eta;
     for (const OpenedShot* shot : task.shots) {
       result.shots.push_back(shot->rig->file);
       if (const std::string problem = shot_problem(*shot, task.channel); !problem.empty()) {

@@ -1,6 +1,7 @@
 // The main job: a folder of raws and a rig in, coefficients out.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -8,7 +9,11 @@
 
 #include "apps/rig.h"
 #include "calib/pose.h"
+#include "core/dipole_misfit.h"
 #include "core/estimate.h"
+#include "core/observation.h"
+#include "core/shot_agreement.h"
+#include "core/smooth_reflectance.h"
 
 namespace scattermeter::apps {
 
@@ -20,12 +25,27 @@ struct MeasureOptions {
   bool quiet = false;
 };
 
+// A shot measured alone.
+struct ShotResult {
+  std::string file;
+  Estimate estimate;
+};
+
 struct ChannelResult {
   std::string material;
   char channel;  // 'R', 'G', 'B'
   double eta_int_over_ext;
   Estimate estimate;
   std::vector<std::string> shots;  // file names that took part
+  // Patches, summed over the shots, by what kept them out (index: RowState; kUsed: in use), and
+  // those that the silhouette, a crease or another part of the object hides in part.
+  std::array<std::size_t, kRowStates> patches_by_state{};
+  std::size_t patches_partly_seen = 0;
+  // --model dipole.
+  std::vector<ShotResult> singles;             // each shot alone; empty for a single shot
+  ShotAgreement agreement;                     // whether they tell the same
+  std::optional<SmoothReflectance> recovered;  // r(d) without the dipole
+  std::optional<DipoleMisfit> misfit;          // whether the dipole fits it
   bool refused() const { return !estimate.reasons.empty(); }
 };
 

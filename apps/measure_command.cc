@@ -33,7 +33,7 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
       ->capture_default_str();
   command
       ->add_option("--patch-size", options->patch_mm,
-                   "edge of the surface patches in mm (default: the rig's, or object size / 40)")
+                   "edge of the surface patches in mm (default: the rig's, or object size / 50)")
       ->check(CLI::PositiveNumber);
   command->callback([options, &context] {
     context.chosen = [options, &context] {

@@ -210,41 +210,42 @@ Entries row_entries(const RowContext& c, std::size_t channel,
 
 }  // namespace
 
-void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots, std::size_t channel,
+void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
+                   const std::vector<ChannelObservation>& rows, std::size_t channel,
                    const std::map<LightKey, TaskSensitivity>& sensitivities, DenseSystem& system) {
   Columns columns;
-  std::vector<Entries> rows;
-  for (const OpenedShot* shot : shots) {
+  std::vector<Entries> entries;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const OpenedShot* shot = shots[i];
     // Cholesky with pivoting holds for a covariance that is singular, too.
     const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(shot->pose.covariance);
     Eigen::Matrix<double, 6, 6> root = ldlt.matrixL();
     root = ldlt.transpositionsP().transpose() * root;
     root = (root * ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal()).eval();
-    const ChannelObservation& o = shot->observation.channel[channel];
+    const ChannelObservation& o = rows[i];
     for (std::size_t j = 0; j < o.l.size(); ++j) {
       if (o.state[j] != RowState::kUsed) continue;
-      rows.push_back(row_entries({rig, *shot, j, root}, channel, sensitivities, columns));
+      entries.push_back(row_entries({rig, *shot, j, root}, channel, sensitivities, columns));
     }
   }
   system.nuisances = columns.list();
-  system.nuisance_columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()),
+  system.nuisance_columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(entries.size()),
                                                   static_cast<Eigen::Index>(columns.list().size()));
-  for (std::size_t j = 0; j < rows.size(); ++j) {
-    for (const auto& [column, value] : rows[j]) {
+  for (std::size_t j = 0; j < entries.size(); ++j) {
+    for (const auto& [column, value] : entries[j]) {
       system.nuisance_columns(static_cast<Eigen::Index>(j), column) += value;
     }
   }
 }
 
-void add_numerics(const std::vector<const OpenedShot*>& shots, std::size_t channel,
-                  const DistanceKnots& knots, const Eigen::VectorXd& r, DenseSystem& system) {
-  // Pair sums meet quadrature to 6e-5 of the total (tests/core/pair_sums_test.cc), incident light
-  // is good to 2e-5, the knots to 5e-5: with a margin of two.
-  constexpr double kRelativeStd = 2e-4;
+void add_numerics(const DistanceKnots& knots, const Eigen::VectorXd& r, DenseSystem& system) {
+  // The forward model meets adaptive quadrature to 1e-5 in the mean over a cube
+  // (tests/core/pair_sums_test.cc), incident light and knots included.
+  constexpr double kRelativeStd = 1.5e-5;
   const Eigen::Index first = system.nuisance_columns.cols();
   const int octaves =
       1 + static_cast<int>(std::log2(knots.max_distance_mm() / knots.resolution_mm()));
-  const Eigen::Index added = octaves + static_cast<Eigen::Index>(shots.size());
+  const Eigen::Index added = octaves + static_cast<Eigen::Index>(system.shot_rows.size());
   system.nuisance_columns.conservativeResize(system.l.size(), first + added);
   system.nuisance_columns.rightCols(added).setZero();
   for (int o = 0; o < octaves; ++o) {
@@ -259,8 +260,8 @@ void add_numerics(const std::vector<const OpenedShot*>& shots, std::size_t chann
   }
   const Eigen::VectorXd predicted = system.weights * r;
   Eigen::Index row = 0;
-  for (std::size_t s = 0; s < shots.size(); ++s) {
-    const auto n = static_cast<Eigen::Index>(shots[s]->observation.channel[channel].rows_used);
+  for (std::size_t s = 0; s < system.shot_rows.size(); ++s) {
+    const Eigen::Index n = system.shot_rows[s];
     system.nuisance_columns.col(first + octaves + static_cast<Eigen::Index>(s)).segment(row, n) =
         predicted.segment(row, n);
     row += n;

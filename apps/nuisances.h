@@ -65,18 +65,18 @@ struct TaskSensitivity {
   Eigen::Index medium;
 };
 
-// Fills the system's nuisances and their columns for the used rows of the shots, in the order of
-// stack(): place, exponent and power of every LED in use, power of every environment, pose (six
-// independent combinations of each pose's covariance), eta; those with a standard deviation of 0
-// are left out.
-void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots, std::size_t channel,
+// Fills the system's nuisances and their columns for the used rows of the shots (`rows`: one
+// observation a shot), in the order of stack(): place, exponent and power of every LED in use,
+// power of every environment, pose (six independent combinations of each pose's covariance), eta;
+// those with a standard deviation of 0 are left out.
+void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
+                   const std::vector<ChannelObservation>& rows, std::size_t channel,
                    const std::map<LightKey, TaskSensitivity>& sensitivities, DenseSystem& system);
 
 // Adds what discretisation may do to the prediction as a whole, which the independent error of each
 // row does not hold: a relative error of R that changes from one octave of distance to the next,
 // and one of the light in each shot. Group "numerics", not fitted. `r`: the first estimate of scale
 // * R on the knots.
-void add_numerics(const std::vector<const OpenedShot*>& shots, std::size_t channel,
-                  const DistanceKnots& knots, const Eigen::VectorXd& r, DenseSystem& system);
+void add_numerics(const DistanceKnots& knots, const Eigen::VectorXd& r, DenseSystem& system);
 
 }  // namespace scattermeter::apps

@@ -20,7 +20,8 @@ void estimate_paper(Estimation& e) {
         },
         weights);
     for_open_tasks(fmt::format("width {:.2f} mm", widths[w]), e, [&](std::size_t i) {
-      const DenseSystem system = system_of(e.rig, e.tasks[i], weights);
+      const DenseSystem system =
+          system_of(e.rig, e.tasks[i], rows_of(e.rig, e.tasks[i]), weights, 0.0);
       if (system.l.size() > 0) {
         answers[i].push_back(solve_paper(system, widths[w], e.tasks[i].eta));
       }
@@ -28,6 +29,7 @@ void estimate_paper(Estimation& e) {
   }
   for (std::size_t i = 0; i < e.tasks.size(); ++i) {
     if (e.results[i].refused()) continue;
+    report_rows(e.tasks[i], rows_of(e.rig, e.tasks[i]), e.results[i]);
     if (answers[i].empty()) {
       e.results[i].estimate.reasons.push_back("no patch can be used");
     } else {

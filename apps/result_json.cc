@@ -27,6 +27,64 @@ Json quantity(const Quantity& q, bool known) {
           {"interval95", {number(q.low95), number(q.high95)}}};
 }
 
+Json budget_json(const Estimate& e) {
+  Json list = Json::array();
+  for (const BudgetLine& line : e.budget) {
+    list.push_back({{"cause", line.cause},
+                    {"sigma_s_prime_per_mm", number(line.std_sigma_s_prime_per_mm)},
+                    {"sigma_a_per_mm", number(line.std_sigma_a_per_mm)}});
+  }
+  return list;
+}
+
+// Patches that took no part, summed over the shots, by reason.
+Json left_out_json(const ChannelResult& r) {
+  const auto count = [&](RowState s) { return r.patches_by_state[static_cast<std::size_t>(s)]; };
+  return {{"silhouette_or_crease", r.patches_partly_seen},
+          {"no_sample_of_this_colour", count(RowState::kNoSamples)},
+          {"clipped", count(RowState::kClipped)},
+          {"cut_at_zero", count(RowState::kFloor)},
+          {"mirrors_a_light", count(RowState::kMirror)},
+          {"deep_in_noise", count(RowState::kNoise)},
+          {"outlier", count(RowState::kOutlier)}};
+}
+
+// Each shot alone, and whether they agree.
+Json singles_json(const ChannelResult& r) {
+  Json j;
+  j["chi2"] = number(r.agreement.chi2);
+  j["degrees_of_freedom"] = r.agreement.dof;
+  j["p_value"] = number(r.agreement.p_value);
+  j["shots"] = Json::array();
+  for (const ShotResult& s : r.singles) {
+    const Estimate& e = s.estimate;
+    j["shots"].push_back({{"shot", s.file},
+                          {"sigma_s_prime_per_mm", quantity(e.sigma_s_prime_per_mm, e.converged)},
+                          {"sigma_a_per_mm", quantity(e.sigma_a_per_mm, e.converged)},
+                          {"verdict", e.reasons.empty() ? "ok" : "refused"},
+                          {"reasons", e.reasons}});
+  }
+  return j;
+}
+
+// r(d) as the image shows it without the dipole, at the distances that the image determines.
+Json reflectance_json(const ChannelResult& r) {
+  Json j;
+  j["reasons"] = r.recovered->reasons;
+  j["dipole_p_value"] = r.misfit ? number(r.misfit->p_value) : Json(nullptr);
+  j["departure_from_dipole_log"] = r.misfit ? number(r.misfit->log_departure) : Json(nullptr);
+  j["knots"] = Json::array();
+  for (const ReflectanceKnot& k : r.recovered->knots) {
+    j["knots"].push_back(
+        {{"distance_mm", number(k.distance_mm)},
+         {"r_per_mm2", number(k.r_per_mm2)},
+         {"interval95_per_mm2", {number(k.low95_per_mm2), number(k.high95_per_mm2)}},
+         {"resolution_mm", number(k.spread_mm)},
+         {"determined", k.determined}});
+  }
+  return j;
+}
+
 Json channel_json(const ChannelResult& r, Model model) {
   const Estimate& e = r.estimate;
   const bool known = e.converged;
@@ -39,19 +97,19 @@ Json channel_json(const ChannelResult& r, Model model) {
   j["sigma_a_per_mm"] = quantity(e.sigma_a_per_mm, known);
   j["correlation"] = known ? number(e.correlation) : Json(nullptr);
   j["scale"] = quantity(e.scale, known);
-  j["budget"] = Json::array();
-  for (const BudgetLine& line : e.budget) {
-    j["budget"].push_back({{"cause", line.cause},
-                           {"sigma_s_prime_per_mm", number(line.std_sigma_s_prime_per_mm)},
-                           {"sigma_a_per_mm", number(line.std_sigma_a_per_mm)}});
-  }
+  j["budget"] = budget_json(e);
   j["verdict"] = r.refused() ? "refused" : "ok";
   j["reasons"] = e.reasons;
   j["residual"] = {{"rms_relative", known ? number(e.rms_relative) : Json(nullptr)},
                    {"reduced_chi2", known ? number(e.reduced_chi2) : Json(nullptr)},
-                   {"psnr_db", known ? number(e.psnr_db) : Json(nullptr)}};
+                   {"psnr_db", known ? number(e.psnr_db) : Json(nullptr)},
+                   {"misfit_relative", known ? number(e.misfit_relative) : Json(nullptr)},
+                   {"misfit_p_value", known ? number(e.misfit_p_value) : Json(nullptr)}};
   j["patches"] = e.rows;
+  j["patches_left_out"] = left_out_json(r);
   j["shots"] = r.shots;
+  if (!r.singles.empty()) j["agreement"] = singles_json(r);
+  if (r.recovered) j["reflectance"] = reflectance_json(r);
   return j;
 }
 

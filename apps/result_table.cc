@@ -1,7 +1,9 @@
 #include "apps/result_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -18,6 +20,43 @@ std::string with_deviation(const Quantity& q, bool known) {
     decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(q.std))), 0, 8);
   }
   return fmt::format("{:.{}f} ± {:.{}f}", q.value, decimals, q.std, decimals);
+}
+
+// "3 clipped, 12 mirror a light": what kept patches out, summed over shots and channels.
+std::string left_out(const Measurement& m) {
+  std::array<std::size_t, kRowStates> sum{};
+  std::size_t partly = 0;
+  for (const ChannelResult& r : m.results) {
+    for (std::size_t s = 0; s < kRowStates; ++s) sum[s] += r.patches_by_state[s];
+    partly += r.patches_partly_seen;
+  }
+  std::string out = fmt::format("patches: {} in use, {} at silhouettes or creases left out",
+                                sum[static_cast<std::size_t>(RowState::kUsed)], partly);
+  for (const auto& [state, text] :
+       {std::pair{RowState::kNoSamples, "without a sample of the colour"},
+        std::pair{RowState::kClipped, "clipped"}, std::pair{RowState::kFloor, "cut at zero"},
+        std::pair{RowState::kMirror, "mirror a light"},
+        std::pair{RowState::kNoise, "deep in noise"}, std::pair{RowState::kOutlier, "outliers"}}) {
+    const std::size_t n = sum[static_cast<std::size_t>(state)];
+    if (n > 0) out += fmt::format(", {} {}", n, text);
+  }
+  return out + " (all shots and channels)\n";
+}
+
+// Materials whose shots do not tell the same.
+std::string agreement(const Measurement& m) {
+  constexpr double kByChance = 1e-3;
+  std::string out;
+  std::size_t compared = 0;
+  for (const ChannelResult& r : m.results) {
+    if (r.agreement.dof == 0) continue;
+    ++compared;
+    if (r.agreement.p_value > kByChance) continue;
+    out += fmt::format("note: {} {}: the shots do not agree (p = {:.1g}); uncertainties widened\n",
+                       r.material, r.channel, r.agreement.p_value);
+  }
+  if (compared > 0 && out.empty()) out = "each shot alone agrees with the joint answer\n";
+  return out;
 }
 
 }  // namespace
@@ -42,7 +81,7 @@ std::string result_table(const Measurement& m) {
          known ? fmt::format("{:.2f}", e.reduced_chi2) : "-", r.refused() ? "refused" : "ok"});
     last = r.material;
   }
-  std::string out = table.text();
+  std::string out = table.text() + left_out(m) + agreement(m);
   for (const ChannelResult& r : m.results) {
     for (const std::string& reason : r.estimate.reasons) {
       out += fmt::format("refused: {} {}: {}\n", r.material, r.channel, reason);

@@ -30,7 +30,8 @@ std::shared_ptr<const SeenObject> see(const Rig& rig, const ObjectScenes& scenes
   seen->map = map_samples(rays, *seen->object->rays, *seen->patches,
                           seen->object->rig->eta_int_over_ext, options);
   for (std::size_t row = 0; row < seen->map.patch_of_row.size(); ++row) {
-    seen->sites.push_back(exit_samples(seen->map.mean_mm[row], seen->map.spread_mm2[row]));
+    seen->sites.push_back(exit_samples(*seen->patches, seen->map.patch_of_row[row],
+                                       seen->map.mean_mm[row], seen->map.spread_mm2[row]));
   }
   return seen;
 }
@@ -44,7 +45,7 @@ ObjectLibrary::ObjectLibrary(const Rig& rig, const ObjectScenes& scenes,
     // Fewer than about six samples across a patch, and its mean says where they fell, not what it
     // is.
     const double samples_mm = 8.0 * distance_to_camera_mm / rig.camera.intrinsics.fx_px;
-    const double chosen_mm = std::max(scene.size_mm() / 40.0, samples_mm);
+    const double chosen_mm = std::max(scene.size_mm() / 50.0, samples_mm);
     const double size_mm = patch_size_mm.value_or(scene.rig->patch_size_mm.value_or(chosen_mm));
     try {
       patches_[name] = std::make_unique<PatchMesh>(scene.mesh(), size_mm);

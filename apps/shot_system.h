@@ -46,7 +46,7 @@ struct OpenedShot {
 // Patches and light of the rig's objects, shared by the shots.
 class ObjectLibrary {
  public:
-  // patch_size_mm: for every object; else the rig's; else object size / 40, but at least six
+  // patch_size_mm: for every object; else the rig's; else object size / 50, but at least six
   // samples.
   ObjectLibrary(const Rig& rig, const ObjectScenes& scenes, std::optional<double> patch_size_mm,
                 double distance_to_camera_mm);

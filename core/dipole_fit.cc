@@ -146,7 +146,8 @@ DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
     estimate.reasons.push_back("the image or its prediction holds values that are not finite");
     return fit;
   }
-  const RecoveredReflectance recovered = recover_reflectance(system);
+  fit.recovered = recover_reflectance(system);
+  const RecoveredReflectance& recovered = fit.recovered;
   if (recovered.whitened.size() < 3) {
     estimate.reasons.push_back("no light reaches the object in these shots");
     return fit;

@@ -7,6 +7,7 @@
 #include "core/distance_weights.h"
 #include "core/estimate.h"
 #include "core/linear_shot.h"
+#include "core/recovered_reflectance.h"
 
 namespace scattermeter {
 
@@ -33,6 +34,7 @@ struct DipoleFit {
   Estimate estimate;
   DipoleSolver::Point optimum;
   Eigen::VectorXd predicted;  // l on the system's rows at the optimum; empty where there is none
+  RecoveredReflectance recovered;
 };
 
 // The dipole of least chi-square on the image (DipoleSolver). Standard deviations from the Jacobian

@@ -22,6 +22,11 @@ constexpr double kHalfShadowError = 1e-3;
 // A disc's points of a patch are drawn towards its centre by this share, away from folds.
 constexpr double kDrawn = 0.002;
 
+// The light of a small source is convex over a patch, so a linear density holds too much of it.
+// Corners (1/12 each) and centre (3/4) give the power exactly to second order; the factor that
+// scales the density of these corners to that. `sum`: of the irradiance at the corners, > 0.
+double power_share(double center, double sum) { return 0.25 + 2.25 * center / sum; }
+
 struct PatchLight {
   std::vector<LitTriangle> lit;
   bool on_shadow_edge = false;
@@ -94,6 +99,11 @@ class Illuminator {
     if (most == 0.0) return out;
     std::vector<LitTriangleRgb> lit;
     if (least == 1.0) {
+      double sum = 0.0;
+      for (const Eigen::Array3d& e : patch.irradiance) sum += e[0];
+      for (Eigen::Array3d& e : patch.irradiance) {
+        e *= power_share(disc_->open_per_mm2(center, n), sum);
+      }
       lit.push_back(patch);
     } else {
       out.on_shadow_edge = true;
@@ -128,11 +138,8 @@ class Illuminator {
       sum += lit.irradiance_sr_per_mm2[i];
     }
     if (!(sum > 0.0)) return;
-    // The light of a small source is convex over a patch, so a linear density holds too much of it.
-    // Corners (1/12 each) and centre (3/4) give the power exactly to second order; the density is
-    // scaled to that.
     const double center = led_.transmitted_irradiance_per_mm2((t[0] + t[1] + t[2]) / 3.0, n, eta_);
-    const double scaled = share * (0.25 + 2.25 * center / sum);
+    const double scaled = share * power_share(center, sum);
     for (double& e : lit.irradiance_sr_per_mm2) e *= scaled;
     out.lit.push_back(lit);
   }

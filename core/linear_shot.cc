@@ -5,7 +5,7 @@
 
 namespace scattermeter {
 
-DenseSystem stack(const std::vector<LinearShot>& shots, double numerical_relative_std) {
+DenseSystem stack(const std::vector<LinearShot>& shots) {
   Eigen::Index rows = 0;
   Eigen::Index cols = 0;
   for (const LinearShot& shot : shots) {
@@ -30,7 +30,7 @@ DenseSystem stack(const std::vector<LinearShot>& shots, double numerical_relativ
             light.intensity_W_per_sr * light.weights->row(static_cast<Eigen::Index>(j));
       }
       out.l[at] = o.l[j];
-      out.std_l[at] = std::hypot(std::sqrt(o.variance[j]), numerical_relative_std * o.l[j]);
+      out.std_l[at] = std::hypot(std::sqrt(o.variance[j]), shot.numerical_relative_std * o.l[j]);
       ++at;
     }
   }

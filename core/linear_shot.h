@@ -17,6 +17,8 @@ struct LinearShot {
   };
   std::vector<Light> lights;
   const ChannelObservation* observed;
+  // Error of the prediction itself (discretisation), relative to l; joins the variance of each row.
+  double numerical_relative_std = 0;
 };
 
 // A quantity beside the material that the image depends on and that is known only to a standard
@@ -45,8 +47,6 @@ struct DenseSystem {
 DenseSystem shot_of(const DenseSystem& system, std::size_t shot);
 
 // All used rows of the shots, one below the other. Precondition: all shots share their knots.
-// `numerical_relative_std`: error of the prediction itself (discretisation), relative to l; joins
-// the variance of each row.
-DenseSystem stack(const std::vector<LinearShot>& shots, double numerical_relative_std = 0.0);
+DenseSystem stack(const std::vector<LinearShot>& shots);
 
 }  // namespace scattermeter

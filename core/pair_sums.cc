@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -13,6 +12,16 @@ namespace {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
 using Density = std::array<double, 3>;
+
+// Cowper's six-point rule of degree 4 for triangles: two orbits of points with barycentric weights
+// (a, b, b) and its turns.
+struct Orbit {
+  double a;
+  double weight;
+  double b() const { return 0.5 * (1.0 - a); }
+};
+constexpr std::array<Orbit, 2> kCowper = {
+    {{0.108103018168070, 0.223381589678011}, {0.816847572980459, 0.109951743655322}}};
 
 double longest_edge_mm(const Triangle& t) {
   return std::sqrt(std::max(
@@ -31,15 +40,13 @@ class NearIntegral {
     const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
     const double distance = (center - p_).norm();
     if (edge <= options_.floor_mm || edge * options_.near_ratio <= distance) {
-      // Cowper's six-point rule of degree 4: two orbits (a, b, b) of barycentric weights.
-      for (const auto& [a, weight] : {std::pair{0.108103018168070, 0.223381589678011},
-                                      std::pair{0.816847572980459, 0.109951743655322}}) {
-        const double b = 0.5 * (1.0 - a);
+      for (const Orbit& orbit : kCowper) {
+        const double b = orbit.b();
         for (int i = 0; i < 3; ++i) {
-          const Eigen::Vector3d q = 3.0 * b * center + (a - b) * t[i];
-          const double density = b * (e[0] + e[1] + e[2]) + (a - b) * e[i];
+          const Eigen::Vector3d q = center + (orbit.a - b) * (t[i] - center);
+          const double density = b * (e[0] + e[1] + e[2]) + (orbit.a - b) * e[i];
           bins_.add(static_cast<float>((q - p_).squaredNorm()),
-                    static_cast<float>(weight_ * density * area * weight), sums_);
+                    static_cast<float>(weight_ * density * area * orbit.weight), sums_);
         }
       }
       return;
@@ -62,33 +69,55 @@ class NearIntegral {
 
 }  // namespace
 
-ExitSite exit_samples(const Eigen::Vector3d& mean_mm, const Eigen::Matrix3d& covariance_mm2) {
-  // Along the two larger eigenvectors, one deviation to either side: (+ +), (+ -), (- +), (- -).
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance_mm2);
-  const Eigen::Vector3d a =
-      std::sqrt(std::max(0.0, eigen.eigenvalues()[2])) * eigen.eigenvectors().col(2);
-  const Eigen::Vector3d b =
-      std::sqrt(std::max(0.0, eigen.eigenvalues()[1])) * eigen.eigenvectors().col(1);
-  return {mean_mm,
-          a * a.transpose() + b * b.transpose(),
-          {mean_mm + a + b, mean_mm + a - b, mean_mm - a + b, mean_mm - a - b}};
-}
-
 ExitSite exit_patch(const PatchMesh& patches, int patch_idx) {
   const Triangle t = patches.corners_mm(patch_idx);
-  const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
-  // A triangle's covariance is a twelfth of its corners' scatter about the centre.
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& p : t) {
-    covariance += (p - center) * (p - center).transpose() / 12.0;
+  ExitSite site;
+  site.center_mm = (t[0] + t[1] + t[2]) / 3.0;
+  site.n_points = 6;
+  std::size_t at = 0;
+  for (const Orbit& orbit : kCowper) {
+    for (const Eigen::Vector3d& corner : t) {
+      site.points_mm[at] = site.center_mm + (orbit.a - orbit.b()) * (corner - site.center_mm);
+      site.weights[at++] = orbit.weight;
+    }
   }
-  return exit_samples(center, covariance);
+  // A triangle's covariance is a twelfth of its corners' scatter about the centre.
+  for (const Eigen::Vector3d& p : t) {
+    site.covariance_mm2 += (p - site.center_mm) * (p - site.center_mm).transpose() / 12.0;
+  }
+  return site;
+}
+
+ExitSite exit_samples(const PatchMesh& patches, int patch_idx, const Eigen::Vector3d& mean_mm,
+                      const Eigen::Matrix3d& covariance_mm2) {
+  ExitSite site = exit_patch(patches, patch_idx);
+  // In the patch's plane, two axes along its edges.
+  const Triangle t = patches.corners_mm(patch_idx);
+  Eigen::Matrix<double, 3, 2> plane;
+  plane.col(0) = (t[1] - t[0]).normalized();
+  plane.col(1) = patches.normal(patch_idx).cross(plane.col(0));
+  const Eigen::Matrix2d from = plane.transpose() * site.covariance_mm2 * plane;
+  const Eigen::Matrix2d to = plane.transpose() * covariance_mm2 * plane;
+  if (!(to.determinant() > 1e-6 * to.trace() * to.trace())) return exit_point(mean_mm);
+  // The symmetric map that carries one covariance to the other (of all maps the one that moves
+  // points least): from^-1/2 (from^1/2 to from^1/2)^1/2 from^-1/2.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> root(from);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> inner(root.operatorSqrt() * to *
+                                                             root.operatorSqrt());
+  const Eigen::Matrix2d map =
+      root.operatorInverseSqrt() * inner.operatorSqrt() * root.operatorInverseSqrt();
+  for (Eigen::Vector3d& p : site.points_mm) {
+    p = mean_mm + plane * (map * (plane.transpose() * (p - site.center_mm)));
+  }
+  site.center_mm = mean_mm;
+  site.covariance_mm2 = plane * to * plane.transpose();
+  return site;
 }
 
 ExitSite moved(const ExitSite& site, const Eigen::Vector3d& by_mm) {
   ExitSite out = site;
   out.center_mm += by_mm;
-  for (Eigen::Vector3d& p : out.points_mm) p += by_mm;
+  for (int i = 0; i < out.n_points; ++i) out.points_mm[static_cast<std::size_t>(i)] += by_mm;
   return out;
 }
 
@@ -206,8 +235,7 @@ struct SourceCloud::Sum {
   double* sums;
   float x, y, z, radius, far_ratio;
   float xx, xy, xz, yy, yz, zz;  // the site's covariance
-  int n_points;
-  std::array<Eigen::Vector3d, 4> points;
+  ExitSite near;                 // relative to the cloud's origin
 
   void visit(std::int32_t at) {
     const Node& node = cloud.nodes_[static_cast<std::size_t>(at)];
@@ -259,8 +287,8 @@ struct SourceCloud::Sum {
     const double area_mm2 =
         0.5 * (t.corners_mm[1] - t.corners_mm[0]).cross(t.corners_mm[2] - t.corners_mm[0]).norm();
     const double edge = longest_edge_mm(t.corners_mm);
-    for (int i = 0; i < n_points; ++i) {
-      NearIntegral<Bins>(points[static_cast<std::size_t>(i)], 1.0 / n_points, bins, options, sums)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(near.n_points); ++i) {
+      NearIntegral<Bins>(near.points_mm[i], near.weights[i], bins, options, sums)
           .add(t.corners_mm, t.irradiance_sr_per_mm2, area_mm2, edge);
     }
   }
@@ -287,9 +315,7 @@ void SourceCloud::add_to(const ExitSite& site, const Bins& bins, const PairSumOp
                 s(1, 1),
                 s(1, 2),
                 s(2, 2),
-                site.is_point() ? 1 : 4,
-                site.points_mm};
-  for (Eigen::Vector3d& p : sum.points) p -= origin_mm_;
+                moved(site, -origin_mm_)};
   sum.visit(0);
 }
 

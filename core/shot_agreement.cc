@@ -96,4 +96,18 @@ ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& kno
   return out;
 }
 
+void widen_by_disagreement(const ShotAgreement& agreement, Estimate& estimate) {
+  constexpr double kByChance = 1e-3;
+  if (agreement.dof == 0 || agreement.p_value > kByChance) return;
+  const double birge = std::sqrt(std::max(1.0, agreement.chi2 / agreement.dof));
+  const double added = std::sqrt(birge * birge - 1.0);
+  estimate.budget.push_back({"disagreement", added * estimate.sigma_s_prime_per_mm.std,
+                             added * estimate.sigma_a_per_mm.std});
+  for (Quantity* q : {&estimate.sigma_s_prime_per_mm, &estimate.sigma_a_per_mm}) {
+    q->std *= birge;
+    q->low95 = std::max(0.0, q->value - birge * (q->value - q->low95));
+    q->high95 = q->value + birge * (q->high95 - q->value);
+  }
+}
+
 }  // namespace scattermeter

@@ -22,4 +22,9 @@ ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& kno
                              const DipoleSolver::Point& joint, double eta_int_over_ext,
                              const ScalePrior& scale, double noise_inflation);
 
+// Widens deviations and intervals by sqrt(chi2 / dof) (Birge's ratio) where shots disagree that
+// would do so less often than once in 1000 by chance; a line "disagreement" in the budget says how
+// much that adds.
+void widen_by_disagreement(const ShotAgreement& agreement, Estimate& estimate);
+
 }  // namespace scattermeter

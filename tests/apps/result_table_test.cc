@@ -16,13 +16,18 @@ using ::testing::HasSubstr;
 
 Measurement two_channels() {
   Measurement m;
-  ChannelResult good{"POM", 'R', 1.48, {}, {"a.dng"}};
+  ChannelResult good;
+  good.material = "POM";
+  good.channel = 'R';
+  good.eta_int_over_ext = 1.48;
+  good.shots = {"a.dng"};
+  ChannelResult bad = good;
+  bad.channel = 'G';
   good.estimate.converged = true;
   good.estimate.sigma_s_prime_per_mm = {2.1934, 0.0123, 2.17, 2.22};
   good.estimate.sigma_a_per_mm = {0.002013, 0.000045, 0.0019, 0.0021};
   good.estimate.rms_relative = 0.0123;
   good.estimate.psnr_db = std::numeric_limits<double>::infinity();
-  ChannelResult bad{"POM", 'G', 1.48, {}, {"a.dng"}};
   bad.estimate.reasons = {"a.dng: channel G is dark"};
   m.results = {good, bad};
   m.timing_s = {{"total", 1.5}};

@@ -32,7 +32,7 @@ TEST(LinearShot, StacksUsedRowsOnly) {
   EXPECT_EQ(s.weights(2, 0), 21.0);
   EXPECT_EQ(s.l, Eigen::Vector3d(1, 3, 5));
   EXPECT_EQ(s.std_l, Eigen::Vector3d(2, 3, 4));
-  EXPECT_DOUBLE_EQ(stack({{{{&c, 3.0}}, &two}}, 0.6).std_l[0], 5.0);  // hypot(4, 0.6 * 5)
+  EXPECT_DOUBLE_EQ(stack({{{{&c, 3.0}}, &two, 0.6}}).std_l[0], 5.0);  // hypot(4, 0.6 * 5)
   WeightMatrix other(1, 3);
   EXPECT_THROW(stack({{{{&a, 1.0}}, &one}, {{{&other, 1.0}}, &two}}), std::invalid_argument);
 }
