@@ -35,7 +35,7 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
     for (const OpenedShot* shot : e.tasks[i].shots) {
       for (const std::string& light : shot->rig->lights) {
         const LightKey key{shot->seen.get(), light,
-                           e.rig.light(light).environment ? e.tasks[i].channel : 0};
+                           e.rig.light(light).colours_differ() ? e.tasks[i].channel : 0};
         const auto [it, is_new] =
             column[i].try_emplace(key, static_cast<Eigen::Index>(media[key].size()));
         if (is_new) {
@@ -69,7 +69,17 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
 struct Work {
   TaskRows rows;
   bool estimated = false;  // a first estimate is there
+  bool settled = false;    // another round would not change it
 };
+
+bool settled(const Estimate& before, const Estimate& after) {
+  constexpr double kOfStd = 0.02;
+  const auto close = [](const Quantity& a, const Quantity& b) {
+    return std::abs(a.value - b.value) <= kOfStd * b.std;
+  };
+  return close(before.sigma_s_prime_per_mm, after.sigma_s_prime_per_mm) &&
+         close(before.sigma_a_per_mm, after.sigma_a_per_mm);
+}
 
 class DipoleEstimator {
  public:
@@ -81,9 +91,9 @@ class DipoleEstimator {
                                                         : std::numeric_limits<double>::infinity();
   }
 
-  // Thrice: without nuisances, to know the material that rows are weighed for and that the image's
-  // dependence on the nuisances is computed for; with them; and once more where that shows rows
-  // that are outliers.
+  // Without nuisances, to know the material that rows are weighed for and that the image's
+  // dependence on the nuisances is computed for; then with them, and once more where that shows
+  // rows that are outliers.
   void run() {
     const PairSumOptions pairs = pair_options(knots_);
     add_weights(
@@ -95,14 +105,28 @@ class DipoleEstimator {
     e_.watch.lap("light");
     for_open_tasks("fitting", e_, [&](std::size_t i) { first_fit(i); });
     e_.watch.lap("first fit");
-    std::vector<bool> estimated;
-    for (const Work& w : work_) estimated.push_back(w.estimated);
-    sensitivities_ = sensitivities(e_, estimated, knots_);
-    e_.watch.lap("sensitivities");
-    tbb::parallel_for(std::size_t{0}, e_.tasks.size(), [&](std::size_t i) {
-      if (work_[i].estimated) final_fit(i);
-    });
-    e_.watch.lap("fit");
+    std::vector<bool> open;
+    for (const Work& w : work_) open.push_back(w.estimated);
+    // What ambient light adds depends on the material itself: those tasks go round again until they
+    // settle (an error falls to a sixth each time).
+    constexpr int kRounds = 8;
+    for (int round = 0; round < kRounds; ++round) {
+      sensitivities_ = sensitivities(e_, open, knots_);
+      e_.watch.lap("sensitivities");
+      tbb::parallel_for(std::size_t{0}, e_.tasks.size(), [&](std::size_t i) {
+        if (!open[i]) return;
+        const Estimate before = e_.results[i].estimate;
+        final_fit(i);
+        work_[i].settled = !has_ambient(e_.tasks[i]) || settled(before, e_.results[i].estimate);
+      });
+      e_.watch.lap("fit");
+      bool again = false;
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        open[i] = open[i] && !work_[i].settled && e_.results[i].estimate.converged;
+        again = again || open[i];
+      }
+      if (!again) break;
+    }
   }
 
  private:
@@ -116,8 +140,9 @@ class DipoleEstimator {
     Work& work = work_[i];
     const Task& task = e_.tasks[i];
     work.rows = rows_of(e_.rig, task);
-    const DipoleFit fit =
-        fit_dipole(system_of(e_.rig, task, work.rows, e_.weights, 0.0), knots_, options_of(task));
+    DenseSystem system = system_of(e_.rig, task, work.rows, e_.weights, 0.0);
+    add_offsets(task, system);
+    const DipoleFit fit = fit_dipole(system, knots_, options_of(task));
     e_.results[i].estimate = fit.estimate;
     report_rows(task, work.rows, e_.results[i]);
     work.estimated = fit.estimate.converged;
@@ -128,6 +153,35 @@ class DipoleEstimator {
       expect(o, fit.predicted.segment(at, n));
       at += n;
     }
+  }
+
+  bool has_ambient(const Task& task) const {
+    for (const OpenedShot* shot : task.shots) {
+      for (const std::string& name : shot->rig->lights) {
+        if (e_.rig.light(name).is_ambient) return true;
+      }
+    }
+    return false;
+  }
+
+  // While the material is not known, ambient light stands as a free constant in the shots that it
+  // falls into: on a body without hollows it is nearly that.
+  void add_offsets(const Task& task, DenseSystem& system) const {
+    Eigen::VectorXd offset = Eigen::VectorXd::Zero(system.l.size());
+    Eigen::Index at = 0;
+    for (std::size_t s = 0; s < task.shots.size(); ++s) {
+      const Eigen::Index rows = system.shot_rows[s];
+      for (const std::string& name : task.shots[s]->rig->lights) {
+        const RigLight& light = e_.rig.light(name);
+        if (light.ambient_std_W_per_mm2_sr[static_cast<Eigen::Index>(task.channel)] > 0.0) {
+          offset.segment(at, rows).setConstant(system.l.mean());
+        }
+      }
+      at += rows;
+    }
+    if (offset.isZero(0.0)) return;
+    system.nuisances.push_back({"ambient", std::numeric_limits<double>::infinity(), true});
+    system.nuisance_columns = offset;
   }
 
   // The system with all that the rig knows only to a standard deviation, and with the errors of the
@@ -186,6 +240,7 @@ class DipoleEstimator {
                       {fit.optimum.sigma_s_prime_per_mm(), fit.optimum.sigma_a_per_mm(), task.eta},
                       std::exp(fit.optimum.log_s), misfit);
     if (task.shots.size() < 2) return;
+    result.singles.clear();
     for (std::size_t s = 0; s < task.shots.size(); ++s) {
       result.singles.push_back(
           {task.shots[s]->rig->file, fit_dipole(shot_of(system, s), knots_, options).estimate});

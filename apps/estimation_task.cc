@@ -122,7 +122,7 @@ DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,
           std::max(kLeastNumericalStd, kNumericalStd * std::min(ratio * ratio, 16.0));
     }
     for (const std::string& light : shot->rig->lights) {
-      const std::size_t own = rig.light(light).environment ? task.channel : 0;
+      const std::size_t own = rig.light(light).colours_differ() ? task.channel : 0;
       linear.lights.push_back({&weights.at({shot->seen.get(), light, own}),
                                rig.light(light).power()[static_cast<Eigen::Index>(task.channel)]});
     }

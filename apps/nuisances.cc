@@ -60,6 +60,14 @@ ChangedWeights changed_weights(const SeenObject& seen, const RigLight& rig_light
     return smooth_weights(sites, sources, knots, pairs);
   };
   ChangedWeights out;
+  if (rig_light.is_ambient) {
+    // What else is uncertain matters little to a small even light.
+    out.nominal = smooth_weights(
+        seen.sites,
+        SourceCloud(library.light(object.rig->name, rig_light.name, 0), object.box.center_mm()),
+        knots, pairs);
+    return out;
+  }
   out.nominal = weights(seen.sites, led, eta);
   // A hundredth of the distance: shadow edges then move by several of the parts that patches are
   // cut into, and the next order is still a hundredth of the first.
@@ -195,8 +203,14 @@ Entries row_entries(const RowContext& c, std::size_t channel,
   for (const std::string& name : c.shot.rig->lights) {
     const RigLight& light = c.rig.light(name);
     const TaskSensitivity& task =
-        sensitivities.at({c.shot.seen.get(), name, light.environment ? channel : 0});
+        sensitivities.at({c.shot.seen.get(), name, light.colours_differ() ? channel : 0});
     const double intensity = light.power()[static_cast<Eigen::Index>(channel)];
+    const double ambient_std = light.ambient_std_W_per_mm2_sr[static_cast<Eigen::Index>(channel)];
+    if (ambient_std > 0.0) {
+      entries.emplace_back(columns.at(light.name + ".ambient", "ambient", ambient_std),
+                           task.sensitivity->l(static_cast<Eigen::Index>(c.row), task.medium));
+    }
+    if (light.is_ambient) continue;
     add_light(c, light, intensity, task, columns, entries);
     add_pose(c, intensity, task, columns, entries);
     if (eta_std > 0.0) {

@@ -67,16 +67,21 @@ struct RigEnvironment {
   Eigen::Array3d radiance_W_per_mm2_sr = Eigen::Array3d::Ones();  // of a probe value of 1
 };
 
-// An LED, or an environment where one is given.
+// An LED, or an environment where one is given. Ambient light is an even environment without a
+// picture, of a radiance that is fitted along within its prior.
 struct RigLight {
   std::string name;
   Led led;
   std::optional<RigEnvironment> environment;
   double position_std_mm = 0;  // in each coordinate
   double exponent_std = 0;
+  bool is_ambient = false;
+  Eigen::Array3d ambient_std_W_per_mm2_sr = Eigen::Array3d::Zero();  // infinite: free
   double power_relative_std = 0;  // common to the three channels of one fit
   int line = 0;
 
+  // Whether each colour falls on the object in its own way.
+  bool colours_differ() const { return environment && !is_ambient; }
   // What the light's IncidentLight counts in: an LED's intensity on its axis, W/sr, or the radiance
   // of a probe value of 1, W/(mm^2 sr).
   const Eigen::Array3d& power() const {

@@ -6,6 +6,18 @@
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
+namespace {
+
+// Radiance 1 from everywhere.
+Environment even_environment() {
+  Environment even;
+  even.width_px = 4;
+  even.height_px = 2;
+  even.radiance.assign(std::size_t{3} * 4 * 2, 1.0F);
+  return even;
+}
+
+}  // namespace
 
 RigProbes open_probes(const Rig& rig) {
   RigProbes probes;
@@ -13,6 +25,10 @@ RigProbes open_probes(const Rig& rig) {
     for (const std::string& name : shot.lights) {
       const RigLight& light = rig.light(name);
       if (!light.environment || probes.contains(name)) continue;
+      if (light.is_ambient) {
+        probes.try_emplace(name, even_environment());
+        continue;
+      }
       try {
         capture::ProbeImage image = capture::read_probe(light.environment->image_path);
         Environment environment;

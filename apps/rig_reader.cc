@@ -1,45 +1,14 @@
 #include <cmath>
-#include <filesystem>
 #include <set>
 
 #include "apps/rig.h"
+#include "apps/rig_fields.h"
+#include "apps/rig_light_reader.h"
 #include "apps/yaml_field.h"
-#include "core/environment.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
 namespace {
-
-std::string beside(const std::string& rig_path, const std::string& file) {
-  const std::filesystem::path p(file);
-  return p.is_absolute() ? file : (std::filesystem::path(rig_path).parent_path() / p).string();
-}
-
-std::array<double, 3> positive_rgb(const YamlField& field) {
-  std::array<double, 3> out{};
-  const std::vector<double> v = field.numbers(3);
-  for (std::size_t c = 0; c < 3; ++c) {
-    if (!(v[c] > 0.0)) field.fail("expected three positive numbers (R, G, B)");
-    out[c] = v[c];
-  }
-  return out;
-}
-
-std::array<double, 3> rgb_not_negative(const YamlField& field) {
-  std::array<double, 3> out{};
-  const std::vector<double> v = field.numbers(3);
-  for (std::size_t c = 0; c < 3; ++c) {
-    if (!(v[c] >= 0.0)) field.fail("expected three numbers of at least 0 (R, G, B)");
-    out[c] = v[c];
-  }
-  return out;
-}
-
-Eigen::Vector3d unit_vector(const YamlField& field) {
-  const Eigen::Vector3d v = field.vector3();
-  if (!(v.norm() > 0.0)) field.fail("expected a direction other than zero");
-  return v.normalized();
-}
 
 calib::CameraIntrinsics read_intrinsics_field(const YamlField& field, const std::string& rig_path) {
   if (field.is_scalar()) return calib::read_intrinsics(beside(rig_path, field.text()));
@@ -185,77 +154,6 @@ RigObject read_object(const std::string& name, const YamlField& field,
   if (const auto f = field.find("eta_std")) object.eta_std = f->number(0.0, 1.0);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   return object;
-}
-
-// Three numbers of at least 0, one of them above.
-Eigen::Array3d some_light(const YamlField& field) {
-  const std::array<double, 3> rgb = rgb_not_negative(field);
-  if (!(rgb[0] + rgb[1] + rgb[2] > 0.0)) field.fail("expected light in at least one channel");
-  return {rgb[0], rgb[1], rgb[2]};
-}
-
-void read_led(const YamlField& field, RigLight& light) {
-  field.only({"type", "position_mm", "axis", "exponent", "radius_mm", "intensity_W_per_sr",
-              "position_std_mm", "exponent_std", "intensity_relative_std"});
-  light.led.position_mm = field.at("position_mm").vector3();
-  light.led.axis = unit_vector(field.at("axis"));
-  if (const auto f = field.find("exponent")) light.led.exponent = f->number(0.0, 1000.0);
-  if (const auto f = field.find("radius_mm")) light.led.radius_mm = f->number(0.0, 1000.0);
-  light.led.intensity_W_per_sr = some_light(field.at("intensity_W_per_sr"));
-  if (const auto f = field.find("position_std_mm")) {
-    light.position_std_mm = f->number(0.0, 1000.0);
-  }
-  if (const auto f = field.find("exponent_std")) light.exponent_std = f->number(0.0, 1000.0);
-  if (const auto f = field.find("intensity_relative_std")) {
-    light.power_relative_std = f->number(0.0, 10.0);
-  }
-}
-
-RigEnvironment read_environment(const YamlField& field, const std::string& rig_path,
-                                RigLight& light) {
-  field.only({"type", "image", "projection", "forward", "up", "radiance_W_per_mm2_sr",
-              "radiance_relative_std"});
-  RigEnvironment environment;
-  environment.image_path = beside(rig_path, field.at("image").text());
-  const YamlField projection = field.at("projection");
-  const std::string name = projection.text();
-  if (name == "equirectangular") {
-    environment.projection = ProbeProjection::kEquirectangular;
-  } else if (name == "angular_map") {
-    environment.projection = ProbeProjection::kAngularMap;
-  } else if (name == "mirror_ball") {
-    environment.projection = ProbeProjection::kMirrorBall;
-  } else {
-    projection.fail("expected equirectangular, angular_map or mirror_ball");
-  }
-  Eigen::Vector3d forward = Eigen::Vector3d::UnitY();
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  if (const auto f = field.find("forward")) forward = unit_vector(*f);
-  if (const auto f = field.find("up")) up = unit_vector(*f);
-  if (!(forward.cross(up).norm() > 1e-6)) field.fail("forward and up are parallel");
-  environment.world_from_probe = world_from_probe(forward, up);
-  if (const auto f = field.find("radiance_W_per_mm2_sr")) {
-    environment.radiance_W_per_mm2_sr = some_light(*f);
-  }
-  if (const auto f = field.find("radiance_relative_std")) {
-    light.power_relative_std = f->number(0.0, 10.0);
-  }
-  return environment;
-}
-
-RigLight read_light(const std::string& name, const YamlField& field, const std::string& rig_path) {
-  RigLight light;
-  light.name = name;
-  light.line = field.line();
-  const YamlField type = field.at("type");
-  if (type.text() == "environment") {
-    light.environment = read_environment(field, rig_path, light);
-  } else if (type.text() == "led") {
-    read_led(field, light);
-  } else {
-    type.fail("expected led or environment");
-  }
-  return light;
 }
 
 RigShot read_shot(const YamlField& field, const Rig& rig) {

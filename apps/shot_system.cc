@@ -56,13 +56,19 @@ ObjectLibrary::ObjectLibrary(const Rig& rig, const ObjectScenes& scenes,
 }
 
 std::size_t ObjectLibrary::channels(const std::string& light) const {
-  return rig_.light(light).environment ? 3 : 1;
+  return rig_.light(light).colours_differ() ? 3 : 1;
 }
 
 const IncidentLight& ObjectLibrary::light(const std::string& object, const std::string& light,
                                           std::size_t channel) {
   const RigLight& rig_light = rig_.light(light);
   const ObjectScene& scene = scenes_.at(object);
+  if (rig_light.is_ambient) {
+    // A small, smooth addition: coarse patches do.
+    constexpr double kPatches = 24.0;  // across the object
+    return environment_light(object, light, 0, PatchMesh(scene.mesh(), scene.size_mm() / kPatches),
+                             scene.rig->eta_int_over_ext);
+  }
   if (rig_light.environment) {
     return environment_light(object, light, channel, patches(object), scene.rig->eta_int_over_ext);
   }
@@ -86,7 +92,13 @@ const IncidentLight& ObjectLibrary::environment_light(const std::string& object,
   const auto [it, is_new] =
       environments_.try_emplace({object, light, patches.patch_size_mm(), eta_int_over_ext});
   if (is_new) {
-    it->second = illuminate(patches, *scenes_.at(object).rays, probes_.at(light), eta_int_over_ext);
+    EnvironmentLightOptions options;
+    if (rig_.light(light).is_ambient) {
+      options.tolerance = 3e-4;
+      options.sky_bisections = 3;
+    }
+    it->second =
+        illuminate(patches, *scenes_.at(object).rays, probes_.at(light), eta_int_over_ext, options);
   }
   return it->second[channel];
 }

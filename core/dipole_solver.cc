@@ -157,6 +157,9 @@ void solve(ceres::Problem& problem, const std::vector<Nuisance>& fitted, const S
   } else if (std::isfinite(scale.relative_std)) {
     problem.AddResidualBlock(new ScalePriorCost(scale.relative_std), nullptr, &p.log_s);
   }
+  // A search that fails is told by `converged`, not on the terminal.
+  static const int kQuiet = FLAGS_minloglevel = google::GLOG_FATAL;
+  static_cast<void>(kQuiet);
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = 200;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 namespace scattermeter {
 namespace {
@@ -12,47 +12,56 @@ namespace {
 struct Mean {
   double l = 0;
   double variance = 0;
-  double spread = 1;  // of the variance by carrying the mean to its place
+  double spread = 1;  // of the variance against that of the plain mean
 };
 
+// Monomials up to degree 2 of a sample's place, in units that keep their squares near one.
+using Basis = Eigen::Matrix<double, 6, 1>;
+Basis basis_at(const Eigen::Vector2i& from_origin_px) {
+  constexpr double kUnit = 1.0 / 16.0;
+  const double x = kUnit * from_origin_px.x();
+  const double y = kUnit * from_origin_px.y();
+  return (Basis() << 1.0, x, y, x * x, x * y, y * y).finished();
+}
+
 // Running sums of one channel over one patch. Samples of the three colours stand at different
-// places, so their plain means belong to different points of the patch; a plane through the
-// channel's own samples carries its mean to the point that all colours share.
+// places, so their plain means belong to different parts of the patch; a quadratic through the
+// channel's own samples (where they are too few, a plane) is averaged over the samples of all
+// colours, which is what the row's site stands for.
 struct Sum {
   double n = 0, counts = 0, factor = 0;
   std::size_t clipped = 0;
   double l = 0, variance = 0;
-  Eigen::Vector2d x = Eigen::Vector2d::Zero();   // sum of positions, px
-  Eigen::Vector2d lx = Eigen::Vector2d::Zero();  // sum of l times position
-  Eigen::Matrix2d xx = Eigen::Matrix2d::Zero();  // sum of position times position
+  Basis lb = Basis::Zero();                                              // sum of l times the basis
+  Eigen::Matrix<double, 6, 6> bb = Eigen::Matrix<double, 6, 6>::Zero();  // of basis times basis
 
-  void add(int px, int py, double factor_, double signal, double signal_variance) {
-    const Eigen::Vector2d p(px, py);
+  void add(const Basis& basis, double factor_, double signal, double signal_variance) {
     n += 1.0;
     counts += signal;
     factor += factor_;
     l += factor_ * signal;
     variance += factor_ * factor_ * signal_variance;
-    x += p;
-    lx += factor_ * signal * p;
-    xx += p * p.transpose();
+    lb += factor_ * signal * basis;
+    bb += basis * basis.transpose();
   }
 
-  // l at `place` and its variance: with S the scatter matrix of the positions and d = place - mean,
-  // the weights of the samples are 1/n + d^T S^-1 (x_i - mean), and their squares add up to
-  // 1/n + d^T S^-1 d.
-  Mean mean_at(const Eigen::Vector2d& place) const {
-    const Eigen::Vector2d center = x / n;
-    Mean out{l / n, variance / (n * n), 1.0};
-    const Eigen::Matrix2d s = xx - n * center * center.transpose();
-    // Too few samples, or all nearly on a line: the plain mean must do.
-    constexpr double kFewest = 6.0;
-    if (n < kFewest || s.determinant() < 1e-2 * s.trace() * s.trace()) return out;
-    const Eigen::Vector2d weight = s.inverse() * (place - center);
-    out.l += weight.dot(lx - l * center);
-    out.spread = 1.0 + n * weight.dot(place - center);
-    out.variance *= out.spread;
-    return out;
+  // Mean of l over samples whose mean basis is `target`, and its variance: the weights of the own
+  // samples are target^T bb^-1 basis, and their squares add up to target^T bb^-1 target.
+  Mean mean_over(const Basis& target) const {
+    const Mean plain{l / n, variance / (n * n), 1.0};
+    for (const Eigen::Index terms : {Eigen::Index{6}, Eigen::Index{3}}) {
+      // Twice as many samples as terms at least, not all nearly on a line, and no more than half as
+      // much noise again.
+      constexpr double kMostSpread = 1.5;
+      if (n < 2.0 * static_cast<double>(terms)) continue;
+      const Eigen::LDLT<Eigen::MatrixXd> gram(bb.topLeftCorner(terms, terms));
+      if (!(gram.rcond() > 1e-10)) continue;
+      const Eigen::VectorXd weight = gram.solve(target.head(terms));
+      const double spread = n * weight.dot(target.head(terms));
+      if (!(spread < kMostSpread)) continue;
+      return {weight.dot(lb.head(terms)), plain.variance * spread, spread};
+    }
+    return plain;
   }
 };
 
@@ -69,7 +78,8 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
   const std::size_t n_rows = map.patch_of_row.size();
   std::array<std::vector<Sum>, kRgb> sums;
   for (auto& s : sums) s.resize(n_rows);
-  std::vector<Eigen::Vector2d> place(n_rows, Eigen::Vector2d::Zero());  // of all samples of a row
+  std::vector<Basis> place(n_rows, Basis::Zero());  // sum over all samples of a row
+  std::vector<Eigen::Vector2i> origin(n_rows);      // its first sample, px
   std::vector<double> count(n_rows, 0.0);
   struct Scatter {
     double squared = 0, expected = 0;
@@ -83,7 +93,9 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
       if (map.row_of_sample[i] < 0) continue;
       const auto row = static_cast<std::size_t>(map.row_of_sample[i]);
       const auto c = static_cast<std::size_t>(samples.channel(map.x0 + x, map.y0 + y));
-      place[row] += Eigen::Vector2d(x, y);
+      if (count[row] == 0.0) origin[row] = {x, y};
+      const Basis basis = basis_at(Eigen::Vector2i(x, y) - origin[row]);
+      place[row] += basis;
       count[row] += 1.0;
       Sum& s = sums[c][row];
       ++out.channel[c].samples;
@@ -92,7 +104,7 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
         ++out.channel[c].samples_clipped;
         continue;
       }
-      s.add(x, y, static_cast<double>(map.pi_over_transmittance[i]),
+      s.add(basis, static_cast<double>(map.pi_over_transmittance[i]),
             static_cast<double>(samples.signal_counts[i]),
             static_cast<double>(samples.variance_counts2[i]));
       // Three samples of one phase in line on one patch: the second difference is free of the
@@ -133,7 +145,7 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
         ++channel.rows_floor;
         continue;
       }
-      const Mean mean = s.mean_at(place[row] / count[row]);
+      const Mean mean = s.mean_over(place[row] / count[row]);
       channel.l[row] = unit * mean.l;
       channel.variance[row] = unit * unit * mean.variance;
       // Samples of l / (unit factor) counts: sum of factor^2 variance_per_count l / (unit factor).
