@@ -47,6 +47,7 @@ class DipoleSolver {
 
  private:
   Point start() const;
+  Point freed(const Point& from) const;  // the optimum near a point
 
   const RecoveredReflectance& recovered_;
   const DistanceKnots& knots_;
