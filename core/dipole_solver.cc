@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 #include <ceres/ceres.h>
 
@@ -38,7 +39,10 @@ class RecoveredCost final : public ceres::CostFunction {
     const double u = parameters[0][0];
     const double q = parameters[1][0];
     const double s = std::exp(parameters[2][0]);
-    if (!std::isfinite(s) || !(std::abs(u) < 300.0) || !(q >= 0.0) || !(q < 1.0)) return false;
+    // Six orders of magnitude beyond the knots R overflows or vanishes.
+    const bool far = !(std::exp(-u) > 1e-6 * knots_.resolution_mm()) ||
+                     !(std::exp(-u) < 1e6 * knots_.max_distance_mm());
+    if (!std::isfinite(s) || far || !(q >= 0.0) || !(q < 1.0)) return false;
     const DipoleCurve c = dipole_curve(knots_, u, q, eta_);
     const Eigen::Index n = whitened_.size();
     const Eigen::VectorXd predicted = kernel_ * (s * c.r);
@@ -48,6 +52,7 @@ class RecoveredCost final : public ceres::CostFunction {
       residual_vector +=
           nuisance_ * Eigen::Map<const Eigen::VectorXd>(parameters[3], nuisance_.cols());
     }
+    if (!residual_vector.allFinite()) return false;
     if (jacobians != nullptr) {
       const auto column = [&](int block) {
         return Eigen::Map<Eigen::VectorXd>(jacobians[block], n);
@@ -189,19 +194,19 @@ DipoleSolver::DipoleSolver(const RecoveredReflectance& recovered, const Distance
       eta_(eta_int_over_ext),
       scale_(scale) {}
 
-// Mean free paths a factor of two apart, absorbed shares from none to most. The scale is solved for
-// where it is not exact.
-DipoleSolver::Point DipoleSolver::start() const {
-  Point best;
-  double best_cost = std::numeric_limits<double>::infinity();
-  const int doublings =
-      2 + static_cast<int>(std::log2(knots_.max_distance_mm() / knots_.resolution_mm()));
-  for (int k = 0; k < doublings; ++k) {
-    const double mfp = std::ldexp(knots_.resolution_mm(), k);
-    for (double q : {1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.4}) {
-      const double u = -std::log(mfp);
-      const Eigen::VectorXd p =
-          recovered_.sqrt_information.leftCols(knots_.size()) * dipole_curve(knots_, u, q, eta_).r;
+// Mean free paths a factor of sqrt(2) apart, the best of absorbed shares from none to most for
+// each; the minima along that line. The scale is solved for where it is not exact.
+std::vector<DipoleSolver::Point> DipoleSolver::starts() const {
+  std::vector<Point> line;
+  const int steps =
+      4 + static_cast<int>(2.0 * std::log2(knots_.max_distance_mm() / knots_.resolution_mm()));
+  for (int k = 0; k < steps; ++k) {
+    Point best;
+    best.u = -std::log(knots_.resolution_mm()) - 0.5 * k * std::numbers::ln2;
+    best.cost = std::numeric_limits<double>::infinity();
+    for (double q : {1e-5, 1e-3, 0.01, 0.05, 0.15, 0.3, 0.5, 0.75}) {
+      const Eigen::VectorXd p = recovered_.sqrt_information.leftCols(knots_.size()) *
+                                dipole_curve(knots_, best.u, q, eta_).r;
       double s = 1.0;
       if (scale_.relative_std > 0.0) {
         // Weighted by the prior, linear in s.
@@ -210,20 +215,37 @@ DipoleSolver::Point DipoleSolver::start() const {
         if (!(s > 0.0)) continue;
       }
       const double cost = (s * p - recovered_.whitened).squaredNorm();
-      if (cost < best_cost) {
-        best_cost = cost;
-        best.u = u;
+      if (cost < best.cost) {
+        best.cost = cost;
         best.q = q;
         best.log_s = std::log(s);
       }
     }
+    best.v.assign(fitted_.size(), 0.0);
+    line.push_back(best);
   }
-  best.v.assign(fitted_.size(), 0.0);
-  return best;
+  std::vector<Point> minima;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (!std::isfinite(line[k].cost)) continue;
+    const bool below_last = k == 0 || line[k].cost < line[k - 1].cost;
+    const bool below_next = k + 1 == line.size() || line[k].cost <= line[k + 1].cost;
+    if (below_last && below_next) minima.push_back(line[k]);
+  }
+  if (minima.empty()) minima.push_back(line.front());
+  // The best of the fine line is nearly always the one; more than three cost time only.
+  std::sort(minima.begin(), minima.end(),
+            [](const Point& a, const Point& b) { return a.cost < b.cost; });
+  minima.resize(std::min<std::size_t>(minima.size(), 3));
+  return minima;
 }
 
 DipoleSolver::Point DipoleSolver::best() const {
-  Point p = freed(start());
+  Point p;
+  p.cost = std::numeric_limits<double>::infinity();
+  for (const Point& start : starts()) {
+    const Point q = freed(start);
+    if (q.cost < p.cost || !std::isfinite(p.cost)) p = q;
+  }
   // Steps that are cut off at q = 0 may end the search early (chi-square 0.3 too high was seen):
   // the optimum on the bound is searched for by itself, and whether it is one beside the bound too.
   constexpr double kNearBound = 1e-2;
