@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 
 #include <ceres/ceres.h>
 
 #include "core/dipole_curve.h"
+#include "core/dipole_starts.h"
 
 namespace scattermeter {
 namespace {
@@ -154,6 +154,12 @@ class ScalePriorCost final : public ceres::SizedCostFunction<1, 1> {
   double inverse_std_;
 };
 
+// Whether a search can start there; Ceres would say so on the error stream.
+bool can_start(const ceres::CostFunction& cost, const std::vector<double*>& blocks) {
+  std::vector<double> residuals(static_cast<std::size_t>(cost.num_residuals()));
+  return cost.Evaluate(blocks.data(), residuals.data(), nullptr);
+}
+
 // Adds the priors to a problem that holds `p`'s log_s and v already, and solves it.
 void solve(ceres::Problem& problem, const std::vector<Nuisance>& fitted, const ScalePrior& scale,
            DipoleSolver::Point& p) {
@@ -194,55 +200,11 @@ DipoleSolver::DipoleSolver(const RecoveredReflectance& recovered, const Distance
       eta_(eta_int_over_ext),
       scale_(scale) {}
 
-// Mean free paths a factor of sqrt(2) apart, the best of absorbed shares from none to most for
-// each; the minima along that line. The scale is solved for where it is not exact.
-std::vector<DipoleSolver::Point> DipoleSolver::starts() const {
-  std::vector<Point> line;
-  const int steps =
-      4 + static_cast<int>(2.0 * std::log2(knots_.max_distance_mm() / knots_.resolution_mm()));
-  for (int k = 0; k < steps; ++k) {
-    Point best;
-    best.u = -std::log(knots_.resolution_mm()) - 0.5 * k * std::numbers::ln2;
-    best.cost = std::numeric_limits<double>::infinity();
-    for (double q : {1e-5, 1e-3, 0.01, 0.05, 0.15, 0.3, 0.5, 0.75}) {
-      const Eigen::VectorXd p = recovered_.sqrt_information.leftCols(knots_.size()) *
-                                dipole_curve(knots_, best.u, q, eta_).r;
-      double s = 1.0;
-      if (scale_.relative_std > 0.0) {
-        // Weighted by the prior, linear in s.
-        const double prior = 1.0 / (scale_.relative_std * scale_.relative_std);
-        s = (p.dot(recovered_.whitened) + prior) / (p.squaredNorm() + prior);
-        if (!(s > 0.0)) continue;
-      }
-      const double cost = (s * p - recovered_.whitened).squaredNorm();
-      if (cost < best.cost) {
-        best.cost = cost;
-        best.q = q;
-        best.log_s = std::log(s);
-      }
-    }
-    best.v.assign(fitted_.size(), 0.0);
-    line.push_back(best);
-  }
-  std::vector<Point> minima;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    if (!std::isfinite(line[k].cost)) continue;
-    const bool below_last = k == 0 || line[k].cost < line[k - 1].cost;
-    const bool below_next = k + 1 == line.size() || line[k].cost <= line[k + 1].cost;
-    if (below_last && below_next) minima.push_back(line[k]);
-  }
-  if (minima.empty()) minima.push_back(line.front());
-  // The best of the fine line is nearly always the one; more than three cost time only.
-  std::sort(minima.begin(), minima.end(),
-            [](const Point& a, const Point& b) { return a.cost < b.cost; });
-  minima.resize(std::min<std::size_t>(minima.size(), 3));
-  return minima;
-}
-
 DipoleSolver::Point DipoleSolver::best() const {
   Point p;
   p.cost = std::numeric_limits<double>::infinity();
-  for (const Point& start : starts()) {
+  for (Point& start : dipole_starts(recovered_, knots_, eta_, scale_)) {
+    start.v.assign(fitted_.size(), 0.0);
     const Point q = freed(start);
     if (q.cost < p.cost || !std::isfinite(p.cost)) p = q;
   }
@@ -264,8 +226,13 @@ DipoleSolver::Point DipoleSolver::freed(const Point& from) const {
   ceres::Problem problem;
   std::vector<double*> blocks = {&p.u, &p.q, &p.log_s};
   if (!p.v.empty()) blocks.push_back(p.v.data());
-  problem.AddResidualBlock(new RecoveredCost(recovered_, knots_, fitted_.size(), eta_), nullptr,
-                           blocks);
+  auto cost = std::make_unique<RecoveredCost>(recovered_, knots_, fitted_.size(), eta_);
+  if (!can_start(*cost, blocks)) {
+    p.converged = false;
+    p.cost = std::numeric_limits<double>::infinity();
+    return p;
+  }
+  problem.AddResidualBlock(cost.release(), nullptr, blocks);
   problem.SetParameterLowerBound(&p.q, 0, 0.0);
   problem.SetParameterUpperBound(&p.q, 0, kMaxAbsorbed);
   solve(problem, fitted_, scale_, p);
@@ -288,10 +255,11 @@ std::optional<DipoleSolver::Point> DipoleSolver::best_with(Coefficient held, dou
   ceres::Problem problem;
   std::vector<double*> blocks = {&p.u, &p.log_s};
   if (!p.v.empty()) blocks.push_back(p.v.data());
-  problem.AddResidualBlock(
-      new HeldCost(std::make_unique<RecoveredCost>(recovered_, knots_, fitted_.size(), eta_), held,
-                   value_per_mm),
-      nullptr, blocks);
+  auto cost = std::make_unique<HeldCost>(
+      std::make_unique<RecoveredCost>(recovered_, knots_, fitted_.size(), eta_), held,
+      value_per_mm);
+  if (!can_start(*cost, blocks)) return std::nullopt;
+  problem.AddResidualBlock(cost.release(), nullptr, blocks);
   // q >= 0 and q <= kMaxAbsorbed as bounds of u.
   if (held == Coefficient::kSigmaA) {
     if (value_per_mm > 0.0) {

@@ -46,7 +46,6 @@ class DipoleSolver {
   static constexpr double kMaxAbsorbed = 0.95;  // bound of q
 
  private:
-  std::vector<Point> starts() const;
   Point freed(const Point& from) const;  // the optimum near a point
 
   const RecoveredReflectance& recovered_;
