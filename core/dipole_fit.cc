@@ -8,6 +8,7 @@
 
 #include "core/chi_square.h"
 #include "core/dipole_curve.h"
+#include "core/doubtful_input.h"
 #include "core/fit_uncertainty.h"
 #include "core/profile_interval.h"
 #include "core/recovered_reflectance.h"
@@ -47,8 +48,10 @@ void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, cons
   const Eigen::Matrix2d fitted = fit.covariance_of_fitted();
   const auto profile = [&](Coefficient which, Eigen::Index i, Quantity& q) {
     const double wider = all(i, i) / fitted(i, i);
+    // `fitted` is inflated; the solver's chi-square is not.
     const Interval interval =
-        profile_interval(solver, p, which, q.std, 3.841 * noise_inflation * wider);
+        profile_interval(solver, p, which, std::sqrt(fitted(i, i) / noise_inflation),
+                         3.841 * noise_inflation * wider);
     q.low95 = interval.low;
     q.high95 = interval.high;
   };
@@ -88,6 +91,10 @@ void judge(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& o
         "these shots do not determine sigma_s' (no absolute scale and no light edge "
         "on the object, or too little light)");
   }
+  if (!std::isfinite(e.sigma_a_per_mm.std) || !std::isfinite(e.sigma_a_per_mm.high95) ||
+      !std::isfinite(e.sigma_s_prime_per_mm.high95)) {
+    e.reasons.push_back("these shots set no upper limit to a coefficient");
+  }
   if (e.reduced_chi2 > options.max_reduced_chi2 && e.rms_relative > options.max_rms_relative) {
     e.reasons.push_back(sentence("the dipole does not explain the shots: residual ",
                                  100.0 * e.rms_relative, " %, reduced chi-square ",
@@ -103,16 +110,17 @@ void judge(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& o
 }
 
 // How much of the image the recovered r explains and the dipole does not.
-void set_misfit(const RecoveredReflectance& recovered, const DenseSystem& system,
-                const std::vector<Nuisance>& fitted, const ScalePrior& scale, const Point& p,
-                Estimate& estimate) {
+// Returns its chi-square per degree of freedom, over the noise's.
+double set_misfit(const RecoveredReflectance& recovered, const DenseSystem& system,
+                  const std::vector<Nuisance>& fitted, const ScalePrior& scale, const Point& p,
+                  Estimate& estimate) {
   const auto rank = recovered.whitened.size();
   // Every prior adds one term and its parameter takes one away.
   const auto unbound = std::count_if(fitted.begin(), fitted.end(),
                                      [](const Nuisance& n) { return !std::isfinite(n.std); });
   const double dof = static_cast<double>(rank - 2 - (std::isfinite(scale.relative_std) ? 0 : 1) -
                                          static_cast<Eigen::Index>(unbound));
-  if (!(dof > 0.0)) return;
+  if (!(dof > 0.0)) return 0.0;
   const double rows = static_cast<double>(system.l.size());
   const double noise =
       std::max(1.0, recovered.floor_chi2 / std::max(1.0, rows - static_cast<double>(rank)));
@@ -120,6 +128,7 @@ void set_misfit(const RecoveredReflectance& recovered, const DenseSystem& system
   estimate.misfit_p_value = chi_square_tail(chi2, dof);
   const double image = system.l.cwiseQuotient(system.std_l).squaredNorm() / noise;
   estimate.misfit_relative = std::sqrt(std::max(0.0, chi2 - dof) / image);
+  return p.cost / dof;
 }
 
 }  // namespace
@@ -171,8 +180,11 @@ DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
   estimate.reduced_chi2 = rest.chi2 / static_cast<double>(system.l.size() - n_parameters);
   estimate.rms_relative = rest.rms_relative;
   estimate.psnr_db = rest.psnr_db;
-  set_misfit(recovered, system, fitted, options.scale, p, estimate);
-  const double inflation = std::max(1.0, estimate.reduced_chi2);
+  const double misfit = set_misfit(recovered, system, fitted, options.scale, p, estimate);
+  double inflation = std::max(1.0, estimate.reduced_chi2);
+  // What the dipole misses lies in the few directions that r can explain, as the coefficients do;
+  // over all rows it would be thinned out. Taken as alike in all those directions (Birge 1932).
+  if (estimate.misfit_p_value < options.misfit_p_value) inflation = std::max(inflation, misfit);
   // Errors of the method are at least as large as the misfit that is seen.
   std::vector<Nuisance> nuisances = system.nuisances;
   for (Nuisance& n : nuisances) {
@@ -180,7 +192,26 @@ DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
       n.std = std::max(n.std, options.misfit_margin * estimate.misfit_relative);
     }
   }
-  set_uncertainty(FitUncertainty(recovered, nuisances, curve, p.u, p.q, std::exp(p.log_s),
+  // What the image says against the rig's statements widens the answer, or refuses it.
+  const double rows_left = static_cast<double>(system.l.size() - recovered.whitened.size());
+  const double noise = std::max(1.0, recovered.floor_chi2 / std::max(1.0, rows_left));
+  const Doubts doubts = doubtful_inputs(recovered, system.nuisances, knots, p,
+                                        options.eta_int_over_ext, options.scale, noise);
+  RecoveredReflectance doubted = recovered;
+  for (const auto& [doubt, name] : {std::pair{&doubts.scale, "scale"}, {&doubts.eta, "eta"}}) {
+    if (!(doubt->p_value < options.doubt_p_value)) continue;
+    doubted.sqrt_information.conservativeResize(Eigen::NoChange,
+                                                doubted.sqrt_information.cols() + 1);
+    doubted.sqrt_information.rightCols(1) = doubt->push;
+    nuisances.push_back({name, std::abs(doubt->offset), false});
+    if (doubt->p_value < options.misfit_p_value &&
+        doubt->image_relative > options.max_doubt_relative) {
+      estimate.reasons.push_back(sentence("the shots contradict the ", name,
+                                          " that the rig states: they would have it off by ",
+                                          doubt->offset));
+    }
+  }
+  set_uncertainty(FitUncertainty(doubted, nuisances, curve, p.u, p.q, std::exp(p.log_s),
                                  options.scale, inflation),
                   solver, p, inflation, estimate);
   judge(knots, p, options, estimate);

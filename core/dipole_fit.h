@@ -27,6 +27,11 @@ struct DipoleFitOptions {
   double misfit_p_value = 1e-6;
   double misfit_margin = 2.0;
   double max_misfit_relative = 2e-3;
+  // Where the image has the stated scale or eta off (core/doubtful_input.h) with less than this
+  // probability, the offset counts as an error of the method; with less than misfit_p_value, and by
+  // more than the last relative to the image, the answer is refused.
+  double doubt_p_value = 2.7e-3;
+  double max_doubt_relative = 5e-3;
   void Check() const;  // std::invalid_argument naming the field
 };
 
@@ -40,9 +45,12 @@ struct DipoleFit {
 // The dipole of least chi-square on the image (DipoleSolver). Standard deviations from the Jacobian
 // at the optimum, widened by sqrt(reduced chi-square) where that exceeds 1; intervals are +-1.96
 // std, cut at 0, and from the profile of the likelihood where a standard deviation exceeds a tenth
-// of its value. The answer carries its reasons for refusal: too few rows, values that are not
-// finite, not converged, a mean free path outside what the knots resolve, an undetermined sigma_s',
-// a residual the dipole cannot explain.
+// of its value. A significant misfit counts per direction of r instead of per row, and widens the
+// errors of the method; so does a stated scale or eta that the image contradicts. Where the image
+// does not hold the scale (even light), a wrong exact scale cannot be seen. The answer carries its
+// reasons for refusal: too few rows, values that are not finite, not converged, a mean free path
+// outside what the knots resolve, an undetermined sigma_s', no upper limit, a residual the dipole
+// cannot explain, a scale or an eta that the image contradicts.
 DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
                      const DipoleFitOptions& options);
 

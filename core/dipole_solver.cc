@@ -8,6 +8,7 @@
 #include <ceres/ceres.h>
 
 #include "core/dipole_curve.h"
+#include "core/dipole_starts.h"
 
 namespace scattermeter {
 namespace {
@@ -38,7 +39,10 @@ class RecoveredCost final : public ceres::CostFunction {
     const double u = parameters[0][0];
     const double q = parameters[1][0];
     const double s = std::exp(parameters[2][0]);
-    if (!std::isfinite(s) || !(std::abs(u) < 300.0) || !(q >= 0.0) || !(q < 1.0)) return false;
+    // Six orders of magnitude beyond the knots R overflows or vanishes.
+    const bool far = !(std::exp(-u) > 1e-6 * knots_.resolution_mm()) ||
+                     !(std::exp(-u) < 1e6 * knots_.max_distance_mm());
+    if (!std::isfinite(s) || far || !(q >= 0.0) || !(q < 1.0)) return false;
     const DipoleCurve c = dipole_curve(knots_, u, q, eta_);
     const Eigen::Index n = whitened_.size();
     const Eigen::VectorXd predicted = kernel_ * (s * c.r);
@@ -48,6 +52,7 @@ class RecoveredCost final : public ceres::CostFunction {
       residual_vector +=
           nuisance_ * Eigen::Map<const Eigen::VectorXd>(parameters[3], nuisance_.cols());
     }
+    if (!residual_vector.allFinite()) return false;
     if (jacobians != nullptr) {
       const auto column = [&](int block) {
         return Eigen::Map<Eigen::VectorXd>(jacobians[block], n);
@@ -87,8 +92,11 @@ class HeldCost final : public ceres::CostFunction {
   }
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
-    const double q = q_of(parameters[0][0], held_, value_per_mm_);
-    if (!(q >= 0.0) || q > DipoleSolver::kMaxAbsorbed) return false;
+    double q = q_of(parameters[0][0], held_, value_per_mm_);
+    // On a bound of u, q is beyond its own by rounding.
+    constexpr double kRounding = 1e-12;
+    if (!(q >= -kRounding) || q > DipoleSolver::kMaxAbsorbed + kRounding) return false;
+    q = std::clamp(q, 0.0, DipoleSolver::kMaxAbsorbed);
     std::vector<double const*> all = {parameters[0], &q};
     for (std::size_t i = 1; i < parameter_block_sizes().size(); ++i) all.push_back(parameters[i]);
     if (jacobians == nullptr) return cost_->Evaluate(all.data(), residuals, nullptr);
@@ -146,6 +154,12 @@ class ScalePriorCost final : public ceres::SizedCostFunction<1, 1> {
   double inverse_std_;
 };
 
+// Whether a search can start there; Ceres would say so on the error stream.
+bool can_start(const ceres::CostFunction& cost, const std::vector<double*>& blocks) {
+  std::vector<double> residuals(static_cast<std::size_t>(cost.num_residuals()));
+  return cost.Evaluate(blocks.data(), residuals.data(), nullptr);
+}
+
 // Adds the priors to a problem that holds `p`'s log_s and v already, and solves it.
 void solve(ceres::Problem& problem, const std::vector<Nuisance>& fitted, const ScalePrior& scale,
            DipoleSolver::Point& p) {
@@ -189,46 +203,39 @@ DipoleSolver::DipoleSolver(const RecoveredReflectance& recovered, const Distance
       eta_(eta_int_over_ext),
       scale_(scale) {}
 
-// Mean free paths a factor of two apart, absorbed shares from none to most. The scale is solved for
-// where it is not exact.
-DipoleSolver::Point DipoleSolver::start() const {
-  Point best;
-  double best_cost = std::numeric_limits<double>::infinity();
-  const int doublings =
-      2 + static_cast<int>(std::log2(knots_.max_distance_mm() / knots_.resolution_mm()));
-  for (int k = 0; k < doublings; ++k) {
-    const double mfp = std::ldexp(knots_.resolution_mm(), k);
-    for (double q : {1e-5, 1e-4, 1e-3, 1e-2, 0.1, 0.4}) {
-      const double u = -std::log(mfp);
-      const Eigen::VectorXd p =
-          recovered_.sqrt_information.leftCols(knots_.size()) * dipole_curve(knots_, u, q, eta_).r;
-      double s = 1.0;
-      if (scale_.relative_std > 0.0) {
-        // Weighted by the prior, linear in s.
-        const double prior = 1.0 / (scale_.relative_std * scale_.relative_std);
-        s = (p.dot(recovered_.whitened) + prior) / (p.squaredNorm() + prior);
-        if (!(s > 0.0)) continue;
-      }
-      const double cost = (s * p - recovered_.whitened).squaredNorm();
-      if (cost < best_cost) {
-        best_cost = cost;
-        best.u = u;
-        best.q = q;
-        best.log_s = std::log(s);
-      }
+DipoleSolver::Point DipoleSolver::best() const {
+  Point p;
+  p.cost = std::numeric_limits<double>::infinity();
+  for (Point& start : dipole_starts(recovered_, knots_, eta_, scale_)) {
+    start.v.assign(fitted_.size(), 0.0);
+    const Point q = freed(start);
+    if (q.cost < p.cost || !std::isfinite(p.cost)) p = q;
+  }
+  // Steps that are cut off at q = 0 may end the search early (chi-square 0.3 too high was seen):
+  // the optimum on the bound is searched for by itself, and whether it is one beside the bound too.
+  constexpr double kNearBound = 1e-2;
+  if (p.q < kNearBound) {
+    const std::optional<Point> none = best_with(Coefficient::kSigmaA, 0.0, p);
+    if (none && none->cost < p.cost) {
+      const Point again = freed(*none);
+      p = again.converged && again.cost < none->cost ? again : *none;
     }
   }
-  best.v.assign(fitted_.size(), 0.0);
-  return best;
+  return p;
 }
 
-DipoleSolver::Point DipoleSolver::best() const {
-  Point p = start();
+DipoleSolver::Point DipoleSolver::freed(const Point& from) const {
+  Point p = from;
   ceres::Problem problem;
   std::vector<double*> blocks = {&p.u, &p.q, &p.log_s};
   if (!p.v.empty()) blocks.push_back(p.v.data());
-  problem.AddResidualBlock(new RecoveredCost(recovered_, knots_, fitted_.size(), eta_), nullptr,
-                           blocks);
+  auto cost = std::make_unique<RecoveredCost>(recovered_, knots_, fitted_.size(), eta_);
+  if (!can_start(*cost, blocks)) {
+    p.converged = false;
+    p.cost = std::numeric_limits<double>::infinity();
+    return p;
+  }
+  problem.AddResidualBlock(cost.release(), nullptr, blocks);
   problem.SetParameterLowerBound(&p.q, 0, 0.0);
   problem.SetParameterUpperBound(&p.q, 0, kMaxAbsorbed);
   solve(problem, fitted_, scale_, p);
@@ -251,10 +258,11 @@ std::optional<DipoleSolver::Point> DipoleSolver::best_with(Coefficient held, dou
   ceres::Problem problem;
   std::vector<double*> blocks = {&p.u, &p.log_s};
   if (!p.v.empty()) blocks.push_back(p.v.data());
-  problem.AddResidualBlock(
-      new HeldCost(std::make_unique<RecoveredCost>(recovered_, knots_, fitted_.size(), eta_), held,
-                   value_per_mm),
-      nullptr, blocks);
+  auto cost = std::make_unique<HeldCost>(
+      std::make_unique<RecoveredCost>(recovered_, knots_, fitted_.size(), eta_), held,
+      value_per_mm);
+  if (!can_start(*cost, blocks)) return std::nullopt;
+  problem.AddResidualBlock(cost.release(), nullptr, blocks);
   // q >= 0 and q <= kMaxAbsorbed as bounds of u.
   if (held == Coefficient::kSigmaA) {
     if (value_per_mm > 0.0) {

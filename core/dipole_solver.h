@@ -36,8 +36,8 @@ class DipoleSolver {
                const std::vector<Nuisance>& fitted, double eta_int_over_ext,
                const ScalePrior& scale);
 
-  // Started from the best of a coarse set over all magnitudes that the knots can resolve, so no
-  // guess is asked for.
+  // Started from every minimum of a coarse set over all magnitudes that the knots can resolve, so
+  // no guess is asked for.
   Point best() const;
   // The optimum with one coefficient held at a value (1/mm), for a profile of the likelihood.
   // nullopt where no point within the bounds has it or the search fails.
@@ -46,7 +46,7 @@ class DipoleSolver {
   static constexpr double kMaxAbsorbed = 0.95;  // bound of q
 
  private:
-  Point start() const;
+  Point freed(const Point& from) const;  // the optimum near a point
 
   const RecoveredReflectance& recovered_;
   const DistanceKnots& knots_;

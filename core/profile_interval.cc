@@ -44,12 +44,12 @@ Interval profile_interval(const DipoleSolver& solver, const DipoleSolver::Point&
   const double value = coefficient == DipoleSolver::Coefficient::kSigmaA
                            ? best.sigma_a_per_mm()
                            : best.sigma_s_prime_per_mm();
-  const double tolerance = 0.01 * std_per_mm;
   const double step = std::sqrt(rise) * std_per_mm;
+  const double tolerance = 0.005 * step;
   Interval out{0.0, std::numeric_limits<double>::infinity()};
   Profile up(solver, best, coefficient);
   double inside = value;
-  for (double reach = step; reach < 1000.0 * std_per_mm; reach *= 2.0) {
+  for (double reach = step; reach < 1000.0 * step; reach *= 2.0) {
     if (up.rise(value + reach) > rise) {
       out.high = crossing(up, inside, value + reach, tolerance, rise);
       break;

@@ -41,6 +41,17 @@ TEST(LinearSamples, MarksClippedSamples) {
   EXPECT_EQ(s.clipped[8], 0);
 }
 
+// The slope is the one that the samples' own variances have.
+TEST(LinearSamples, PhotonNoisePerCount) {
+  RawFrame f = frame();
+  f.samples[0] = 1500;
+  const CfaSamples s = linear_samples(f, {6.0, 1.2}, 0.1, 0, 0, 6, 4);
+  EXPECT_DOUBLE_EQ(s.variance_per_count, 1.0 / 6.0);
+  EXPECT_NEAR(
+      (s.variance_counts2[0] - s.variance_counts2[2]) / (s.signal_counts[0] - s.signal_counts[2]),
+      s.variance_per_count, 1e-5);
+}
+
 // Black at zero: the camera cuts the noise, and means below four deviations are biased.
 TEST(LinearSamples, KnowsTheFloorOfACameraThatSubtractsBlack) {
   RawFrame f = frame();

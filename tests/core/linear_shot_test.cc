@@ -37,5 +37,40 @@ TEST(LinearShot, StacksUsedRowsOnly) {
   EXPECT_THROW(stack({{{{&a, 1.0}}, &one}, {{{&other, 1.0}}, &two}}), std::invalid_argument);
 }
 
+// The rows of one shot, with the nuisances that move any of them and no others.
+TEST(LinearShot, OneShotOfASystem) {
+  DenseSystem s{WeightMatrix(5, 2), Eigen::VectorXd(5), Eigen::VectorXd(5)};
+  s.weights << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10;
+  s.l << 1, 2, 3, 4, 5;
+  s.std_l << 10, 20, 30, 40, 50;
+  s.shot_rows = {2, 0, 3};
+  s.nuisances = {{"first only", 0.1, true}, {"both", 0.2, true}, {"last only", 0.3, false}};
+  s.nuisance_columns.resize(5, 3);
+  s.nuisance_columns << 1, 2, 0, 0, 3, 0, 0, 4, 5, 0, 6, 0, 0, 7, 8;
+  const DenseSystem first = shot_of(s, 0);
+  EXPECT_EQ(first.weights, s.weights.topRows(2));
+  EXPECT_EQ(first.l, s.l.head(2));
+  EXPECT_EQ(first.std_l, s.std_l.head(2));
+  EXPECT_EQ(first.shot_rows, std::vector<Eigen::Index>{2});
+  ASSERT_EQ(first.nuisances.size(), 2U);
+  EXPECT_EQ(first.nuisances[0].group, "first only");
+  EXPECT_EQ(first.nuisances[1].group, "both");
+  EXPECT_EQ(first.nuisance_columns, s.nuisance_columns.topLeftCorner(2, 2));
+  const DenseSystem last = shot_of(s, 2);
+  EXPECT_EQ(last.l, s.l.tail(3));
+  ASSERT_EQ(last.nuisances.size(), 2U);
+  EXPECT_EQ(last.nuisances[0].std, 0.2);
+  EXPECT_FALSE(last.nuisances[1].fitted);
+  EXPECT_EQ(last.nuisance_columns, s.nuisance_columns.bottomRightCorner(3, 2));
+  const DenseSystem none = shot_of(s, 1);
+  EXPECT_EQ(none.l.size(), 0);
+  EXPECT_TRUE(none.nuisances.empty());
+  EXPECT_THROW(shot_of(s, 3), std::out_of_range);
+  s.nuisances.clear();
+  s.nuisance_columns.resize(0, 0);
+  EXPECT_EQ(shot_of(s, 2).l, s.l.tail(3));
+  EXPECT_EQ(shot_of(s, 2).nuisance_columns.cols(), 0);
+}
+
 }  // namespace
 }  // namespace scattermeter

@@ -107,6 +107,44 @@ TEST(Observation, NoiseRatio) {
   for (const ChannelObservation& c : o.channel) EXPECT_NEAR(c.noise_ratio, 1.0, 0.12);
 }
 
+// The variance grows with l as it does where every sample is brighter: two shots of one scene, the
+// second with twice the light, whose samples' variances are read noise and photons. Samples of
+// uneven factors, and colours whose places in the patch differ.
+TEST(Observation, VariancePerL) {
+  SampleMap map = two_rows();
+  for (std::size_t i = 0; i < 32; ++i) {
+    map.pi_over_transmittance[i] = 2.0F + 0.1F * static_cast<float>(i % 3);
+    if (i % 11 == 0) map.row_of_sample[i] = -1;
+  }
+  CfaSamples dim = samples();
+  dim.variance_per_count = 0.25;
+  CfaSamples bright = dim;
+  for (std::size_t i = 0; i < 32; ++i) {
+    // Even radiance: counts fall as the factor rises.
+    const float counts = 200.0F / map.pi_over_transmittance[i];
+    dim.signal_counts[i] = counts;
+    bright.signal_counts[i] = 2.0F * counts;
+    dim.variance_counts2[i] = 9.0F + 0.25F * counts;
+    bright.variance_counts2[i] = 9.0F + 0.25F * 2.0F * counts;
+  }
+  const Observation one = observe(dim, map, {10.0, 20.0, 40.0});
+  const Observation two = observe(bright, map, {10.0, 20.0, 40.0});
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t r = 0; r < 2; ++r) {
+      const ChannelObservation& a = one.channel[c];
+      const ChannelObservation& b = two.channel[c];
+      const double slope = (b.variance[r] - a.variance[r]) / (b.l[r] - a.l[r]);
+      EXPECT_GT(slope, 0.0);
+      EXPECT_NEAR(a.variance_per_l[r] / slope, 1.0, 1e-5) << "channel " << c << ", row " << r;
+    }
+  }
+  // One phase of factor 2 over 4 samples: unit * variance_per_count * factor / n.
+  CfaSamples plain = samples();
+  plain.variance_per_count = 0.25;
+  EXPECT_NEAR(observe(plain, two_rows(), {10.0, 20.0, 40.0}).channel[0].variance_per_l[0],
+              0.25 * 2.0 / 4.0 / (10.0 * 0.5), 1e-9);
+}
+
 TEST(Observation, RefusesWhatDoesNotMatch) {
   CfaSamples s = samples();
   s.x0 = 11;
