@@ -8,6 +8,7 @@
 #include "apps/answer_statistics.h"
 #include "apps/bench_noise.h"
 #include "apps/bench_rig.h"
+#include "apps/bodies.h"
 #include "apps/plastics_rig.h"
 #include "apps/pull_plot.h"
 #include "capture/obj_reader.h"
