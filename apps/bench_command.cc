@@ -4,6 +4,7 @@
 #include "apps/bench_commands.h"
 #include "apps/bench_noise.h"
 #include "apps/bench_rig.h"
+#include "apps/bodies_rig.h"
 #include "apps/plastics_rig.h"
 
 namespace scattermeter::apps {
@@ -32,7 +33,7 @@ void add_noise_bench(CLI::App& bench, CommandContext& context, const SharedBench
     context.chosen = [options, common, &context] {
       const bool own = options->rig.empty();
       Rig rig = own ? plastics_rig(common->image_width_px.value_or(968)) : read_rig(options->rig);
-      const ObjectScenes scenes = own ? plastics_scenes(rig) : open_objects(rig);
+      const ObjectScenes scenes = own ? bodies_scenes(rig) : open_objects(rig);
       if (options->scale_std) rig.camera.responsivity_relative_std = *options->scale_std;
       options->bench.seed = common->seed;
       options->bench.quiet = context.quiet;
@@ -81,13 +82,14 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   bench->add_option("--out", common->out, "folder for tables and pictures")->capture_default_str();
   bench->add_option("--seed", common->seed, "of all that is drawn")->capture_default_str();
   bench
-      ->add_option(
-          "--image-width", common->image_width_px,
-          "width in px of the simulated frames of a rig made in code (default: 968; paper: 3872)")
+      ->add_option("--image-width", common->image_width_px,
+                   "width in px of the simulated frames of a rig made in code (default: 968; paper "
+                   "and patches: 3872)")
       ->check(CLI::Range(240, 3872));
   add_noise_bench(*bench, context, common);
   add_rig_bench(*bench, context, common);
   add_paper_bench(*bench, context, common);
+  add_patches_bench(*bench, context, common);
 }
 
 }  // namespace scattermeter::apps

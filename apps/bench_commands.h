@@ -38,5 +38,8 @@ using SharedBenchOptions = std::shared_ptr<BenchOptions>;
 void add_noise_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_rig_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_paper_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
+void add_patches_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
+void add_materials_bench(CLI::App& bench, CommandContext& context,
+                         const SharedBenchOptions& common);
 
 }  // namespace scattermeter::apps

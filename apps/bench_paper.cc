@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "apps/estimation_task.h"
 #include "apps/instrument.h"
 #include "apps/progress.h"
@@ -23,12 +21,11 @@ namespace {
 
 constexpr std::size_t kChannel = 1;  // G: half of the samples
 
-double rendered_psnr_db(const DenseSystem& system, const DistanceKnots& knots, const Estimate& e,
-                        double eta) {
+// scale * R on the knots.
+Eigen::VectorXd curve_of(const Estimate& e, const DistanceKnots& knots, double eta) {
   const double sigma_t = e.sigma_s_prime_per_mm.value + e.sigma_a_per_mm.value;
-  const DipoleCurve curve =
-      dipole_curve(knots, std::log(sigma_t), e.sigma_a_per_mm.value / sigma_t, eta);
-  return residual(system.l, system.weights * (e.scale.value * curve.r), system.std_l).psnr_db;
+  return e.scale.value *
+         dipole_curve(knots, std::log(sigma_t), e.sigma_a_per_mm.value / sigma_t, eta).r;
 }
 
 template <class Value>
@@ -91,9 +88,10 @@ PaperBench bench_paper(const PaperBenchOptions& options) {
         return smooth_weights(seen.sites, sources, knots, pair_options(knots));
       },
       smooth);
-  const DenseSystem system = system_of(rig, task, smooth);
+  DenseSystem system = system_of(rig, task, smooth);
   bench.rows = static_cast<std::size_t>(system.l.size());
-  bench.smooth = smooth_reflectance(recover_reflectance(system), {}, knots);
+  add_numerics(task.shots, task.channel, knots, curve_of(bench.dipole, knots, task.eta), system);
+  bench.smooth = smooth_reflectance(recover_reflectance(system), system.nuisances, knots);
   DipoleFitOptions fit;
   fit.eta_int_over_ext = task.eta;
   Progress progress("widths", static_cast<int>(published_table2().size()), options.quiet);
@@ -111,7 +109,9 @@ PaperBench bench_paper(const PaperBenchOptions& options) {
     const DenseSystem quantised = system_of(rig, task, uniform);
     row.paper = solve_paper(quantised, published.width_mm, task.eta);
     row.ours = fit_dipole(quantise(system, quantised.weights), knots, fit).estimate;
-    row.ours_psnr_db = rendered_psnr_db(system, knots, row.ours, task.eta);
+    row.ours_psnr_db =
+        residual(system.l, system.weights * curve_of(row.ours, knots, task.eta), system.std_l)
+            .psnr_db;
     bench.widths.push_back(std::move(row));
     progress.step();
   }

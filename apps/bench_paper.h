@@ -72,6 +72,7 @@ std::string paper_bench_csv(const PaperBench& bench);
 std::string paper_reflectance_csv(const PaperBench& bench);
 Plot paper_psnr_plot(const PaperBench& bench);
 Plot paper_reflectance_plot(const PaperBench& bench);
+Plot paper_reflectance_ratio_plot(const PaperBench& bench);
 Plot paper_absorption_plot(const PaperBench& bench);
 
 }  // namespace scattermeter::apps

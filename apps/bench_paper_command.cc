@@ -61,6 +61,7 @@ void add_paper_bench(CLI::App& bench, CommandContext& context, const SharedBench
       files.csv("paper_reflectance", paper_reflectance_csv(result));
       files.plot("paper_psnr", paper_psnr_plot(result));
       files.plot("paper_reflectance", paper_reflectance_plot(result));
+      files.plot("paper_reflectance_ratio", paper_reflectance_ratio_plot(result));
       files.plot("paper_absorption", paper_absorption_plot(result));
       return 0;
     };

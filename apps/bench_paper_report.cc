@@ -15,6 +15,7 @@ namespace {
 using Style = PlotSeries::Style;
 
 constexpr double kTruthEta = 1.3;
+constexpr double kNearest_mm = 0.03;  // where d = 0 is drawn on a logarithmic axis
 
 const PaperAnswer& best_of_paper(const PaperBench& bench) {
   return std::max_element(bench.widths.begin(), bench.widths.end(),
@@ -41,7 +42,7 @@ PlotSeries level(const std::string& name, double y) {
 PlotSeries dipole_series(const std::string& name, double sigma_s, double sigma_a) {
   const Dipole dipole({sigma_s, sigma_a, kTruthEta});
   PlotSeries series{name, Style::kLine, {}, {}, {}};
-  for (double d = 0.03; d < 30.0; d *= 1.03) {
+  for (double d = kNearest_mm; d < 30.0; d *= 1.03) {
     series.x.push_back(d);
     series.y.push_back(dipole.reflectance_per_mm2(d));
   }
@@ -143,7 +144,7 @@ Plot paper_psnr_plot(const PaperBench& bench) {
   Plot plot;
   plot.title = "PSNR of the re-rendered image over the quantisation width (the paper's figure 5)";
   plot.x = {"quantisation width [mm]", false, 0.0, 0.55};
-  plot.y = {"PSNR [dB]", false, 0.0};
+  plot.y = {"PSNR [dB]", false, 0.0, 100.0};
   plot.series = {
       over_widths(bench, "published", [](const PaperBenchRow& r) { return r.published.psnr_db; }),
       over_widths(bench, "the paper's method, this image",
@@ -167,13 +168,13 @@ Plot paper_reflectance_plot(const PaperBench& bench) {
   PlotSeries smooth{"recovered without a model, 95 % bars", Style::kPoints, {}, {}, {}};
   for (const ReflectanceKnot& k : bench.smooth.knots) {
     if (!k.determined) continue;
-    // d = 0 has no place on a logarithmic axis.
-    smooth.x.push_back(std::max(k.distance_mm, 0.03));
+    smooth.x.push_back(std::max(k.distance_mm, kNearest_mm));
     smooth.y.push_back(k.r_per_mm2);
     smooth.y_std.push_back(1.96 * k.log_std * k.r_per_mm2);
   }
   Plot plot;
-  plot.title = "Recovered reflectance and the true dipole (the paper's figure 6)";
+  plot.title =
+      "Recovered reflectance and the true dipole (the paper's figure 6; d = 0 stands at 0.03 mm)";
   plot.x = {"distance [mm]", true, 0.025, 30.0};
   plot.y = {"r [1/mm^2]", true, 1e-7, 10.0};
   plot.series = {
@@ -181,7 +182,33 @@ Plot paper_reflectance_plot(const PaperBench& bench) {
       dipole_series("truth", bench.truth.sigma_s_prime_per_mm, bench.truth.sigma_a_per_mm),
       dipole_series(fmt::format("the paper's answer, {:.2f} / {:.3f}", paper.sigma_s_prime_per_mm,
                                 paper.sigma_a_per_mm),
-                    paper.sigma_s_prime_per_mm, paper.sigma_a_per_mm)};
+                    paper.sigma_s_prime_per_mm, paper.sigma_a_per_mm),
+      smooth};
+  return plot;
+}
+
+Plot paper_reflectance_ratio_plot(const PaperBench& bench) {
+  const Dipole truth({bench.truth.sigma_s_prime_per_mm, bench.truth.sigma_a_per_mm, kTruthEta});
+  const PaperAnswer& paper = best_of_paper(bench);
+  PlotSeries raw{fmt::format("pseudo-inverse, {:.2f} mm", paper.width_mm), Style::kPoints, {}, {}};
+  for (Eigen::Index i = 0; i < paper.r.size(); ++i) {
+    const double d = static_cast<double>(i) * paper.width_mm;
+    raw.x.push_back(std::max(d, kNearest_mm));
+    raw.y.push_back(paper.r[i] / truth.reflectance_per_mm2(d));
+  }
+  PlotSeries smooth{"recovered without a model, 95 % bars", Style::kPoints, {}, {}, {}};
+  for (const ReflectanceKnot& k : bench.smooth.knots) {
+    if (!k.determined) continue;
+    const double ratio = k.r_per_mm2 / truth.reflectance_per_mm2(k.distance_mm);
+    smooth.x.push_back(std::max(k.distance_mm, kNearest_mm));
+    smooth.y.push_back(ratio);
+    smooth.y_std.push_back(1.96 * k.log_std * ratio);
+  }
+  Plot plot;
+  plot.title = "Recovered reflectance over the true dipole (d = 0 stands at 0.03 mm)";
+  plot.x = {"distance [mm]", true, 0.025, 30.0};
+  plot.y = {"r / R", false, 0.5, 1.5};
+  plot.series = {raw, {"truth", Style::kLine, {0.025, 30.0}, {1.0, 1.0}, {}}, smooth};
   return plot;
 }
 
