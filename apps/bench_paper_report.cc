@@ -178,8 +178,7 @@ Plot paper_reflectance_plot(const PaperBench& bench) {
   plot.x = {"distance [mm]", true, 0.025, 30.0};
   plot.y = {"r [1/mm^2]", true, 1e-7, 10.0};
   plot.series = {
-      raw, smooth,
-      dipole_series("truth", bench.truth.sigma_s_prime_per_mm, bench.truth.sigma_a_per_mm),
+      raw, dipole_series("truth", bench.truth.sigma_s_prime_per_mm, bench.truth.sigma_a_per_mm),
       dipole_series(fmt::format("the paper's answer, {:.2f} / {:.3f}", paper.sigma_s_prime_per_mm,
                                 paper.sigma_a_per_mm),
                     paper.sigma_s_prime_per_mm, paper.sigma_a_per_mm),
