@@ -1,51 +1,14 @@
 #include <memory>
 #include <optional>
-#include <ostream>
 
+#include "apps/bench_commands.h"
 #include "apps/bench_noise.h"
 #include "apps/bench_rig.h"
-#include "apps/commands.h"
+#include "apps/bodies_rig.h"
 #include "apps/plastics_rig.h"
-#include "apps/plot.h"
-#include "apps/result_json.h"
 
 namespace scattermeter::apps {
-namespace {
-
-// What every bench takes.
-struct BenchOptions {
-  std::string out = "bench";
-  std::uint64_t seed = 1;
-  int image_width_px = 968;
-};
-
-// Tables first: they are there even where no picture can be drawn.
-class BenchFiles {
- public:
-  BenchFiles(const BenchOptions& options, CommandContext& context)
-      : out_(options.out), context_(context) {}
-  void table(const std::string& text) {
-    if (!context_.quiet) context_.out << text;
-  }
-  void csv(const std::string& name, const std::string& text) {
-    write_text_file(path(name + ".csv"), text);
-  }
-  void plot(const std::string& name, const Plot& plot) {
-    for (const char* extension : {".png", ".svg"}) write_plot(plot, path(name + extension));
-  }
-
- private:
-  std::string path(const std::string& name) {
-    const std::string path = out_ + "/" + name;
-    if (!context_.quiet) context_.out << "writing " << path << "\n";
-    return path;
-  }
-  std::string out_;
-  CommandContext& context_;
-};
-
-void add_noise_bench(CLI::App& bench, CommandContext& context,
-                     const std::shared_ptr<BenchOptions>& common) {
+void add_noise_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common) {
   struct Options {
     NoiseBenchOptions bench;
     std::string rig;
@@ -69,8 +32,8 @@ void add_noise_bench(CLI::App& bench, CommandContext& context,
   command->callback([options, common, &context] {
     context.chosen = [options, common, &context] {
       const bool own = options->rig.empty();
-      Rig rig = own ? plastics_rig(common->image_width_px) : read_rig(options->rig);
-      const ObjectScenes scenes = own ? plastics_scenes(rig) : open_objects(rig);
+      Rig rig = own ? plastics_rig(common->image_width_px.value_or(968)) : read_rig(options->rig);
+      const ObjectScenes scenes = own ? bodies_scenes(rig) : open_objects(rig);
       if (options->scale_std) rig.camera.responsivity_relative_std = *options->scale_std;
       options->bench.seed = common->seed;
       options->bench.quiet = context.quiet;
@@ -84,8 +47,7 @@ void add_noise_bench(CLI::App& bench, CommandContext& context,
   });
 }
 
-void add_rig_bench(CLI::App& bench, CommandContext& context,
-                   const std::shared_ptr<BenchOptions>& common) {
+void add_rig_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common) {
   const auto options = std::make_shared<RigBenchOptions>();
   CLI::App* command = bench.add_subcommand(
       "rig",
@@ -97,7 +59,7 @@ void add_rig_bench(CLI::App& bench, CommandContext& context,
   command->callback([options, common, &context] {
     context.chosen = [options, common, &context] {
       options->seed = common->seed;
-      options->image_width_px = common->image_width_px;
+      options->image_width_px = common->image_width_px.value_or(options->image_width_px);
       options->quiet = context.quiet;
       const RigBench result = bench_rig(*options);
       BenchFiles files(*common, context);
@@ -110,8 +72,6 @@ void add_rig_bench(CLI::App& bench, CommandContext& context,
   });
 }
 
-}  // namespace
-
 void add_bench_command(CLI::App& app, CommandContext& context) {
   const auto common = std::make_shared<BenchOptions>();
   CLI::App* bench = app.add_subcommand(
@@ -123,11 +83,14 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   bench->add_option("--seed", common->seed, "of all that is drawn")->capture_default_str();
   bench
       ->add_option("--image-width", common->image_width_px,
-                   "width in px of the simulated frames of a rig made in code")
-      ->check(CLI::Range(240, 3872))
-      ->capture_default_str();
+                   "width in px of the simulated frames of a rig made in code (default: 968; paper "
+                   "and patches: 3872)")
+      ->check(CLI::Range(240, 3872));
   add_noise_bench(*bench, context, common);
   add_rig_bench(*bench, context, common);
+  add_paper_bench(*bench, context, common);
+  add_patches_bench(*bench, context, common);
+  add_materials_bench(*bench, context, common);
 }
 
 }  // namespace scattermeter::apps

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "apps/bodies_rig.h"
 #include "apps/csv.h"
 #include "apps/instrument.h"
 #include "apps/plastics_rig.h"
@@ -126,7 +127,7 @@ RigBench bench_rig(const RigBenchOptions& options) {
     }
   }
   const Rig exact = plastics_rig(options.image_width_px);
-  const ObjectScenes scenes = plastics_scenes(exact);
+  const ObjectScenes scenes = bodies_scenes(exact);
   RigBench bench;
   AnswersByResult answers;
   Progress progress("draws", options.draws, options.quiet);

@@ -24,7 +24,7 @@ void list_inputs(const Rig& rig, const ObjectScenes& scenes, const std::vector<s
   for (const RigShot& shot : rig.shots) {
     for (const std::string& name : shot.lights) {
       const RigLight& light = rig.light(name);
-      if (light.environment && !light.is_ambient &&
+      if (light.environment && !light.is_ambient && !light.environment->image &&
           std::find(files.begin(), files.end(), light.environment->image_path) == files.end()) {
         files.push_back(light.environment->image_path);
       }

@@ -32,7 +32,8 @@ std::string quoted(const std::string& text) {
 std::string axis(const char* name, const PlotAxis& a) {
   const auto end = [](const std::optional<double>& v) { return v ? fmt::format("{}", *v) : "*"; };
   return fmt::format("set {0}label {1} noenhanced\n{2}set {0}range [{3}:{4}]\n", name,
-                     quoted(a.label), a.log ? fmt::format("set logscale {}\n", name) : "",
+                     quoted(a.label),
+                     a.log ? fmt::format("set logscale {0}\nset format {0} '%g'\n", name) : "",
                      end(a.min), end(a.max));
 }
 

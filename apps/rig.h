@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "calib/pose.h"
 #include "capture/noise_model.h"
 #include "capture/raw_frame.h"
+#include "core/environment.h"
 #include "core/led.h"
 #include "core/medium.h"
 #include "core/probe_projection.h"
@@ -62,6 +64,9 @@ struct RigObject {
 
 struct RigEnvironment {
   std::string image_path;
+  // Given: this picture instead of the file (a rig made in code); its own projection and rotation
+  // are not used.
+  std::shared_ptr<const Environment> image;
   ProbeProjection projection = ProbeProjection::kEquirectangular;
   Eigen::Quaterniond world_from_probe = Eigen::Quaterniond::Identity();
   Eigen::Array3d radiance_W_per_mm2_sr = Eigen::Array3d::Ones();  // of a probe value of 1

@@ -30,11 +30,15 @@ RigProbes open_probes(const Rig& rig) {
         continue;
       }
       try {
-        capture::ProbeImage image = capture::read_probe(light.environment->image_path);
         Environment environment;
-        environment.width_px = image.width_px;
-        environment.height_px = image.height_px;
-        environment.radiance = std::move(image.radiance);
+        if (light.environment->image) {
+          environment = *light.environment->image;
+        } else {
+          capture::ProbeImage image = capture::read_probe(light.environment->image_path);
+          environment.width_px = image.width_px;
+          environment.height_px = image.height_px;
+          environment.radiance = std::move(image.radiance);
+        }
         environment.projection = light.environment->projection;
         environment.world_from_probe = light.environment->world_from_probe;
         probes.try_emplace(name, std::move(environment));

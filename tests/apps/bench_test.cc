@@ -8,8 +8,11 @@
 #include "apps/answer_statistics.h"
 #include "apps/bench_noise.h"
 #include "apps/bench_rig.h"
+#include "apps/bodies.h"
+#include "apps/bodies_rig.h"
 #include "apps/plastics_rig.h"
 #include "apps/pull_plot.h"
+#include "apps/virtual_shots.h"
 #include "capture/obj_reader.h"
 #include "tests/apps/small_rig.h"
 
@@ -75,7 +78,23 @@ TEST(PlasticsRig, RefusesOtherWidths) {
   const Rig rig = plastics_rig(969);
   EXPECT_EQ(rig.camera.intrinsics.width_px, 968);
   EXPECT_EQ(rig.camera.intrinsics.height_px % 2, 0);
+  EXPECT_EQ(plastics_rig(3872).camera.intrinsics.height_px, 2592);
   EXPECT_EQ(rig.shots.size(), 12U);
+}
+
+// Both bodies are wholly in the frame, and nothing clips.
+TEST(PlasticsRig, ShowsAll) {
+  const Rig rig = plastics_rig(484);
+  const ObjectScenes scenes = bodies_scenes(rig);
+  const VirtualShots shots(rig, scenes, {.noise = false, .quiet = true});
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const LinearPicture& p = shots.picture(i);
+    EXPECT_GT(p.x0, 0);
+    EXPECT_GT(p.y0, 0);
+    EXPECT_LT(p.x0 + p.width, rig.camera.intrinsics.width_px);
+    EXPECT_LT(p.y0 + p.height, rig.camera.intrinsics.height_px);
+    EXPECT_LT(*std::max_element(p.counts.begin(), p.counts.end()), 3900.0F) << rig.shots[i].file;
+  }
 }
 
 // One material's shots of the small rig from files; few seeds.

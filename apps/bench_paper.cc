@@ -1,0 +1,142 @@
+#include "apps/bench_paper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/estimation_task.h"
+#include "apps/instrument.h"
+#include "apps/progress.h"
+#include "apps/pyramid_rig.h"
+#include "apps/shot_pose.h"
+#include "apps/virtual_shots.h"
+#include "core/dipole_curve.h"
+#include "core/dipole_fit.h"
+#include "core/quantised_system.h"
+#include "core/recovered_reflectance.h"
+#include "core/residual.h"
+#include "core/sky_probe.h"
+
+namespace scattermeter::apps {
+namespace {
+
+constexpr std::size_t kChannel = 1;  // G: half of the samples
+
+// scale * R on the knots.
+Eigen::VectorXd curve_of(const Estimate& e, const DistanceKnots& knots, double eta) {
+  const double sigma_t = e.sigma_s_prime_per_mm.value + e.sigma_a_per_mm.value;
+  return e.scale.value *
+         dipole_curve(knots, std::log(sigma_t), e.sigma_a_per_mm.value / sigma_t, eta).r;
+}
+
+template <class Value>
+double range(const PaperBench& bench, const Value& value) {
+  double low = value(bench.widths.front());
+  double high = low;
+  for (const PaperBenchRow& row : bench.widths) {
+    low = std::min(low, value(row));
+    high = std::max(high, value(row));
+  }
+  return high - low;
+}
+
+}  // namespace
+
+const std::vector<PublishedRow>& published_table2() {
+  static const std::vector<PublishedRow> rows = {
+      {0.05, 2.14, 0.000, 26.47}, {0.10, 2.20, 0.007, 42.12}, {0.15, 2.19, 0.004, 30.58},
+      {0.20, 2.19, 0.009, 33.47}, {0.25, 2.19, 0.005, 28.69}, {0.30, 2.32, 0.009, 29.78},
+      {0.35, 2.34, 0.009, 47.93}, {0.40, 2.22, 0.009, 25.76}, {0.45, 2.18, 0.009, 20.35},
+      {0.50, 2.40, 0.009, 23.43}};
+  return rows;
+}
+
+PaperBench bench_paper(const PaperBenchOptions& options) {
+  const Rig rig = pyramid_rig(
+      options.image_width_px,
+      options.probe ? options.probe : std::make_shared<const Environment>(make_sky_probe()));
+  const ObjectScenes scenes = pyramid_scenes(rig);
+  const VirtualShots shots(rig, scenes, {.noise = options.noise, .quiet = options.quiet});
+  const ShotSource source =
+      options.noise
+          ? shots_from(rig, all_shots(rig),
+                       FrameSource([&](std::size_t i) { return shots.frame(i, options.seed); }))
+          : shots_from(
+                rig, all_shots(rig), SampleSource([&](std::size_t i, const SampleMap& where) {
+                  return shots.ideal_samples(i, where.x0, where.y0, where.width, where.height);
+                }));
+  MeasureOptions measure_options;
+  measure_options.quiet = options.quiet;
+  PaperBench bench;
+  bench.truth = rig.truth_materials.begin()->second[kChannel];
+  {
+    Instrument instrument(rig, scenes, measure_options);
+    const Measurement m = instrument.measure(source);
+    bench.patch_mm = m.patch_size_mm.begin()->second;
+    bench.dipole = m.results.at(kChannel).estimate;
+  }
+  const calib::PoseResult pose = pose_from_points(rig);
+  ObjectLibrary library(rig, scenes, bench.patch_mm, 0.0);
+  const std::vector<OpenedShot> opened =
+      open_shots(rig, source, scenes, library, see_all(rig, scenes, library, pose), options.quiet);
+  const std::vector<Task> tasks = tasks_of(rig, opened);
+  const Task& task = tasks.at(kChannel);
+  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
+  Weights smooth;
+  add_weights(
+      opened, library, options.quiet,
+      [&](const SeenObject& seen, const SourceCloud& sources) {
+        return smooth_weights(seen.sites, sources, knots, pair_options(knots));
+      },
+      smooth);
+  DenseSystem system = system_of(rig, task, smooth);
+  bench.rows = static_cast<std::size_t>(system.l.size());
+  add_numerics(task.shots, task.channel, knots, curve_of(bench.dipole, knots, task.eta), system);
+  bench.smooth = smooth_reflectance(recover_reflectance(system), system.nuisances, knots);
+  DipoleFitOptions fit;
+  fit.eta_int_over_ext = task.eta;
+  Progress progress("widths", static_cast<int>(published_table2().size()), options.quiet);
+  for (const PublishedRow& published : published_table2()) {
+    PaperBenchRow row;
+    row.published = published;
+    const UniformBins bins(published.width_mm, library.longest_distance_mm());
+    Weights uniform;
+    add_weights(
+        opened, library, true,
+        [&](const SeenObject& seen, const SourceCloud& sources) {
+          return uniform_weights(seen.sites, sources, bins, pair_options(knots));
+        },
+        uniform);
+    const DenseSystem quantised = system_of(rig, task, uniform);
+    row.paper = solve_paper(quantised, published.width_mm, task.eta);
+    row.ours = fit_dipole(quantise(system, quantised.weights), knots, fit).estimate;
+    row.ours_psnr_db =
+        residual(system.l, system.weights * curve_of(row.ours, knots, task.eta), system.std_l)
+            .psnr_db;
+    bench.widths.push_back(std::move(row));
+    progress.step();
+  }
+  return bench;
+}
+
+WidthSpread paper_spread(const PaperBench& b) {
+  return {range(b, [](const PaperBenchRow& r) { return r.paper.sigma_s_prime_per_mm; }) /
+              b.truth.sigma_s_prime_per_mm,
+          range(b, [](const PaperBenchRow& r) { return r.paper.sigma_a_per_mm; }) /
+              b.truth.sigma_a_per_mm};
+}
+
+WidthSpread our_spread(const PaperBench& b) {
+  return {range(b, [](const PaperBenchRow& r) { return r.ours.sigma_s_prime_per_mm.value; }) /
+              b.truth.sigma_s_prime_per_mm,
+          range(b, [](const PaperBenchRow& r) { return r.ours.sigma_a_per_mm.value; }) /
+              b.truth.sigma_a_per_mm};
+}
+
+WidthSpread published_spread(const PaperBench& b) {
+  return {range(b, [](const PaperBenchRow& r) { return r.published.sigma_s_per_mm; }) /
+              b.truth.sigma_s_prime_per_mm,
+          range(b, [](const PaperBenchRow& r) { return r.published.sigma_a_per_mm; }) /
+              b.truth.sigma_a_per_mm};
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,62 @@
+#include <memory>
+
+#include "apps/bench_commands.h"
+#include "apps/bench_patches.h"
+#include "apps/bodies_rig.h"
+#include "apps/plastics_rig.h"
+#include "apps/pyramid_rig.h"
+#include "core/sky_probe.h"
+
+namespace scattermeter::apps {
+
+void add_patches_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common) {
+  struct Options {
+    PatchesBenchOptions bench;
+    std::string rig;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = bench.add_subcommand(
+      "patches",
+      "The patch size, on ideal samples (no noise, no rounding) of exact scale: what it alone does "
+      "to the answer.\n"
+      "patches.csv: scene, material, channel, patch_mm, rows (patches that took part), "
+      "samples_per_patch (of the channel), *_error (answer / truth - 1), *_std (stated, of the "
+      "truth), psnr_db of the re-rendering, seconds (all channels of the scene), refusal.");
+  command->add_option("--rig", options->rig,
+                      "rig file with truth (default: the paper's pyramid under a sky, and three "
+                      "plastics, cube and pyramid under two LEDs)");
+  command->add_option("--sizes", options->bench.sizes_mm, "patch sizes, mm")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->callback([options, common, &context] {
+    context.chosen = [options, common, &context] {
+      options->bench.quiet = context.quiet;
+      const int width_px = common->image_width_px.value_or(3872);
+      std::vector<PatchesBenchRow> rows;
+      const auto add = [&](const std::string& name, const Rig& rig, const ObjectScenes& scenes) {
+        const std::vector<PatchesBenchRow> more = bench_patches(name, rig, scenes, options->bench);
+        rows.insert(rows.end(), more.begin(), more.end());
+      };
+      if (options->rig.empty()) {
+        const Rig sky =
+            pyramid_rig(width_px, std::make_shared<const Environment>(make_sky_probe()));
+        add("sky", sky, pyramid_scenes(sky));
+        const Medium medium{2.19, 0.002, 1.0};
+        const Rig paper = bodies_rig(width_px, 1.3, {{"paper", {medium, medium, medium}}});
+        add("LEDs", paper, bodies_scenes(paper));
+        const Rig plastics = plastics_rig(width_px);
+        add("LEDs", plastics, bodies_scenes(plastics));
+      } else {
+        Rig rig = read_rig(options->rig);
+        rig.camera.responsivity_relative_std = 0.0;
+        add("rig", rig, open_objects(rig));
+      }
+      BenchFiles files(*common, context);
+      files.table(patches_bench_table(rows));
+      files.csv("patches", patches_bench_csv(rows));
+      return 0;
+    };
+  });
+}
+
+}  // namespace scattermeter::apps

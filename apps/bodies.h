@@ -1,0 +1,17 @@
+// Bodies to shoot, made in code.
+#pragma once
+
+#include "core/triangle_mesh.h"
+
+namespace scattermeter::apps {
+
+// Closed meshes on z = 0, centred on the z axis, sides along x and y.
+
+// A cube of 20 mm.
+TriangleMesh cube_mesh();
+// A square pyramid (base 16 mm, height 13 mm) on a pedestal of 22 x 22 x 7 mm.
+TriangleMesh pyramid_on_pedestal_mesh();
+// A square pyramid, base 20 mm, height 20 mm.
+TriangleMesh pyramid_mesh();
+
+}  // namespace scattermeter::apps
