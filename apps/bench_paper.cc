@@ -88,9 +88,12 @@ PaperBench bench_paper(const PaperBenchOptions& options) {
         return smooth_weights(seen.sites, sources, knots, pair_options(knots));
       },
       smooth);
-  DenseSystem system = system_of(rig, task, smooth);
+  const TaskRows rows = rows_of(rig, task);
+  const double mean_free_path_mm =
+      1.0 / (bench.dipole.sigma_s_prime_per_mm.value + bench.dipole.sigma_a_per_mm.value);
+  DenseSystem system = system_of(rig, task, rows, smooth, mean_free_path_mm);
   bench.rows = static_cast<std::size_t>(system.l.size());
-  add_numerics(task.shots, task.channel, knots, curve_of(bench.dipole, knots, task.eta), system);
+  add_numerics(knots, curve_of(bench.dipole, knots, task.eta), system);
   bench.smooth = smooth_reflectance(recover_reflectance(system), system.nuisances, knots);
   DipoleFitOptions fit;
   fit.eta_int_over_ext = task.eta;
@@ -106,7 +109,7 @@ PaperBench bench_paper(const PaperBenchOptions& options) {
           return uniform_weights(seen.sites, sources, bins, pair_options(knots));
         },
         uniform);
-    const DenseSystem quantised = system_of(rig, task, uniform);
+    const DenseSystem quantised = system_of(rig, task, rows, uniform, mean_free_path_mm);
     row.paper = solve_paper(quantised, published.width_mm, task.eta);
     row.ours = fit_dipole(quantise(system, quantised.weights), knots, fit).estimate;
     row.ours_psnr_db =
