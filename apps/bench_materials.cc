@@ -94,8 +94,9 @@ std::vector<MaterialsBenchRow> bench_materials(const std::vector<ListedMaterial>
     const ObjectScenes scenes = bodies_scenes(truth);
     const VirtualShots shots(truth, scenes, {.noise = true, .quiet = true});
     std::vector<capture::RawFrame> exposed(shots.size());
+    const std::uint64_t seed = generator();  // no two materials share their noise
     tbb::parallel_for(std::size_t{0}, shots.size(),
-                      [&](std::size_t i) { exposed[i] = shots.frame(i, options.seed); });
+                      [&](std::size_t i) { exposed[i] = shots.frame(i, seed); });
     const double z = normal(generator);
     for (double scale_std : options.scale_stds) {
       Rig told = truth;

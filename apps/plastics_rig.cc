@@ -19,7 +19,7 @@ Rig plastics_rig(int image_width_px) {
                         {"PE", medium({1.15, 1.32, 1.50}, {0.0016, 0.0013, 0.0026})},
                         {"POM", medium({2.19, 2.45, 2.70}, {0.0020, 0.0024, 0.0041})}});
   rig.path = "plastics_rig";
-  rig.camera.exposure_s = 0.1;
+  rig.camera.exposure_s = 0.085;
   return rig;
 }
 

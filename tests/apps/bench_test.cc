@@ -82,18 +82,22 @@ TEST(PlasticsRig, RefusesOtherWidths) {
   EXPECT_EQ(rig.shots.size(), 12U);
 }
 
-// Both bodies are wholly in the frame, and nothing clips.
+// Both bodies are wholly in the frame, and the brightest of the materials clips nowhere.
 TEST(PlasticsRig, ShowsAll) {
-  const Rig rig = plastics_rig(484);
+  Rig rig = plastics_rig(242);
+  std::erase_if(rig.shots, [](const RigShot& shot) { return shot.material != "POM"; });
   const ObjectScenes scenes = bodies_scenes(rig);
   const VirtualShots shots(rig, scenes, {.noise = false, .quiet = true});
+  ASSERT_EQ(shots.size(), 4U);
+  const int top = rig.camera.sensor.white_counts - rig.camera.sensor.black_counts[0];
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const LinearPicture& p = shots.picture(i);
     EXPECT_GT(p.x0, 0);
     EXPECT_GT(p.y0, 0);
     EXPECT_LT(p.x0 + p.width, rig.camera.intrinsics.width_px);
     EXPECT_LT(p.y0 + p.height, rig.camera.intrinsics.height_px);
-    EXPECT_LT(*std::max_element(p.counts.begin(), p.counts.end()), 3900.0F) << rig.shots[i].file;
+    // Room for the noise of the brightest sample, some 60 counts.
+    EXPECT_LT(*std::max_element(p.counts.begin(), p.counts.end()), top - 240) << rig.shots[i].file;
   }
 }
 
