@@ -199,13 +199,12 @@ DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
                                         options.eta_int_over_ext, options.scale, noise);
   RecoveredReflectance doubted = recovered;
   for (const auto& [doubt, name] : {std::pair{&doubts.scale, "scale"}, {&doubts.eta, "eta"}}) {
-    if (!(doubt->p_value < options.doubt_p_value)) continue;
+    if (!(doubt->p_value < options.misfit_p_value)) continue;
     doubted.sqrt_information.conservativeResize(Eigen::NoChange,
                                                 doubted.sqrt_information.cols() + 1);
     doubted.sqrt_information.rightCols(1) = doubt->push;
     nuisances.push_back({name, std::abs(doubt->offset), false});
-    if (doubt->p_value < options.misfit_p_value &&
-        doubt->image_relative > options.max_doubt_relative) {
+    if (doubt->image_relative > options.max_doubt_relative) {
       estimate.reasons.push_back(sentence("the shots contradict the ", name,
                                           " that the rig states: they would have it off by ",
                                           doubt->offset));

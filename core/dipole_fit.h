@@ -27,11 +27,10 @@ struct DipoleFitOptions {
   double misfit_p_value = 1e-6;
   double misfit_margin = 2.0;
   double max_misfit_relative = 2e-3;
-  // Where the image has the stated scale or eta off (core/doubtful_input.h) with less than this
-  // probability, the offset counts as an error of the method; with less than misfit_p_value, and by
-  // more than the last relative to the image, the answer is refused.
-  double doubt_p_value = 2.7e-3;
-  double max_doubt_relative = 5e-3;
+  // Where the image has the stated scale or eta off (core/doubtful_input.h), as significantly as
+  // that, the offset counts as an error of the method, and the answer is refused where it is more
+  // than the last relative to the image.
+  double max_doubt_relative = 1e-2;
   void Check() const;  // std::invalid_argument naming the field
 };
 
