@@ -144,8 +144,8 @@ void report_rows(const Task& task, const TaskRows& rows, ChannelResult& result) 
 
 PairSumOptions pair_options(const DistanceKnots& knots) {
   PairSumOptions options;
-  // The shortest mean free path that is answered for is two resolutions (fit_dipole); half of that
-  // keeps the near integral below 1e-5.
+  // The shortest mean free path that is answered for is five resolutions (fit_dipole); a fifth of
+  // that keeps the near integral below 1e-5.
   options.floor_mm = knots.resolution_mm();
   return options;
 }

@@ -71,10 +71,12 @@ void judge(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& o
            Estimate& e) {
   const double mfp_mm = std::exp(-p.u);
   if (!e.converged) e.reasons.push_back("the fit did not converge");
-  if (mfp_mm < 2.0 * knots.resolution_mm()) {
+  // Knots are a sixteenth of the patch apart at the source; over patches longer than three mean
+  // free paths the light bends more than their quadrature follows.
+  if (mfp_mm < 5.0 * knots.resolution_mm()) {
     e.reasons.push_back(sentence("the mean free path, ", mfp_mm,
                                  " mm, is too short for the patches: choose a patch size below ",
-                                 e.sigma_s_prime_per_mm.value > 0 ? 4.0 * mfp_mm : 0.0, " mm"));
+                                 3.0 * mfp_mm, " mm"));
   }
   if (mfp_mm > 0.5 * knots.max_distance_mm()) {
     e.reasons.push_back(

@@ -32,7 +32,7 @@ struct RowSelectionOptions {
 
 // Variances by the expected light instead of the measured one (which would favour rows that are
 // dark by chance), and rows deep in noise left out. `expected`: predicted l of the used rows, in
-// order.
+// order. To be called once: afterwards the variances are no longer those of the measured l.
 void expect(ChannelObservation& observation, const Eigen::VectorXd& expected,
             const RowSelectionOptions& options = {});
 
