@@ -45,13 +45,12 @@ std::string left_out(const Measurement& m) {
 
 // Materials whose shots do not tell the same.
 std::string agreement(const Measurement& m) {
-  constexpr double kByChance = 1e-3;
   std::string out;
   std::size_t compared = 0;
   for (const ChannelResult& r : m.results) {
     if (r.agreement.dof == 0) continue;
     ++compared;
-    if (r.agreement.p_value > kByChance) continue;
+    if (!r.agreement.disagree()) continue;
     out += fmt::format("note: {} {}: the shots do not agree (p = {:.1g}); uncertainties widened\n",
                        r.material, r.channel, r.agreement.p_value);
   }

@@ -123,9 +123,7 @@ double set_misfit(const RecoveredReflectance& recovered, const DenseSystem& syst
   const double dof = static_cast<double>(rank - 2 - (std::isfinite(scale.relative_std) ? 0 : 1) -
                                          static_cast<Eigen::Index>(unbound));
   if (!(dof > 0.0)) return 0.0;
-  const double rows = static_cast<double>(system.l.size());
-  const double noise =
-      std::max(1.0, recovered.floor_chi2 / std::max(1.0, rows - static_cast<double>(rank)));
+  const double noise = recovered.noise_excess();
   const double chi2 = p.cost / noise;
   estimate.misfit_p_value = chi_square_tail(chi2, dof);
   const double image = system.l.cwiseQuotient(system.std_l).squaredNorm() / noise;
@@ -195,10 +193,9 @@ DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
     }
   }
   // What the image says against the rig's statements widens the answer, or refuses it.
-  const double rows_left = static_cast<double>(system.l.size() - recovered.whitened.size());
-  const double noise = std::max(1.0, recovered.floor_chi2 / std::max(1.0, rows_left));
-  const Doubts doubts = doubtful_inputs(recovered, system.nuisances, knots, p,
-                                        options.eta_int_over_ext, options.scale, noise);
+  const Doubts doubts =
+      doubtful_inputs(recovered, system.nuisances, knots, p, options.eta_int_over_ext,
+                      options.scale, recovered.noise_excess());
   RecoveredReflectance doubted = recovered;
   for (const auto& [doubt, name] : {std::pair{&doubts.scale, "scale"}, {&doubts.eta, "eta"}}) {
     if (!(doubt->p_value < options.misfit_p_value)) continue;

@@ -10,11 +10,10 @@
 
 #include "core/disc_light.h"
 #include "core/lit_layer.h"
+#include "core/triangle_parts.h"
 
 namespace scattermeter {
 namespace {
-
-using Triangle = std::array<Eigen::Vector3d, 3>;
 
 // Of the irradiance in full light: how well it is linear on each part of a half shadow.
 constexpr double kHalfShadowError = 1e-3;
@@ -153,19 +152,13 @@ class Illuminator {
       lit += is_lit(corner + 0.02 * (center - corner), n, out) ? 1 : 0;
     }
     if (lit == 0 || lit == 4) return lit == 4 ? 1.0 : 0.0;
-    constexpr int kRows = 4;
     lit = 0;
-    for (int i = 0; i < kRows; ++i) {
-      for (int j = 0; j < kRows - i; ++j) {
-        // Upright part (i, j), and the inverted one beside it where there is one.
-        const auto at = [&](double u, double v) {
-          return (t[0] + u / kRows * (t[1] - t[0]) + v / kRows * (t[2] - t[0])).eval();
-        };
-        lit += is_lit(at(i + 1.0 / 3.0, j + 1.0 / 3.0), n, out) ? 1 : 0;
-        if (i + j + 1 < kRows) lit += is_lit(at(i + 2.0 / 3.0, j + 2.0 / 3.0), n, out) ? 1 : 0;
-      }
-    }
-    return static_cast<double>(lit) / (kRows * kRows);
+    int parts = 0;
+    for_16_parts(t, [&](const Eigen::Vector3d& p) {
+      lit += is_lit(p, n, out) ? 1 : 0;
+      ++parts;
+    });
+    return static_cast<double>(lit) / parts;
   }
 
   // Bisects at the longest edge.
@@ -176,15 +169,7 @@ class Illuminator {
       if (share > 0.0) append(t, n, k, share, out);
       return;
     }
-    int a = 0;
-    double longest = -1.0;
-    for (int i = 0; i < 3; ++i) {
-      const double length = (t[(i + 2) % 3] - t[(i + 1) % 3]).squaredNorm();
-      if (length > longest) {
-        longest = length;
-        a = i;
-      }
-    }
+    const std::size_t a = apex_of_longest_edge(t);
     const Eigen::Vector3d& pa = t[a];
     const Eigen::Vector3d& pb = t[(a + 1) % 3];
     const Eigen::Vector3d& pc = t[(a + 2) % 3];

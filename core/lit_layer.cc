@@ -4,22 +4,10 @@
 
 #include <Eigen/Geometry>
 
+#include "core/triangle_parts.h"
+
 namespace scattermeter {
 namespace {
-
-// Corner opposite the longest edge.
-std::size_t apex_of(const std::array<Eigen::Vector3d, 3>& t) {
-  std::size_t apex = 0;
-  double longest = -1.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double length = (t[(i + 2) % 3] - t[(i + 1) % 3]).squaredNorm();
-    if (length > longest) {
-      longest = length;
-      apex = i;
-    }
-  }
-  return apex;
-}
 
 // The two halves of a triangle, cut from `apex` to the middle of the opposite edge.
 std::array<LitTriangleRgb, 2> halves(const LitTriangleRgb& t, std::size_t apex,
@@ -41,19 +29,13 @@ Eigen::Array3d mean_of(const std::array<Eigen::Array3d, 3>& v) {
 // Mean over the centres of 16 equal parts.
 Eigen::Array3d mean_over(const std::array<Eigen::Vector3d, 3>& t,
                          const PointIrradiance& irradiance) {
-  constexpr int kRows = 4;
   Eigen::Array3d sum = Eigen::Array3d::Zero();
-  const auto at = [&](double u, double v) {
-    return irradiance(t[0] + u / kRows * (t[1] - t[0]) + v / kRows * (t[2] - t[0]));
-  };
-  for (int i = 0; i < kRows; ++i) {
-    for (int j = 0; j < kRows - i; ++j) {
-      // Upright part (i, j), and the inverted one beside it where there is one.
-      sum += at(i + 1.0 / 3.0, j + 1.0 / 3.0);
-      if (i + j + 1 < kRows) sum += at(i + 2.0 / 3.0, j + 2.0 / 3.0);
-    }
-  }
-  return sum / (kRows * kRows);
+  int parts = 0;
+  for_16_parts(t, [&](const Eigen::Vector3d& p) {
+    sum += irradiance(p);
+    ++parts;
+  });
+  return sum / parts;
 }
 
 void split_edged(const LitTriangleRgb& t, const PointIrradiance& irradiance,
@@ -61,7 +43,7 @@ void split_edged(const LitTriangleRgb& t, const PointIrradiance& irradiance,
                  std::vector<LitTriangleRgb>& out) {
   const auto& p = t.corners_mm;
   const auto& e = t.irradiance;
-  const std::size_t apex = apex_of(p);
+  const std::size_t apex = apex_of_longest_edge(p);
   const std::size_t b = (apex + 1) % 3;
   const std::size_t c = (apex + 2) % 3;
   const Eigen::Vector3d middle = 0.5 * (p[b] + p[c]);
@@ -95,7 +77,7 @@ void append_smooth(const LitTriangleRgb& patch, const PointIrradiance& irradianc
     out.push_back(patch);
     return;
   }
-  const std::size_t apex = apex_of(patch.corners_mm);
+  const std::size_t apex = apex_of_longest_edge(patch.corners_mm);
   const std::size_t b = (apex + 1) % 3;
   const std::size_t c = (apex + 2) % 3;
   const Eigen::Vector3d middle = 0.5 * (patch.corners_mm[b] + patch.corners_mm[c]);

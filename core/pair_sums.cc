@@ -4,29 +4,14 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "core/triangle_parts.h"
 
 namespace scattermeter {
 namespace {
 
-using Triangle = std::array<Eigen::Vector3d, 3>;
 using Density = std::array<double, 3>;
-
-// Cowper's six-point rule of degree 4 for triangles: two orbits of points with barycentric weights
-// (a, b, b) and its turns.
-struct Orbit {
-  double a;
-  double weight;
-  double b() const { return 0.5 * (1.0 - a); }
-};
-constexpr std::array<Orbit, 2> kCowper = {
-    {{0.108103018168070, 0.223381589678011}, {0.816847572980459, 0.109951743655322}}};
-
-double longest_edge_mm(const Triangle& t) {
-  return std::sqrt(std::max(
-      {(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}));
-}
 
 // Integral of density times f(|p - x|) over a triangle into bins; density is linear.
 template <class Bins>
@@ -40,7 +25,7 @@ class NearIntegral {
     const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
     const double distance = (center - p_).norm();
     if (edge <= options_.floor_mm || edge * options_.near_ratio <= distance) {
-      for (const Orbit& orbit : kCowper) {
+      for (const TriangleOrbit& orbit : kCowper) {
         const double b = orbit.b();
         for (int i = 0; i < 3; ++i) {
           const Eigen::Vector3d q = center + (orbit.a - b) * (t[i] - center);
@@ -68,58 +53,6 @@ class NearIntegral {
 };
 
 }  // namespace
-
-ExitSite exit_patch(const PatchMesh& patches, int patch_idx) {
-  const Triangle t = patches.corners_mm(patch_idx);
-  ExitSite site;
-  site.center_mm = (t[0] + t[1] + t[2]) / 3.0;
-  site.n_points = 6;
-  std::size_t at = 0;
-  for (const Orbit& orbit : kCowper) {
-    for (const Eigen::Vector3d& corner : t) {
-      site.points_mm[at] = site.center_mm + (orbit.a - orbit.b()) * (corner - site.center_mm);
-      site.weights[at++] = orbit.weight;
-    }
-  }
-  // A triangle's covariance is a twelfth of its corners' scatter about the centre.
-  for (const Eigen::Vector3d& p : t) {
-    site.covariance_mm2 += (p - site.center_mm) * (p - site.center_mm).transpose() / 12.0;
-  }
-  return site;
-}
-
-ExitSite exit_samples(const PatchMesh& patches, int patch_idx, const Eigen::Vector3d& mean_mm,
-                      const Eigen::Matrix3d& covariance_mm2) {
-  ExitSite site = exit_patch(patches, patch_idx);
-  // In the patch's plane, two axes along its edges.
-  const Triangle t = patches.corners_mm(patch_idx);
-  Eigen::Matrix<double, 3, 2> plane;
-  plane.col(0) = (t[1] - t[0]).normalized();
-  plane.col(1) = patches.normal(patch_idx).cross(plane.col(0));
-  const Eigen::Matrix2d from = plane.transpose() * site.covariance_mm2 * plane;
-  const Eigen::Matrix2d to = plane.transpose() * covariance_mm2 * plane;
-  if (!(to.determinant() > 1e-6 * to.trace() * to.trace())) return exit_point(mean_mm);
-  // The symmetric map that carries one covariance to the other (of all maps the one that moves
-  // points least): from^-1/2 (from^1/2 to from^1/2)^1/2 from^-1/2.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> root(from);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> inner(root.operatorSqrt() * to *
-                                                             root.operatorSqrt());
-  const Eigen::Matrix2d map =
-      root.operatorInverseSqrt() * inner.operatorSqrt() * root.operatorInverseSqrt();
-  for (Eigen::Vector3d& p : site.points_mm) {
-    p = mean_mm + plane * (map * (plane.transpose() * (p - site.center_mm)));
-  }
-  site.center_mm = mean_mm;
-  site.covariance_mm2 = plane * to * plane.transpose();
-  return site;
-}
-
-ExitSite moved(const ExitSite& site, const Eigen::Vector3d& by_mm) {
-  ExitSite out = site;
-  out.center_mm += by_mm;
-  for (int i = 0; i < out.n_points; ++i) out.points_mm[static_cast<std::size_t>(i)] += by_mm;
-  return out;
-}
 
 // Zeroth to second moment of entering power.
 struct SourceCloud::Moments {

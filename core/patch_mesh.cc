@@ -88,11 +88,6 @@ double PatchMesh::area_mm2(int patch) const {
   return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
 }
 
-double PatchMesh::longest_edge_mm(int patch) const {
-  const auto p = corners_mm(patch);
-  return std::max({(p[1] - p[0]).norm(), (p[2] - p[1]).norm(), (p[0] - p[2]).norm()});
-}
-
 PatchPoint PatchMesh::locate(int facet, const Eigen::Vector3d& barycentric) const {
   std::int32_t node = facet;
   Eigen::Vector3d w = barycentric;

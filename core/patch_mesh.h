@@ -39,7 +39,6 @@ class PatchMesh {
   const Eigen::Vector3d& normal(int patch) const { return facet_normal(facet_idx(patch)); }
   Eigen::Vector3d center_mm(int patch) const;
   double area_mm2(int patch) const;
-  double longest_edge_mm(int patch) const;
   double patch_size_mm() const { return size_mm_; }
 
   // The patch that holds a point of a facet. barycentric: weights of the facet's three vertices.

@@ -7,6 +7,11 @@
 
 namespace scattermeter {
 
+double RecoveredReflectance::noise_excess() const {
+  const double left = static_cast<double>(rows) - static_cast<double>(whitened.size());
+  return std::max(1.0, floor_chi2 / std::max(1.0, left));
+}
+
 Eigen::VectorXd RecoveredReflectance::values() const { return inverse * whitened; }
 
 RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_tolerance) {

@@ -24,6 +24,9 @@ struct RecoveredReflectance {
   Eigen::MatrixXd inverse;  // sqrt_information * inverse is the identity
   double floor_chi2 = 0;    // of the best r
   std::size_t rows = 0;     // rows of the image
+  // How much larger the variance of the rows is than stated, by what even the best r leaves; at
+  // least 1.
+  double noise_excess() const;
   // The r that fits best, 1/mm^2 on the knots; where several do, the shortest in the scaled metric.
   Eigen::VectorXd values() const;
 };

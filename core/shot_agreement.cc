@@ -97,8 +97,7 @@ ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& kno
 }
 
 void widen_by_disagreement(const ShotAgreement& agreement, Estimate& estimate) {
-  constexpr double kByChance = 1e-3;
-  if (agreement.dof == 0 || agreement.p_value > kByChance) return;
+  if (!agreement.disagree()) return;
   const double birge = std::sqrt(std::max(1.0, agreement.chi2 / agreement.dof));
   const double added = std::sqrt(birge * birge - 1.0);
   estimate.budget.push_back({"disagreement", added * estimate.sigma_s_prime_per_mm.std,

@@ -14,6 +14,8 @@ struct ShotAgreement {
   double chi2 = 0;
   int dof = 0;         // 0: a single shot, nothing to compare
   double p_value = 1;  // probability of at least this fall where the shots agree
+  // Shots that agree would fall so far less often than once in 1000.
+  bool disagree() const { return dof > 0 && p_value <= 1e-3; }
 };
 
 // Linearised at the joint optimum; chi-squares are divided by `noise_inflation`. The system's
@@ -22,9 +24,8 @@ ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& kno
                              const DipoleSolver::Point& joint, double eta_int_over_ext,
                              const ScalePrior& scale, double noise_inflation);
 
-// Widens deviations and intervals by sqrt(chi2 / dof) (Birge's ratio) where shots disagree that
-// would do so less often than once in 1000 by chance; a line "disagreement" in the budget says how
-// much that adds.
+// Widens deviations and intervals by sqrt(chi2 / dof) (Birge's ratio) where shots disagree; a line
+// "disagreement" in the budget says how much that adds.
 void widen_by_disagreement(const ShotAgreement& agreement, Estimate& estimate);
 
 }  // namespace scattermeter

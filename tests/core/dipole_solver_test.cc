@@ -7,33 +7,18 @@
 #include <gtest/gtest.h>
 
 #include "core/dipole_curve.h"
-#include "tests/core/half_lit_plate.h"
+#include "tests/core/plate_system.h"
 
 namespace scattermeter {
 namespace {
 
 using Coefficient = DipoleSolver::Coefficient;
 using Point = DipoleSolver::Point;
-using testing::HalfLitPlate;
+using testing::kEta;
 using testing::noisy_system;
+using testing::plate;
 
-constexpr double kEta = 1.3;
 const double kFree = std::numeric_limits<double>::infinity();
-
-struct Plate {
-  HalfLitPlate plate{1.0};
-  DistanceKnots knots = plate.knots();
-  WeightMatrix w = plate.weights(knots);
-  Eigen::VectorXd image(const Medium& medium) const {
-    const double t = medium.sigma_t_prime_per_mm();
-    return w * dipole_curve(knots, std::log(t), medium.sigma_a_per_mm / t, kEta).r;
-  }
-};
-
-const Plate& plate() {
-  static const Plate p;
-  return p;
-}
 
 DenseSystem drawn_system(const Medium& truth, double noise, unsigned seed, bool with_nuisance) {
   DenseSystem system = noisy_system(plate().w, plate().image(truth), noise, seed);

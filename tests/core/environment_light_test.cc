@@ -10,15 +10,12 @@
 #include "core/sky_probe.h"
 #include "tests/core/boxes.h"
 #include "tests/core/probes.h"
+#include "tests/core/total_power.h"
 
 namespace scattermeter {
 namespace {
 
-double total(const IncidentLight& light) {
-  double sum = 0.0;
-  for (double c : light.patch_power_sr) sum += c;
-  return sum;
-}
+using testing::total;
 
 // A convex body sees the whole probe from every facet: surface times the closed form, no ray.
 TEST(EnvironmentLight, ConvexBodyInAnEvenProbe) {

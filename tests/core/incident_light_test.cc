@@ -7,15 +7,12 @@
 
 #include "core/fresnel.h"
 #include "tests/core/boxes.h"
+#include "tests/core/total_power.h"
 
 namespace scattermeter {
 namespace {
 
-double total(const IncidentLight& light) {
-  double sum = 0.0;
-  for (double c : light.patch_power_sr) sum += c;
-  return sum;
-}
+using testing::total;
 
 // Without a boundary (eta 1) the power that enters a convex body is the intensity times the solid
 // angle it fills. A square of half-width a at distance h on the axis fills 4 asin(a^2 / (a^2 +

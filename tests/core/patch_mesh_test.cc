@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "core/triangle_parts.h"
 #include "tests/core/boxes.h"
 
 namespace scattermeter {
@@ -19,7 +20,7 @@ TEST(PatchMesh, KeepsAreaAndBounds) {
     for (int k = 0; k < patches.size(); ++k) {
       area += patches.area_mm2(k);
       EXPECT_LE(patches.area_mm2(k), size * size * (1 + 1e-12));
-      EXPECT_LE(patches.longest_edge_mm(k), 2.5 * size * (1 + 1e-12));
+      EXPECT_LE(longest_edge_mm(patches.corners_mm(k)), 2.5 * size * (1 + 1e-12));
     }
     for (int t = 0; t < 6; ++t) expected += area_vector_mm2(mesh, t).norm();
     EXPECT_NEAR(area, expected, 1e-9);
@@ -29,7 +30,8 @@ TEST(PatchMesh, KeepsAreaAndBounds) {
 // Needles keep to the limits and do not explode: bisection leaves about 3^n of them for n halvings.
 TEST(PatchMesh, CutsNeedlesWithinBounds) {
   const PatchMesh patches(testing::make_box({0, 0, 0}, {100, 0.5, 0.5}), 0.5);
-  for (int k = 0; k < patches.size(); ++k) EXPECT_LE(patches.longest_edge_mm(k), 1.25 + 1e-12);
+  for (int k = 0; k < patches.size(); ++k)
+    EXPECT_LE(longest_edge_mm(patches.corners_mm(k)), 1.25 + 1e-12);
   EXPECT_LT(patches.size(), 20'000);
 }
 

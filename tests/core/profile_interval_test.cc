@@ -8,32 +8,17 @@
 
 #include "core/dipole_curve.h"
 #include "core/fit_uncertainty.h"
-#include "tests/core/half_lit_plate.h"
+#include "tests/core/plate_system.h"
 
 namespace scattermeter {
 namespace {
 
 using Coefficient = DipoleSolver::Coefficient;
-using testing::HalfLitPlate;
+using testing::kEta;
 using testing::noisy_system;
+using testing::plate;
 
-constexpr double kEta = 1.3;
 constexpr double kRise95 = 3.841;
-
-struct Plate {
-  HalfLitPlate plate{1.0};
-  DistanceKnots knots = plate.knots();
-  WeightMatrix w = plate.weights(knots);
-  Eigen::VectorXd image(const Medium& medium) const {
-    const double t = medium.sigma_t_prime_per_mm();
-    return w * dipole_curve(knots, std::log(t), medium.sigma_a_per_mm / t, kEta).r;
-  }
-};
-
-const Plate& plate() {
-  static const Plate p;
-  return p;
-}
 
 struct Profiled {
   double sigma_s, sigma_a, std_s, std_a;

@@ -9,30 +9,15 @@
 
 #include "core/dipole_curve.h"
 #include "core/dipole_fit.h"
-#include "tests/core/half_lit_plate.h"
+#include "tests/core/plate_system.h"
 
 namespace scattermeter {
 namespace {
 
-using testing::HalfLitPlate;
+using testing::kEta;
+using testing::plate;
 
-constexpr double kEta = 1.3;
 const double kFree = std::numeric_limits<double>::infinity();
-
-struct Plate {
-  HalfLitPlate plate{1.0};
-  DistanceKnots knots = plate.knots();
-  WeightMatrix w = plate.weights(knots);
-  Eigen::VectorXd image(const Medium& medium) const {
-    const double t = medium.sigma_t_prime_per_mm();
-    return w * dipole_curve(knots, std::log(t), medium.sigma_a_per_mm / t, kEta).r;
-  }
-};
-
-const Plate& plate() {
-  static const Plate p;
-  return p;
-}
 
 // Shots of these media, with noise of 1 % a row, one below the other. Two nuisances move them all:
 // a tilt of the light along x that is fitted, and one in y that is not.

@@ -13,24 +13,13 @@
 
 #include "core/dipole_fit.h"
 #include "core/dipole_misfit.h"
-#include "tests/core/half_lit_plate.h"
+#include "tests/core/plate_system.h"
 
 namespace scattermeter {
 namespace {
 
-using testing::HalfLitPlate;
 using testing::noisy_system;
-
-struct Plate {
-  HalfLitPlate plate{1.0};
-  DistanceKnots knots = plate.knots();
-  WeightMatrix w = plate.weights(knots);
-};
-
-const Plate& plate() {
-  static const Plate p;
-  return p;
-}
+using testing::plate;
 
 // A material: a weighted sum of dipoles.
 struct Kernel {

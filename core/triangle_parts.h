@@ -1,0 +1,60 @@
+// Triangles: their longest edge, their equal parts, a rule to integrate over them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+namespace scattermeter {
+
+using Triangle = std::array<Eigen::Vector3d, 3>;
+
+inline double longest_edge_mm(const Triangle& t) {
+  return std::sqrt(std::max(
+      {(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}));
+}
+
+// Corner opposite the longest edge; of equals the first.
+inline std::size_t apex_of_longest_edge(const Triangle& t) {
+  std::size_t apex = 0;
+  double longest = -1.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double length = (t[(i + 2) % 3] - t[(i + 1) % 3]).squaredNorm();
+    if (length > longest) {
+      longest = length;
+      apex = i;
+    }
+  }
+  return apex;
+}
+
+// Calls `visit` with the centres of 16 equal parts.
+template <class Visit>
+void for_16_parts(const Triangle& t, const Visit& visit) {
+  constexpr int kRows = 4;
+  const auto at = [&](double u, double v) -> Eigen::Vector3d {
+    return t[0] + u / kRows * (t[1] - t[0]) + v / kRows * (t[2] - t[0]);
+  };
+  for (int i = 0; i < kRows; ++i) {
+    for (int j = 0; j < kRows - i; ++j) {
+      // Upright part (i, j), and the inverted one beside it where there is one.
+      visit(at(i + 1.0 / 3.0, j + 1.0 / 3.0));
+      if (i + j + 1 < kRows) visit(at(i + 2.0 / 3.0, j + 2.0 / 3.0));
+    }
+  }
+}
+
+// Cowper's six-point rule of degree 4: two orbits of points with barycentric weights (a, b, b) and
+// its turns.
+struct TriangleOrbit {
+  double a;
+  double weight;  // of each point; the six add up to 1
+  double b() const { return 0.5 * (1.0 - a); }
+};
+inline constexpr std::array<TriangleOrbit, 2> kCowper = {
+    {{0.108103018168070, 0.223381589678011}, {0.816847572980459, 0.109951743655322}}};
+
+}  // namespace scattermeter
