@@ -24,7 +24,7 @@ inline constexpr std::size_t kRowStates = 7;
 
 // One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), the mean over the samples of all
 // channels on the patch (those that SampleMap::mean_mm and spread_mm2 describe) of a quadratic
-// through the channel's own.
+// through the channel's own and those of the patches beside it (core/row_mean.h).
 struct ChannelObservation {
   std::vector<double> l;         // per row, W/mm^2 for known responsivity, else up to one factor
   std::vector<double> variance;  // of l, from the samples' variances

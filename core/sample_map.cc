@@ -9,6 +9,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/adjacent_rows.h"
 #include "core/fresnel.h"
 
 namespace scattermeter {
@@ -196,6 +197,8 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
       map.row_of_sample[i] = row_of_patch[static_cast<std::size_t>(patch_of_sample[i])];
     }
   }
+  map.adjacent_rows =
+      adjacent_rows(map.row_of_sample, map.width, map.height, map.patch_of_row.size());
   return map;
 }
 
