@@ -103,7 +103,7 @@ std::vector<Eigen::Array3d> dipole_radiosity(const std::vector<Eigen::Vector3d>&
 }
 
 double render_patch_size_mm(const std::array<Medium, 3>& media, double object_size_mm) {
-  return std::clamp(0.6 * shortest_mean_free_path_mm(media), object_size_mm / 250.0,
+  return std::clamp(0.45 * shortest_mean_free_path_mm(media), object_size_mm / 250.0,
                     object_size_mm / 40.0);
 }
 
