@@ -10,7 +10,7 @@ namespace {
 
 TEST(BodyPlanes, ABoxHasSixHoweverManyItsTriangles) {
   for (int levels : {0, 3}) {
-    const TriangleMesh box = testing::subdivided(testing::make_cube(), levels);
+    const TriangleMesh box = cut_finer(testing::make_cube(), levels);
     const BodyPlanes body = body_planes(box, 32);
     ASSERT_EQ(body.planes.size(), 6U);
     EXPECT_TRUE(body.convex);

@@ -47,7 +47,7 @@ TEST(PathBoundary, IsTight) {
   const TriangleMesh cube = testing::make_cube();
   expect_tight(cube, Method::kAuto, {1, 2, 10});
   expect_tight(cube, Method::kRays, {1, 2, 10});
-  expect_tight(testing::subdivided(cube, 4), Method::kRays, {1, 2, 10});
+  expect_tight(cut_finer(cube, 4), Method::kRays, {1, 2, 10});
   expect_tight(testing::make_sphere(10, 4), Method::kAuto, {1, 2, 3});
   expect_tight(testing::make_pyramid(8, 13), Method::kRays, {0.1, 0.2, 1});
 }
@@ -56,7 +56,7 @@ TEST(PathBoundary, IsTight) {
 // reflection there.
 TEST(PathBoundary, IsTightBesideEdges) {
   for (const auto method : {PathBoundary::Method::kAuto, PathBoundary::Method::kRays}) {
-    const RayScene scene(testing::subdivided(testing::make_cube(), 2));
+    const RayScene scene(cut_finer(testing::make_cube(), 2));
     const PathBoundary boundary(scene, method);
     RandomStream random(8, 0);
     for (int i = 0; i < 100'000; ++i) {

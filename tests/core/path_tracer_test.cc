@@ -77,7 +77,7 @@ TEST(PathTracer, FineTrianglesChangeNothing) {
   const TriangleMesh cube = testing::make_cube();
   const Result coarse = run(cube, medium, *source, 20, 200);
   const Result fine =
-      run(testing::subdivided(cube, 6), medium, *source, 20, 200, PathBoundary::Method::kRays);
+      run(cut_finer(cube, 6), medium, *source, 20, 200, PathBoundary::Method::kRays);
   // The same random numbers: paths part only where float and double fall on two sides of a step.
   EXPECT_NEAR(fine.audit.escaped, coarse.audit.escaped, 1e-3 * coarse.audit.escaped);
   EXPECT_NEAR(static_cast<double>(fine.audit.scatterings),
