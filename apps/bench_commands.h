@@ -39,6 +39,8 @@ void add_noise_bench(CLI::App& bench, CommandContext& context, const SharedBench
 void add_rig_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_paper_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_patches_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
+void add_transport_bench(CLI::App& bench, CommandContext& context,
+                         const SharedBenchOptions& common);
 void add_materials_bench(CLI::App& bench, CommandContext& context,
                          const SharedBenchOptions& common);
 

@@ -10,6 +10,7 @@
 #include "core/environment_light.h"
 #include "core/fresnel.h"
 #include "core/input_error.h"
+#include "core/volume_light.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -41,8 +42,13 @@ const std::array<Medium, 3>& truth_of(const Rig& rig, const RigShot& shot) {
 
 }  // namespace
 
-ShotRenderer::ShotRenderer(const Rig& rig, const ObjectScenes& scenes)
-    : rig_(rig), scenes_(scenes), probes_(open_probes(rig)), view_(true_view(rig)) {
+ShotRenderer::ShotRenderer(const Rig& rig, const ObjectScenes& scenes,
+                           const RenderTransport& transport)
+    : rig_(rig),
+      scenes_(scenes),
+      transport_(transport),
+      probes_(open_probes(rig)),
+      view_(true_view(rig)) {
   for (const RigShot& shot : rig.shots) truth_of(rig, shot);
   for (std::size_t p = 0; p < 4; ++p) {
     channel_of_phase_[p] = static_cast<int>(rig.camera.sensor.cfa.phase[p]);
@@ -55,9 +61,17 @@ ShotRenderer::Stage& ShotRenderer::stage(const std::string& object) {
     const ObjectScene& scene = scenes_.at(object);
     require_in_view(rig_, scenes_, view_, object);
     double patch_mm = scene.size_mm();
+    const auto patch_size_mm = [&](const std::array<Medium, 3>& media, double size_mm) {
+      if (!transport_.volume) return render_patch_size_mm(media, size_mm);
+      double shortest_mm = size_mm;
+      for (const Medium& m : media) {
+        shortest_mm = std::min(shortest_mm, 1.0 / m.sigma_t_prime_per_mm());
+      }
+      return volume_patch_size_mm(shortest_mm, size_mm);
+    };
     for (const RigShot& shot : rig_.shots) {
       if (shot.object == object) {
-        patch_mm = std::min(patch_mm, render_patch_size_mm(truth_of(rig_, shot), scene.size_mm()));
+        patch_mm = std::min(patch_mm, patch_size_mm(truth_of(rig_, shot), scene.size_mm()));
       }
     }
     Stage& s = it->second;
@@ -103,9 +117,43 @@ SurfaceField ShotRenderer::field(const RigShot& shot, Stage& s) const {
   return field;
 }
 
+SurfaceField ShotRenderer::volume_field(const RigShot& shot, Stage& s) {
+  const ObjectScene& scene = scenes_.at(shot.object);
+  const double eta = scene.rig->eta_int_over_ext;
+  if (!s.boundary) s.boundary = std::make_unique<PathBoundary>(*scene.rays);
+  if (s.boundary->body().planes.empty()) {
+    throw InputError(rig_.at(scene.rig->line) + ": objects." + shot.object,
+                     "has more than " + std::to_string(PathBoundary::kFewPlanes) +
+                         " planes; the volume is rendered for bodies of fewer only");
+  }
+  SurfaceField field(*s.patches, s.needed, smooth_parts(scene.mesh()));
+  for (const std::string& name : shot.lights) {
+    const RigLight& light = rig_.light(name);
+    std::vector<Eigen::Array3d> values(field.nodes_mm().size(), Eigen::Array3d::Zero());
+    for (int c = 0; c < 3; ++c) {
+      Medium reduced = truth_of(rig_, shot)[static_cast<std::size_t>(c)];
+      reduced.eta_int_over_ext = eta;
+      const ScatteringMedium medium = scattering_medium(reduced);
+      const std::unique_ptr<EntrySource> source =
+          light.environment ? environment_entry(*scene.rays, probes_.at(name).environment(), c, eta)
+                            : led_entry(*scene.rays, light.led, eta);
+      const CameraConnection camera(*s.boundary, view_.center_in_world_mm(), medium);
+      const VolumeLight l =
+          volume_radiosity(field, *s.patches, {*s.boundary, medium, *source, &camera},
+                           {transport_.seed * 1'000'003ULL + runs_++, transport_.paths});
+      monte_carlo_std_ = std::max(monte_carlo_std_, l.median_relative_std);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i][c] = light.power()[c] * l.l_at_nodes[i];
+      }
+    }
+    field.add(values);
+  }
+  return field;
+}
+
 RadiancePicture ShotRenderer::render(const RigShot& shot) {
   Stage& s = stage(shot.object);
-  const SurfaceField light = field(shot, s);
+  const SurfaceField light = transport_.volume ? volume_field(shot, s) : field(shot, s);
   const double eta = scenes_.at(shot.object).rig->eta_int_over_ext;
   const ShadeMap& pixels = *s.pixels;
   RadiancePicture out;

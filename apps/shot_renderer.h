@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -17,6 +18,7 @@
 #include "core/dipole_image.h"
 #include "core/incident_light.h"
 #include "core/patch_mesh.h"
+#include "core/path_boundary.h"
 #include "core/shade_map.h"
 
 namespace scattermeter::apps {
@@ -30,16 +32,29 @@ struct RadiancePicture {
   Eigen::Array3d brightest = Eigen::Array3d::Zero();
 };
 
-// Renders shots one by one, with the dipole; patches, pixels and light of an object are shared by
+// How light moves in the material.
+struct RenderTransport {
+  bool volume = false;  // the volumetric Monte Carlo (core/path_tracer.h); else the dipole
+  std::int64_t paths = 1'000'000;  // Monte Carlo: for each light of a shot and channel
+  std::uint64_t seed = 1;          // Monte Carlo
+};
+
+// Renders shots one by one; patches, pixels and light of an object are shared by
 // its shots. Rig and scenes must outlive it. Not for several threads at once (it uses all of them).
 class ShotRenderer {
  public:
-  // Throws InputError where the rig lacks a truth material or pose, or for a probe.
-  ShotRenderer(const Rig& rig, const ObjectScenes& scenes);
+  // Throws InputError where the rig lacks a truth material or pose, or for a probe; with the
+  // volume, for a body of more planes than connections to the camera take
+  // (core/camera_connection.h).
+  ShotRenderer(const Rig& rig, const ObjectScenes& scenes, const RenderTransport& transport = {});
 
   // Throws InputError when the object is out of view. The rectangle is the object's; with a board
   // in the shots, the frame.
   RadiancePicture render(const RigShot& shot);
+
+  // Monte Carlo error of the shots rendered so far: the largest, over shots, lights and channels,
+  // of the median relative deviation of a patch's light. 0 for the dipole.
+  double monte_carlo_std() const { return monte_carlo_std_; }
 
   int channel(int x, int y) const { return channel_of_phase_[cfa_phase(x, y)]; }
 
@@ -50,14 +65,19 @@ class ShotRenderer {
     std::unique_ptr<ShadeMap> pixels;
     std::vector<bool> needed;
     std::map<std::string, std::vector<IncidentLight>> lights;
+    std::unique_ptr<PathBoundary> boundary;  // volume only
   };
   Stage& stage(const std::string& object);
   std::vector<IncidentLight> light_on(const RigLight& light, const ObjectScene& scene,
                                       const PatchMesh& patches) const;
   SurfaceField field(const RigShot& shot, Stage& s) const;
+  SurfaceField volume_field(const RigShot& shot, Stage& s);
 
   const Rig& rig_;
   const ObjectScenes& scenes_;
+  RenderTransport transport_;
+  std::uint64_t runs_ = 0;  // of the Monte Carlo; each has a seed of its own
+  double monte_carlo_std_ = 0;
   RigProbes probes_;
   CameraView view_;
   std::array<int, 4> channel_of_phase_{};

@@ -10,21 +10,24 @@
 
 namespace scattermeter::apps {
 
-std::vector<std::string> simulate(const Rig& rig, const std::string& out_folder,
-                                  const SimulateOptions& options) {
+SimulatedShots simulate(const Rig& rig, const std::string& out_folder,
+                        const SimulateOptions& options) {
   const ObjectScenes scenes = open_objects(rig);
-  const VirtualShots shots(rig, scenes, {options.noise, options.quiet});
+  RenderTransport transport = options.transport;
+  transport.seed = options.seed;
+  const VirtualShots shots(rig, scenes, {options.noise, options.quiet, transport});
   std::error_code error;
   std::filesystem::create_directories(out_folder, error);
   if (error) throw InputError(out_folder, "the folder cannot be made: " + error.message());
   Progress progress("exposing", static_cast<int>(shots.size()), options.quiet);
-  std::vector<std::string> paths;
+  SimulatedShots made;
+  made.monte_carlo_std = shots.monte_carlo_std();
   for (std::size_t i = 0; i < shots.size(); ++i) {
-    paths.push_back((std::filesystem::path(out_folder) / rig.shots[i].file).string());
-    shots.write(i, options.seed, paths.back());
+    made.paths.push_back((std::filesystem::path(out_folder) / rig.shots[i].file).string());
+    shots.write(i, options.seed, made.paths.back());
     progress.step();
   }
-  return paths;
+  return made;
 }
 
 }  // namespace scattermeter::apps

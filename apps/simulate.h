@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/rig.h"
+#include "apps/shot_renderer.h"
 
 namespace scattermeter::apps {
 
@@ -13,12 +14,18 @@ struct SimulateOptions {
   std::uint64_t seed = 1;
   bool noise = true;
   bool quiet = false;
+  RenderTransport transport = {};  // its seed is the one above
+};
+
+struct SimulatedShots {
+  std::vector<std::string> paths;  // of the files
+  double monte_carlo_std = 0;      // see ShotRenderer
 };
 
 // Writes every shot of the rig (VirtualShots) as a 12-bit DNG into `out_folder`, made where
-// missing. Returns the paths written. Throws InputError for bad input; each file appears complete
+// missing. Throws InputError for bad input; each file appears complete
 // or not at all.
-std::vector<std::string> simulate(const Rig& rig, const std::string& out_folder,
-                                  const SimulateOptions& options);
+SimulatedShots simulate(const Rig& rig, const std::string& out_folder,
+                        const SimulateOptions& options);
 
 }  // namespace scattermeter::apps

@@ -1,3 +1,5 @@
+#include <cstdint>
+#include <iomanip>
 #include <memory>
 #include <ostream>
 
@@ -18,10 +20,19 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
       "The rig needs truth.materials; the exposure time is chosen where the rig has none.");
   command->add_option("RIG", options->rig, "rig file (YAML)")->required();
   command->add_option("--out", options->out, "folder for the raws; made where missing")->required();
-  command->add_option("--transport", options->transport, "how light moves in the material: dipole")
-      ->check(CLI::IsMember({"dipole"}))
+  command
+      ->add_option("--transport", options->transport,
+                   "how light moves in the material: dipole, or volume (Monte Carlo in the body's "
+                   "own shape)")
+      ->check(CLI::IsMember({"dipole", "volume"}))
       ->capture_default_str();
-  command->add_option("--seed", options->simulate.seed, "of the noise")->capture_default_str();
+  command->add_option("--seed", options->simulate.seed, "of the noise, and of the Monte Carlo")
+      ->capture_default_str();
+  command
+      ->add_option("--paths", options->simulate.transport.paths,
+                   "volume: light paths for each light of a shot and channel")
+      ->check(CLI::Range(std::int64_t{64}, std::int64_t{1'000'000'000'000}))
+      ->capture_default_str();
   command->add_option("--noise", options->noise, "on: photon and read noise; off: rounding only")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
@@ -29,10 +40,15 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
     context.chosen = [options, &context] {
       options->simulate.noise = options->noise == "on";
       options->simulate.quiet = context.quiet;
-      const std::vector<std::string> paths =
-          simulate(read_rig(options->rig), options->out, options->simulate);
+      options->simulate.transport.volume = options->transport == "volume";
+      const SimulatedShots made = simulate(read_rig(options->rig), options->out, options->simulate);
       if (!context.quiet) {
-        context.out << paths.size() << " shots written to " << options->out << "\n";
+        context.out << made.paths.size() << " shots written to " << options->out << "\n";
+        if (options->simulate.transport.volume) {
+          context.out << "Monte Carlo error of the light of a patch: " << std::setprecision(2)
+                      << 100.0 * made.monte_carlo_std
+                      << " % (median over the patches, of the worst shot and channel)\n";
+        }
       }
       return 0;
     };

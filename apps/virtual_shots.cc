@@ -6,7 +6,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/progress.h"
-#include "apps/shot_renderer.h"
 #include "capture/decoded_frame.h"
 #include "capture/ideal_samples.h"
 #include "capture/tone_curve.h"
@@ -23,7 +22,7 @@ std::uint64_t stream_of(std::uint64_t seed, std::size_t shot) { return seed * 1'
 VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& scenes,
                            const VirtualShotOptions& options)
     : rig_(rig), options_(options) {
-  ShotRenderer renderer(rig, scenes);
+  ShotRenderer renderer(rig, scenes, options.transport);
   Eigen::Array3d brightest = Eigen::Array3d::Zero();
   Progress progress("rendering", static_cast<int>(rig.shots.size()), options.quiet);
   for (const RigShot& shot : rig.shots) {
@@ -32,6 +31,7 @@ VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& scenes,
     pictures_.push_back({p.x0, p.y0, p.width, p.height, std::move(p.radiance)});
     progress.step();
   }
+  monte_carlo_std_ = renderer.monte_carlo_std();
   choose_exposure(brightest);
   for (std::size_t i = 0; i < size(); ++i) {
     LinearPicture& p = pictures_[i];

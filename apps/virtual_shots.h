@@ -8,6 +8,7 @@
 
 #include "apps/object_scene.h"
 #include "apps/rig.h"
+#include "apps/shot_renderer.h"
 #include "capture/dng_writer.h"
 #include "capture/raw_frame.h"
 #include "capture/sensor.h"
@@ -18,6 +19,7 @@ namespace scattermeter::apps {
 struct VirtualShotOptions {
   bool noise = true;  // off: rounding only
   bool quiet = false;
+  RenderTransport transport = {};
 };
 
 // Expected signal above black, counts, in the part of the frame where there is any.
@@ -29,7 +31,7 @@ struct LinearPicture {
 // Rig and scenes must outlive it. Everything const may be called from several threads at once.
 class VirtualShots {
  public:
-  // Renders every shot of the rig with the dipole on the rig's truth materials. The camera stands
+  // Renders every shot of the rig on the rig's truth materials. The camera stands
   // at truth.pose, or where the pose points put it. Without an exposure time in the rig one is
   // chosen for all shots so that the brightest sample reaches three quarters of the range; without
   // a responsivity 0.1 s is taken and the responsivity chosen instead. Throws InputError for what
@@ -37,6 +39,8 @@ class VirtualShots {
   VirtualShots(const Rig& rig, const ObjectScenes& scenes, const VirtualShotOptions& options);
 
   std::size_t size() const { return pictures_.size(); }
+  // See ShotRenderer.
+  double monte_carlo_std() const { return monte_carlo_std_; }
   double exposure_s(std::size_t shot) const { return exposure_s_.at(shot); }
   // Counts per (W/(mm^2 sr)) and second, the rig's or the one that was chosen.
   const std::array<double, 3>& responsivity() const { return responsivity_; }
@@ -68,6 +72,7 @@ class VirtualShots {
   std::vector<double> exposure_s_;
   std::array<double, 3> responsivity_{};
   double default_exposure_s_ = 0;
+  double monte_carlo_std_ = 0;
 };
 
 }  // namespace scattermeter::apps

@@ -23,18 +23,21 @@ double shortest_mean_free_path_mm(const std::array<Medium, 3>& media) {
 
 }  // namespace
 
-SurfaceField::SurfaceField(const PatchMesh& patches, const std::vector<bool>& needed)
+SurfaceField::SurfaceField(const PatchMesh& patches, const std::vector<bool>& needed,
+                           const std::vector<int>& part_of_facet)
     : node_of_patch_(static_cast<std::size_t>(patches.size()), {-1, -1, -1, -1, -1, -1}) {
   // A corner is the node (v, v), an edge's middle (v, w).
-  std::map<std::pair<int, int>, int> node_of;
+  std::map<std::pair<int, std::pair<int, int>>, int> node_of;
   for (int k = 0; k < patches.size(); ++k) {
     if (!needed[static_cast<std::size_t>(k)]) continue;
     const auto& v = patches.vertex_idx(k);
+    const int part =
+        part_of_facet.empty() ? 0 : part_of_facet[static_cast<std::size_t>(patches.facet_idx(k))];
     for (int i = 0; i < 6; ++i) {
       const int a = v[i % 3];
       const int b = i < 3 ? a : v[(i + 1) % 3];
       const auto [it, is_new] =
-          node_of.try_emplace(std::minmax(a, b), static_cast<int>(nodes_mm_.size()));
+          node_of.try_emplace({part, std::minmax(a, b)}, static_cast<int>(nodes_mm_.size()));
       if (is_new) {
         nodes_mm_.push_back(0.5 * (patches.vertices_mm()[static_cast<std::size_t>(a)] +
                                    patches.vertices_mm()[static_cast<std::size_t>(b)]));

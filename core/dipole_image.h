@@ -18,17 +18,23 @@ namespace scattermeter {
 class SurfaceField {
  public:
   // needed: patches on which eval() will be called; others stay undefined (NaN).
-  SurfaceField(const PatchMesh& patches, const std::vector<bool>& needed);
+  // part_of_facet: facets of different parts share no node, so that values may differ on the two
+  // sides of an edge between them; empty: all are one part.
+  SurfaceField(const PatchMesh& patches, const std::vector<bool>& needed,
+               const std::vector<int>& part_of_facet = {});
 
   const std::vector<Eigen::Vector3d>& nodes_mm() const { return nodes_mm_; }
+  // Nodes of a patch: corners 0 1 2, edge middles 01 12 20; -1 where it is not needed.
+  const std::array<int, 6>& nodes_of(int patch) const {
+    return node_of_patch_[static_cast<std::size_t>(patch)];
+  }
   // Adds values at the nodes, one Array3d each.
   void add(const std::vector<Eigen::Array3d>& values);
   Eigen::Array3d eval(const PatchPoint& at) const;
   Eigen::Array3d max() const;
 
  private:
-  std::vector<std::array<int, 6>>
-      node_of_patch_;  // corners 0 1 2, middles 01 12 20; -1: not needed
+  std::vector<std::array<int, 6>> node_of_patch_;
   std::vector<Eigen::Vector3d> nodes_mm_;
   std::vector<Eigen::Array3d> values_;
 };

@@ -70,6 +70,19 @@ RayHit RayScene::first_hit(const Eigen::Vector3d& origin_mm,
   const Eigen::Vector3d unit = direction / length;
   const double skip_mm = std::max(0.0, -from_center_mm.dot(unit) - 2.0 * size_mm_);
   const Eigen::Vector3d start_mm = from_center_mm + skip_mm * unit;
+  RayHit hit = hit_between(start_mm, unit, 0.0F, std::numeric_limits<float>::infinity());
+  if (hit.facet_idx >= 0) hit.distance = (skip_mm + hit.distance) / length;
+  return hit;
+}
+
+RayHit RayScene::first_hit_between(const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& unit,
+                                   double near_mm, double far_mm) const {
+  return hit_between(origin_mm - center_mm_, unit, static_cast<float>(near_mm),
+                     static_cast<float>(far_mm));
+}
+
+RayHit RayScene::hit_between(const Eigen::Vector3d& start_mm, const Eigen::Vector3d& unit,
+                             float near_mm, float far_mm) const {
   RTCRayHit query{};
   query.ray.org_x = static_cast<float>(start_mm.x());
   query.ray.org_y = static_cast<float>(start_mm.y());
@@ -77,8 +90,8 @@ RayHit RayScene::first_hit(const Eigen::Vector3d& origin_mm,
   query.ray.dir_x = static_cast<float>(unit.x());
   query.ray.dir_y = static_cast<float>(unit.y());
   query.ray.dir_z = static_cast<float>(unit.z());
-  query.ray.tnear = 0.0F;
-  query.ray.tfar = std::numeric_limits<float>::infinity();
+  query.ray.tnear = near_mm;
+  query.ray.tfar = far_mm;
   query.ray.mask = 0xFFFFFFFFU;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
@@ -95,7 +108,7 @@ RayHit RayScene::first_hit(const Eigen::Vector3d& origin_mm,
   const double v = query.hit.v;
   hit.facet_idx = static_cast<int>(query.hit.primID);
   hit.barycentric = {1.0 - u - v, u, v};
-  hit.distance = (skip_mm + static_cast<double>(query.ray.tfar)) / length;
+  hit.distance = static_cast<double>(query.ray.tfar);
   return hit;
 }
 

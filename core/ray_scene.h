@@ -30,6 +30,11 @@ class RayScene {
   // First facet that the ray meets; direction of any length.
   RayHit first_hit(const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction) const;
 
+  // First facet between two distances along a unit direction, in float throughout: for an origin
+  // within the object's bounds or near them.
+  RayHit first_hit_between(const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& unit,
+                           double near_mm, double far_mm) const;
+
   // Whether the open segment from a surface point to `target_mm` meets the mesh. The point is moved
   // 1e-5 of the object's size along `normal` first, so that its own facet does not count.
   bool occluded(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,
@@ -46,6 +51,9 @@ class RayScene {
 
  private:
   struct Embree;
+  // `start_mm`: relative to the centre, as in the next.
+  RayHit hit_between(const Eigen::Vector3d& start_mm, const Eigen::Vector3d& unit, float near_mm,
+                     float far_mm) const;
   bool occluded_between(const Eigen::Vector3d& start_mm, const Eigen::Vector3d& unit,
                         double distance_mm) const;
   TriangleMesh mesh_;

@@ -1,5 +1,6 @@
 #include "core/triangle_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -121,6 +122,36 @@ TriangleMesh merge_equal_vertices(const TriangleMesh& mesh) {
     for (int& i : t) i = new_idx[static_cast<std::size_t>(i)];
   }
   return merged;
+}
+
+TriangleMesh cut_finer(TriangleMesh mesh, int levels) {
+  for (; levels > 0; --levels) {
+    TriangleMesh finer;
+    finer.vertices_mm = mesh.vertices_mm;
+    std::map<std::pair<int, int>, int> middle_of;
+    const auto middle = [&](int a, int b) {
+      const auto key = std::minmax(a, b);
+      const auto [it, is_new] =
+          middle_of.try_emplace(key, static_cast<int>(finer.vertices_mm.size()));
+      if (is_new) {
+        finer.vertices_mm.emplace_back(0.5 *
+                                       (mesh.vertices_mm[static_cast<std::size_t>(key.first)] +
+                                        mesh.vertices_mm[static_cast<std::size_t>(key.second)]));
+      }
+      return it->second;
+    };
+    for (const auto& t : mesh.triangles) {
+      const int a = middle(t[0], t[1]);
+      const int b = middle(t[1], t[2]);
+      const int c = middle(t[2], t[0]);
+      finer.triangles.push_back({t[0], a, c});
+      finer.triangles.push_back({a, t[1], b});
+      finer.triangles.push_back({c, b, t[2]});
+      finer.triangles.push_back({a, b, c});
+    }
+    mesh = std::move(finer);
+  }
+  return mesh;
 }
 
 std::string mesh_problem(const TriangleMesh& original, const MeshCheckOptions& options) {

@@ -47,4 +47,7 @@ std::string mesh_problem(const TriangleMesh& mesh, const MeshCheckOptions& optio
 // The mesh with vertices at exactly the same place merged; triangles keep their order.
 TriangleMesh merge_equal_vertices(const TriangleMesh& mesh);
 
+// Every triangle cut into four at the middles of its edges, `levels` times over: the same surface.
+TriangleMesh cut_finer(TriangleMesh mesh, int levels);
+
 }  // namespace scattermeter

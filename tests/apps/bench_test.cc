@@ -8,6 +8,7 @@
 #include "apps/answer_statistics.h"
 #include "apps/bench_noise.h"
 #include "apps/bench_rig.h"
+#include "apps/bench_transport.h"
 #include "apps/bodies.h"
 #include "apps/bodies_rig.h"
 #include "apps/plastics_rig.h"
@@ -157,6 +158,24 @@ TEST(BenchRig, TwoDraws) {
   options.draws = 2;
   options.point_std_px = -1.0;
   EXPECT_THROW(bench_rig(options), std::invalid_argument);
+}
+
+TEST(BenchTransport, AuditsEveryRow) {
+  TransportBenchOptions options;
+  options.seconds = 0.01;
+  options.quiet = true;
+  const std::vector<TransportBenchRow> rows = bench_transport(options);
+  ASSERT_EQ(rows.size(), 22U);
+  EXPECT_EQ(rows.front().triangles, 12);
+  EXPECT_EQ(rows.back().triangles, 786432);
+  for (const TransportBenchRow& row : rows) {
+    EXPECT_LT(std::abs(row.audit_error), 1e-9);
+    EXPECT_EQ(row.lost_paths, 0);
+    EXPECT_GT(row.scatterings_per_s, 0.0);
+    // Between 0.952 and 0.967 with long runs.
+    EXPECT_NEAR(row.escaped, 0.96, 0.03);
+  }
+  EXPECT_THAT(transport_bench_csv(rows), HasSubstr("786432,rays,"));
 }
 
 TEST(BenchCommand, BadUsage) {

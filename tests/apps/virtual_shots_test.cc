@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/bodies_rig.h"
 #include "capture/raw_reader.h"
 #include "tests/apps/small_rig.h"
 
@@ -76,6 +77,33 @@ TEST_F(VirtualShotsTest, IdealSamplesAreTheSignal) {
   EXPECT_GT(brightest, 500.0);
   EXPECT_EQ(shots.exposure_s(0), 0.05);
   EXPECT_EQ(shots.responsivity()[1], 2.9e10);
+}
+
+// The Monte Carlo of the volume sees about what the dipole does, on a convex body and on one that
+// is not, says its error, and gives the same digits again.
+TEST(VirtualShots, OfTheVolume) {
+  const Medium medium{1.0, 0.02, 1.0};
+  const Rig rig = bodies_rig(240, 1.3, {{"M", {medium, medium, medium}}});
+  const ObjectScenes scenes = bodies_scenes(rig);
+  VirtualShotOptions options{.noise = false, .quiet = true};
+  const VirtualShots dipole(rig, scenes, options);
+  EXPECT_EQ(dipole.monte_carlo_std(), 0.0);
+  options.transport.volume = true;
+  options.transport.paths = 6400;
+  const VirtualShots volume(rig, scenes, options);
+  const VirtualShots again(rig, scenes, options);
+  EXPECT_GT(volume.monte_carlo_std(), 0.01);
+  EXPECT_LT(volume.monte_carlo_std(), 1.0);
+  for (std::size_t i = 0; i < volume.size(); ++i) {
+    // Of radiance: the exposure is each one's own.
+    const auto light = [&](const VirtualShots& shots) {
+      double sum = 0.0;
+      for (float c : shots.picture(i).counts) sum += c;
+      return sum / (shots.exposure_s(i) * shots.responsivity()[1]);
+    };
+    EXPECT_NEAR(light(volume) / light(dipole), 1.0, 0.25) << rig.shots[i].file;
+    EXPECT_EQ(volume.picture(i).counts, again.picture(i).counts);
+  }
 }
 
 }  // namespace

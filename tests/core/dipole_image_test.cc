@@ -62,7 +62,7 @@ TEST(DipoleImage, UnneededPatchesStayUndefined) {
 TEST(DipoleImage, PatchSizeFollowsTheMeanFreePath) {
   const std::array<Medium, 3> media = {Medium{4.0, 0, 1.3}, Medium{1.0, 0, 1.3},
                                        Medium{0.1, 0, 1.3}};
-  EXPECT_DOUBLE_EQ(render_patch_size_mm(media, 20.0), 0.15);
+  EXPECT_DOUBLE_EQ(render_patch_size_mm(media, 20.0), 0.1125);
   EXPECT_DOUBLE_EQ(render_patch_size_mm(media, 4.0), 0.1);
   EXPECT_DOUBLE_EQ(render_patch_size_mm(media, 80.0), 80.0 / 250.0);
 }

@@ -89,5 +89,13 @@ TEST(TriangleMesh, NamesWhatIsWrong) {
   EXPECT_THROW(bounds({}), std::invalid_argument);
 }
 
+TEST(TriangleMesh, CutFinerIsTheSameSurface) {
+  const TriangleMesh cube = testing::make_cube();
+  const TriangleMesh fine = cut_finer(cube, 3);
+  EXPECT_EQ(fine.triangles.size(), 64 * cube.triangles.size());
+  EXPECT_EQ(mesh_problem(fine), "");
+  EXPECT_NEAR(signed_volume_mm3(fine), signed_volume_mm3(cube), 1e-9);
+}
+
 }  // namespace
 }  // namespace scattermeter

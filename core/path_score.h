@@ -1,0 +1,46 @@
+// What a path tells of itself.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+namespace scattermeter {
+
+// A share of light at a place of the surface. Weighted by (sigma_s/sigma_s0)^scatterings
+// exp(-(sigma_t - sigma_t0) length_mm) it is that of a material of sigma_s and sigma_t, where the
+// path was drawn for sigma_s0 and sigma_t0 (same g and eta).
+struct PathScore {
+  Eigen::Vector3d point_mm;   // on the surface
+  Eigen::Vector3d direction;  // unit, outside, away from the surface
+  int facet_idx = -1;
+  double weight = 0;
+  int scatterings = 0;   // before it
+  double length_mm = 0;  // inside the body
+};
+
+// Power by fate, in the source's unit. entered = absorbed + escaped + roulette + lost to rounding.
+struct PathAudit {
+  double entered = 0;
+  double absorbed = 0;
+  double escaped = 0;
+  double roulette = 0;  // ended by roulette less what its survivors gained; 0 in the mean
+  double lost = 0;      // of paths found outside the body, or cut at max_scatterings
+  std::int64_t paths = 0;
+  std::int64_t lost_paths = 0;
+  std::int64_t scatterings = 0;
+
+  PathAudit& operator+=(const PathAudit& o) {
+    entered += o.entered;
+    absorbed += o.absorbed;
+    escaped += o.escaped;
+    roulette += o.roulette;
+    lost += o.lost;
+    paths += o.paths;
+    lost_paths += o.lost_paths;
+    scatterings += o.scatterings;
+    return *this;
+  }
+};
+
+}  // namespace scattermeter
