@@ -11,6 +11,7 @@
 #include "apps/virtual_shots.h"
 #include "core/dipole_curve.h"
 #include "core/dipole_fit.h"
+#include "core/numerics.h"
 #include "core/quantised_system.h"
 #include "core/recovered_reflectance.h"
 #include "core/residual.h"
@@ -93,7 +94,10 @@ PaperBench bench_paper(const PaperBenchOptions& options) {
       1.0 / (bench.dipole.sigma_s_prime_per_mm.value + bench.dipole.sigma_a_per_mm.value);
   DenseSystem system = system_of(rig, task, rows, smooth, mean_free_path_mm);
   bench.rows = static_cast<std::size_t>(system.l.size());
-  add_numerics(knots, curve_of(bench.dipole, knots, task.eta), system);
+  add_numerics(
+      knots, curve_of(bench.dipole, knots, task.eta), patch_size_mm(task),
+      {bench.dipole.sigma_s_prime_per_mm.value, bench.dipole.sigma_a_per_mm.value, task.eta},
+      system);
   bench.smooth = smooth_reflectance(recover_reflectance(system), system.nuisances, knots);
   DipoleFitOptions fit;
   fit.eta_int_over_ext = task.eta;

@@ -12,6 +12,7 @@
 #include "core/dipole_curve.h"
 #include "core/dipole_fit.h"
 #include "core/dipole_misfit.h"
+#include "core/numerics.h"
 #include "core/row_selection.h"
 #include "core/shot_agreement.h"
 #include "core/smooth_reflectance.h"
@@ -194,7 +195,8 @@ class DipoleEstimator {
         dipole_curve(knots_, std::log(sigma_t), first.sigma_a_per_mm.value / sigma_t, task.eta);
     add_nuisances(e_.rig, task.shots, work_[i].rows, task.channel, sensitivities_.of_task[i],
                   system);
-    add_numerics(knots_, first.scale.value * curve.r, system);
+    add_numerics(knots_, first.scale.value * curve.r, patch_size_mm(task),
+                 {first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, task.eta}, system);
     return system;
   }
 

@@ -7,6 +7,7 @@
 
 #include "apps/progress.h"
 #include "core/input_error.h"
+#include "core/numerics.h"
 #include "core/row_selection.h"
 
 namespace scattermeter::apps {
@@ -17,11 +18,8 @@ constexpr double kDarkSnr = 10.0;
 // A shot with more than this share of its patches clipped is over-exposed as a whole.
 constexpr double kClippedShare = 0.5;
 
-// Error of the predicted l by patches and pair sums: residuals of the sample's shots without noise,
-// for a patch as long as the mean free path; it grows as the square of their ratio.
-constexpr double kNumericalStd = 1e-4;
-constexpr double kLeastNumericalStd = 3e-5;
-constexpr double kFirstNumericalStd = 5e-4;  // while the material is not known
+// Error of the predicted l of a row while the material is not known.
+constexpr double kFirstNumericalStd = 5e-4;
 
 // About the mirror direction of a light: as wide as the gloss of a satin surface.
 constexpr double kMirrorConeRad = 0.17;
@@ -110,6 +108,14 @@ TaskRows rows_of(const Rig& rig, const Task& task) {
   return rows;
 }
 
+double patch_size_mm(const Task& task) {
+  double size_mm = 0.0;
+  for (const OpenedShot* shot : task.shots) {
+    size_mm = std::max(size_mm, shot->seen->patches->patch_size_mm());
+  }
+  return size_mm;
+}
+
 DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,
                       const Weights& weights, double mean_free_path_mm) {
   std::vector<LinearShot> shots;
@@ -117,9 +123,8 @@ DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,
     const OpenedShot* shot = task.shots[i];
     LinearShot linear{{}, &rows[i], kFirstNumericalStd};
     if (mean_free_path_mm > 0.0) {
-      const double ratio = shot->seen->patches->patch_size_mm() / mean_free_path_mm;
       linear.numerical_relative_std =
-          std::max(kLeastNumericalStd, kNumericalStd * std::min(ratio * ratio, 16.0));
+          row_numerics(shot->seen->patches->patch_size_mm(), mean_free_path_mm);
     }
     for (const std::string& light : shot->rig->lights) {
       const std::size_t own = rig.light(light).colours_differ() ? task.channel : 0;

@@ -46,6 +46,9 @@ using TaskRows = std::vector<ChannelObservation>;
 // As observed, without the rows that mirror a light into the camera.
 TaskRows rows_of(const Rig& rig, const Task& task);
 
+// Of the task's objects, the largest.
+double patch_size_mm(const Task& task);
+
 // The used rows under all their lights. `mean_free_path_mm`: of the material, for the error of
 // patches that are not small against it; 0: not known yet.
 DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,

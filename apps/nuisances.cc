@@ -252,36 +252,4 @@ void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
   }
 }
 
-void add_numerics(const DistanceKnots& knots, const Eigen::VectorXd& r, DenseSystem& system) {
-  // The forward model meets adaptive quadrature to 1e-5 in the mean over a cube
-  // (tests/core/pair_sums_test.cc), incident light and knots included.
-  constexpr double kRelativeStd = 1.5e-5;
-  const Eigen::Index first = system.nuisance_columns.cols();
-  const int octaves =
-      1 + static_cast<int>(std::log2(knots.max_distance_mm() / knots.resolution_mm()));
-  const Eigen::Index added = octaves + static_cast<Eigen::Index>(system.shot_rows.size());
-  system.nuisance_columns.conservativeResize(system.l.size(), first + added);
-  system.nuisance_columns.rightCols(added).setZero();
-  for (int o = 0; o < octaves; ++o) {
-    const double from_mm = o == 0 ? -1.0 : std::ldexp(knots.resolution_mm(), o);
-    const double to_mm = std::ldexp(knots.resolution_mm(), o + 1);
-    Eigen::VectorXd part = r;
-    for (Eigen::Index i = 0; i < part.size(); ++i) {
-      const double d = knots.knots_mm()[static_cast<std::size_t>(i)];
-      if (d < from_mm || d >= to_mm) part[i] = 0.0;
-    }
-    system.nuisance_columns.col(first + o) = system.weights * part;
-  }
-  const Eigen::VectorXd predicted = system.weights * r;
-  Eigen::Index row = 0;
-  for (std::size_t s = 0; s < system.shot_rows.size(); ++s) {
-    const Eigen::Index n = system.shot_rows[s];
-    system.nuisance_columns.col(first + octaves + static_cast<Eigen::Index>(s)).segment(row, n) =
-        predicted.segment(row, n);
-    row += n;
-  }
-  system.nuisances.insert(system.nuisances.end(), static_cast<std::size_t>(added),
-                          {"numerics", kRelativeStd, false});
-}
-
 }  // namespace scattermeter::apps

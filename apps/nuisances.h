@@ -73,10 +73,4 @@ void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
                    const std::vector<ChannelObservation>& rows, std::size_t channel,
                    const std::map<LightKey, TaskSensitivity>& sensitivities, DenseSystem& system);
 
-// Adds what discretisation may do to the prediction as a whole, which the independent error of each
-// row does not hold: a relative error of R that changes from one octave of distance to the next,
-// and one of the light in each shot. Group "numerics", not fitted. `r`: the first estimate of scale
-// * R on the knots.
-void add_numerics(const DistanceKnots& knots, const Eigen::VectorXd& r, DenseSystem& system);
-
 }  // namespace scattermeter::apps

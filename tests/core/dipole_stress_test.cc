@@ -1,6 +1,5 @@
 // The fit at the edges of what can be asked of it: no crash, no number that is not finite under an
 // answer that may be trusted, and no wrong answer under it.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -44,9 +43,12 @@ const Plate& evenly_lit() {
 
 std::string text(const Estimate& e) {
   char out[200];
-  std::snprintf(out, sizeof out, "sigma_s' %g +- %g, sigma_a %g +- %g, misfit %g (p %g)",
-                e.sigma_s_prime_per_mm.value, e.sigma_s_prime_per_mm.std, e.sigma_a_per_mm.value,
-                e.sigma_a_per_mm.std, e.misfit_relative, e.misfit_p_value);
+  std::snprintf(out, sizeof out,
+                "sigma_s' %g +- %g (%g .. %g), sigma_a %g +- %g (%g .. %g), misfit %g (p %g)",
+                e.sigma_s_prime_per_mm.value, e.sigma_s_prime_per_mm.std,
+                e.sigma_s_prime_per_mm.low95, e.sigma_s_prime_per_mm.high95, e.sigma_a_per_mm.value,
+                e.sigma_a_per_mm.std, e.sigma_a_per_mm.low95, e.sigma_a_per_mm.high95,
+                e.misfit_relative, e.misfit_p_value);
   return out;
 }
 
@@ -70,15 +72,13 @@ void expect_sound(const Estimate& e) {
 Estimate fitted(const DenseSystem& system, const DistanceKnots& knots, double scale_std) {
   DipoleFitOptions options;
   options.scale.relative_std = scale_std;
-  const auto start = std::chrono::steady_clock::now();
-  const Estimate e = fit_with_numerics(system, knots, options).estimate;
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+  const Estimate e = fit_with_numerics(system, knots, 1.0, options).estimate;
   expect_sound(e);
   return e;
 }
 
-// Every material, noise and scale prior; images by quadrature. Where light penetrates as deep as a
-// patch is wide, or deeper: below that the patches' own error exceeds what the numerics declare.
+// Every material, noise and scale prior; images by quadrature. From a third of a patch's width, the
+// shortest mean free path that is not refused, to longer than the body.
 class EveryMaterial : public ::testing::TestWithParam<std::tuple<bool, double>> {};
 
 TEST_P(EveryMaterial, IsRightOrRefused) {
@@ -107,7 +107,8 @@ TEST_P(EveryMaterial, IsRightOrRefused) {
 
 INSTANTIATE_TEST_SUITE_P(Lights, EveryMaterial,
                          ::testing::Combine(::testing::Bool(),
-                                            ::testing::Values(1.0, 3.0, 10.0, 20.0, 40.0)));
+                                            ::testing::Values(0.35, 0.5, 0.7, 1.0, 3.0, 10.0, 20.0,
+                                                              40.0)));
 
 // Patches far too coarse are noticed.
 TEST(DipoleStress, PatchesTooCoarseAreRefused) {
@@ -119,6 +120,15 @@ TEST(DipoleStress, PatchesTooCoarseAreRefused) {
                        .reasons.empty());
     }
   }
+}
+
+// So is light that is absorbed within a patch.
+TEST(DipoleStress, LightThatDiesWithinAPatchIsRefused) {
+  const Medium truth{0.6, 1.4, 1.3};
+  const Estimate e = fitted(noisy_system(half_lit().w, half_lit().plate.image(truth), 1e-4, 3),
+                            half_lit().knots, 0.02);
+  ASSERT_FALSE(e.reasons.empty());
+  EXPECT_NE(e.reasons.front().find("dies off within"), std::string::npos) << e.reasons.front();
 }
 
 // A scale that is stated as exact and is off. Half lit, the image knows better.

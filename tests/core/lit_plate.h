@@ -13,6 +13,7 @@
 #include "core/dipole_fit.h"
 #include "core/distance_weights.h"
 #include "core/linear_shot.h"
+#include "core/numerics.h"
 #include "tests/core/boxes.h"
 
 namespace scattermeter::testing {
@@ -162,31 +163,19 @@ class LitPlate {
   std::vector<int> rows_;
 };
 
-// What the instrument adds to the system before the fit that counts: errors of its own numerics
-// (2e-4 of every octave of distances and of the whole), held, from a first fit.
-inline DipoleFit fit_with_numerics(DenseSystem system, const DistanceKnots& knots,
+// As the instrument fits: with the errors of its own numerics, from a first fit.
+inline DipoleFit fit_with_numerics(DenseSystem system, const DistanceKnots& knots, double patch_mm,
                                    const DipoleFitOptions& options) {
   DipoleFit first = fit_dipole(system, knots, options);
   if (!first.estimate.converged) return first;
   const DipoleSolver::Point& p = first.optimum;
   const Eigen::VectorXd r =
       std::exp(p.log_s) * dipole_curve(knots, p.u, p.q, options.eta_int_over_ext).r;
-  const int octaves =
-      1 + static_cast<int>(std::log2(knots.max_distance_mm() / knots.resolution_mm()));
-  const Eigen::Index before = system.nuisance_columns.cols();
-  system.nuisance_columns.conservativeResize(system.l.size(), before + octaves + 1);
-  for (int o = 0; o < octaves; ++o) {
-    const double from = o == 0 ? -1.0 : std::ldexp(knots.resolution_mm(), o);
-    Eigen::VectorXd part = r;
-    for (Eigen::Index i = 0; i < part.size(); ++i) {
-      const double d = knots.knots_mm()[static_cast<std::size_t>(i)];
-      if (d < from || d >= std::ldexp(knots.resolution_mm(), o + 1)) part[i] = 0.0;
-    }
-    system.nuisance_columns.col(before + o) = system.weights * part;
-  }
-  system.nuisance_columns.col(before + octaves) = system.weights * r;
-  system.nuisances.insert(system.nuisances.end(), static_cast<std::size_t>(octaves) + 1,
-                          {"numerics", 2e-4, false});
+  system.std_l = (system.std_l.array().square() +
+                  (row_numerics(patch_mm, std::exp(-p.u)) * system.l.array()).square())
+                     .sqrt();
+  add_numerics(knots, r, patch_mm,
+               {p.sigma_s_prime_per_mm(), p.sigma_a_per_mm(), options.eta_int_over_ext}, system);
   return fit_dipole(system, knots, options);
 }
 
