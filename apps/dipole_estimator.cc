@@ -84,8 +84,9 @@ bool settled(const Estimate& before, const Estimate& after) {
 
 class DipoleEstimator {
  public:
-  explicit DipoleEstimator(Estimation& e)
+  DipoleEstimator(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems)
       : e_(e),
+        systems_(systems),
         knots_(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm()),
         work_(e.tasks.size()) {
     fit_.scale.relative_std = e.rig.camera.responsivity ? e.rig.camera.responsivity_relative_std
@@ -231,6 +232,7 @@ class DipoleEstimator {
     }
     report_rows(task, work_[i].rows, result);
     result.estimate = fit.estimate;
+    if (systems_ != nullptr) (*systems_)[i] = DipoleSystem{system, knots_, work_[i].rows};
     if (!fit.estimate.converged) return;
     SmoothReflectanceOptions smooth;
     smooth.scale = options.scale;
@@ -253,6 +255,7 @@ class DipoleEstimator {
   }
 
   Estimation& e_;
+  std::vector<std::optional<DipoleSystem>>* systems_;
   DistanceKnots knots_;
   DipoleFitOptions fit_;
   std::vector<Work> work_;
@@ -261,6 +264,8 @@ class DipoleEstimator {
 
 }  // namespace
 
-void estimate_dipole(Estimation& e) { DipoleEstimator(e).run(); }
+void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems) {
+  DipoleEstimator(e, systems).run();
+}
 
 }  // namespace scattermeter::apps

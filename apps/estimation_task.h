@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -79,7 +80,14 @@ void for_open_tasks(const std::string& label, const Estimation& e,
                     const std::function<void(std::size_t)>& work);
 
 // The estimators: fill the results' estimates.
-void estimate_dipole(Estimation& e);
+struct DipoleSystem {
+  DenseSystem system;
+  DistanceKnots knots;
+  TaskRows rows;
+};
+// systems: if given, what the last fit of every task that has one was made to.
+void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems = nullptr);
+void estimate_transport(Estimation& e);
 void estimate_paper(Estimation& e);
 
 }  // namespace scattermeter::apps

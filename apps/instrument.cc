@@ -76,6 +76,8 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
                         options_, watch, out.results};
   if (options_.model == Model::kPaper) {
     estimate_paper(estimation);
+  } else if (options_.model == Model::kTransport) {
+    estimate_transport(estimation);
   } else {
     estimate_dipole(estimation);
   }

@@ -44,7 +44,16 @@ bool Measurement::any_refused() const {
                      [](const ChannelResult& r) { return r.refused(); });
 }
 
-const char* model_name(Model model) { return model == Model::kPaper ? "paper" : "dipole"; }
+const char* model_name(Model model) {
+  switch (model) {
+    case Model::kPaper:
+      return "paper";
+    case Model::kTransport:
+      return "transport";
+    default:
+      return "dipole";
+  }
+}
 
 Measurement measure(const Rig& rig, const std::string& shots_folder,
                     const MeasureOptions& options) {

@@ -17,11 +17,12 @@
 
 namespace scattermeter::apps {
 
-enum class Model { kDipole, kPaper };
+enum class Model { kDipole, kPaper, kTransport };
 
 struct MeasureOptions {
   Model model = Model::kDipole;
   std::optional<double> patch_size_mm;  // of every object; else the rig's, else chosen
+  double time_limit_s = 60;             // --model transport: per material and channel
   bool quiet = false;
 };
 
@@ -46,6 +47,7 @@ struct ChannelResult {
   ShotAgreement agreement;                     // whether they tell the same
   std::optional<SmoothReflectance> recovered;  // r(d) without the dipole
   std::optional<DipoleMisfit> misfit;          // whether the dipole fits it
+  std::optional<Estimate> dipole;              // --model transport: what the dipole answers
   bool refused() const { return !estimate.reasons.empty(); }
 };
 

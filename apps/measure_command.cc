@@ -12,6 +12,7 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
   struct Options {
     std::string shots, rig, out = "result", model = "auto";
     double patch_mm = 0.0;
+    double time_limit_s = 60.0;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
@@ -26,20 +27,32 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
       ->required();
   command->add_option("--out", options->out, "folder for result.json")->capture_default_str();
   command
-      ->add_option("--model", options->model,
-                   "dipole: continuous fit with uncertainty; paper: quantised distances, "
-                   "pseudo-inverse and grid, for comparison; auto: the best that applies (dipole)")
-      ->check(CLI::IsMember({"auto", "dipole", "paper"}))
+      ->add_option(
+          "--model", options->model,
+          "dipole: continuous fit with uncertainty; transport: volume Monte Carlo, knows the "
+          "object's shape, bodies of at most 32 planes; paper: quantised distances, "
+          "pseudo-inverse and grid, for comparison; auto: the best that applies (dipole)")
+      ->check(CLI::IsMember({"auto", "transport", "dipole", "paper"}))
       ->capture_default_str();
   command
       ->add_option("--patch-size", options->patch_mm,
                    "edge of the surface patches in mm (default: the rig's, or object size / 50)")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option(
+          "--time-limit", options->time_limit_s,
+          "seconds that --model transport may take per material and channel; where they run out, "
+          "the digits depend on the machine's speed")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   command->callback([options, &context] {
     context.chosen = [options, &context] {
       const Rig rig = read_rig(options->rig);
       MeasureOptions measure_options;
-      measure_options.model = options->model == "paper" ? Model::kPaper : Model::kDipole;
+      measure_options.model = options->model == "paper"       ? Model::kPaper
+                              : options->model == "transport" ? Model::kTransport
+                                                              : Model::kDipole;
+      measure_options.time_limit_s = options->time_limit_s;
       measure_options.quiet = context.quiet;
       if (options->patch_mm > 0.0) measure_options.patch_size_mm = options->patch_mm;
       const Measurement measurement = measure(rig, options->shots, measure_options);

@@ -109,6 +109,13 @@ Json channel_json(const ChannelResult& r, Model model) {
   j["patches_left_out"] = left_out_json(r);
   j["shots"] = r.shots;
   if (!r.singles.empty()) j["agreement"] = singles_json(r);
+  if (r.dipole) {
+    const Estimate& d = *r.dipole;
+    j["dipole"] = {{"sigma_s_prime_per_mm", quantity(d.sigma_s_prime_per_mm, d.converged)},
+                   {"sigma_a_per_mm", quantity(d.sigma_a_per_mm, d.converged)},
+                   {"verdict", d.reasons.empty() ? "ok" : "refused"},
+                   {"reasons", d.reasons}};
+  }
   if (r.recovered) j["reflectance"] = reflectance_json(r);
   return j;
 }

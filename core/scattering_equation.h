@@ -1,0 +1,69 @@
+// The medium whose simulated image is the observed one.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/estimate.h"
+#include "core/linear_shot.h"
+#include "core/scattering_rows.h"
+
+namespace scattermeter {
+
+// Where the search stands. Domain: sigma_s > 0, sigma_a >= 0, scale > 0.
+struct ScatteringPoint {
+  double sigma_s_per_mm = 0;
+  double sigma_a_per_mm = 0;
+  double scale = 1;  // measured over predicted
+};
+
+// Z^T W (y - scale * m(point)) = 0, to be solved with noisy m. A least-squares fit would take
+// weights and derivatives from the same noisy paths as m, and be biased by it; here Z and W are
+// those of a pilot simulation that shares no path with m, so that the equation is linear in m, and
+// its root without bias to first order (PHYSICS: an estimating equation). W is the inverse of the
+// full covariance of the rows: their noise, the pilot's Monte Carlo variance, and the priors of the
+// nuisances.
+class ScatteringEquation {
+ public:
+  // pilot: image at `at`, rows as the system's (l for the shots' real lights: W/mm^2 at scale 1).
+  // monte_carlo: relative to the pilot's variance, the one expected of the m to come.
+  // Precondition: as many rows each (std::invalid_argument).
+  ScatteringEquation(const DenseSystem& system, const ScalePrior& scale,
+                     const ScatteringImage& pilot, const ScatteringPoint& at,
+                     double monte_carlo = 1.0);
+
+  // Unknowns x rows: Z^T W. Unknowns: log sigma_s, sigma_a, and log scale unless it is exact.
+  const Eigen::MatrixXd& projection() const { return projection_; }
+
+  struct Step {
+    ScatteringPoint to;
+    // Covariance of (log sigma_s, sigma_a[, log scale]) by cause: "noise", "Monte Carlo", "scale",
+    // the nuisances' groups.
+    struct Cause {
+      std::string name;
+      Eigen::MatrixXd covariance;
+    };
+    std::vector<Cause> causes;
+    Eigen::MatrixXd covariance;  // the sum
+    double change = 0;           // largest of |d log sigma_s|, |d log sigma_t|, |d log scale|
+  };
+  // One Newton step from `at`, m there, and the covariance of projection() * m at scale 1.
+  // A step is cut to a factor of 1.5 in sigma_s' and at sigma_a = 0.
+  Step step(const ScatteringImage& m, const Eigen::MatrixXd& projected_covariance,
+            const ScatteringPoint& at) const;
+
+  // Of the rows against `scale * m`, with the noise of both and the nuisances' priors.
+  double chi2(const ScatteringImage& m, const ScatteringPoint& at) const;
+
+ private:
+  Eigen::VectorXd solve_covariance(const Eigen::VectorXd& rows) const;
+  const DenseSystem& system_;
+  ScalePrior scale_;
+  Eigen::VectorXd row_variance_;  // noise and Monte Carlo
+  Eigen::MatrixXd nuisances_;     // columns times their standard deviations
+  Eigen::MatrixXd capacitance_;   // of Woodbury's identity, inverted
+  Eigen::MatrixXd projection_;
+};
+
+}  // namespace scattermeter
