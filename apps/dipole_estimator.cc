@@ -89,8 +89,7 @@ class DipoleEstimator {
         systems_(systems),
         knots_(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm()),
         work_(e.tasks.size()) {
-    fit_.scale.relative_std = e.rig.camera.responsivity ? e.rig.camera.responsivity_relative_std
-                                                        : std::numeric_limits<double>::infinity();
+    fit_.scale = scale_prior(e.rig);
   }
 
   // Without nuisances, to know the material that rows are weighed for and that the image's

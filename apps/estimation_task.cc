@@ -1,6 +1,7 @@
 #include "apps/estimation_task.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/core.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -106,6 +107,11 @@ TaskRows rows_of(const Rig& rig, const Task& task) {
     }
   }
   return rows;
+}
+
+ScalePrior scale_prior(const Rig& rig) {
+  if (!rig.camera.responsivity) return {std::numeric_limits<double>::infinity()};
+  return {rig.camera.responsivity_relative_std};
 }
 
 double patch_size_mm(const Task& task) {

@@ -79,13 +79,18 @@ struct Estimation {
 void for_open_tasks(const std::string& label, const Estimation& e,
                     const std::function<void(std::size_t)>& work);
 
-// The estimators: fill the results' estimates.
+// How well the rig knows the scale: free without a responsivity.
+ScalePrior scale_prior(const Rig& rig);
+
+// What the dipole was last fitted to.
 struct DipoleSystem {
   DenseSystem system;
   DistanceKnots knots;
   TaskRows rows;
 };
-// systems: if given, what the last fit of every task that has one was made to.
+
+// The estimators: fill the results' estimates. systems: if given, those of the tasks that came to a
+// fit.
 void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems = nullptr);
 void estimate_transport(Estimation& e);
 void estimate_paper(Estimation& e);

@@ -50,4 +50,11 @@ RigProbes open_probes(const Rig& rig) {
   return probes;
 }
 
+std::unique_ptr<EntrySource> entry_of(const std::string& name, const RigLight& light,
+                                      const RigProbes& probes, const RayScene& scene, int channel,
+                                      double eta_int_over_ext) {
+  if (!light.environment) return led_entry(scene, light.led, eta_int_over_ext);
+  return environment_entry(scene, probes.at(name).environment(), channel, eta_int_over_ext);
+}
+
 }  // namespace scattermeter::apps

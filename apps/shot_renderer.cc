@@ -134,9 +134,7 @@ SurfaceField ShotRenderer::volume_field(const RigShot& shot, Stage& s) {
       Medium reduced = truth_of(rig_, shot)[static_cast<std::size_t>(c)];
       reduced.eta_int_over_ext = eta;
       const ScatteringMedium medium = scattering_medium(reduced);
-      const std::unique_ptr<EntrySource> source =
-          light.environment ? environment_entry(*scene.rays, probes_.at(name).environment(), c, eta)
-                            : led_entry(*scene.rays, light.led, eta);
+      const auto source = entry_of(name, light, probes_, *scene.rays, c, eta);
       const CameraConnection camera(*s.boundary, view_.center_in_world_mm(), medium);
       const VolumeLight l =
           volume_radiosity(field, *s.patches, {*s.boundary, medium, *source, &camera},

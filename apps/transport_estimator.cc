@@ -12,7 +12,6 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -82,10 +81,8 @@ class TransportFit {
         if (known == lit_.end()) {
           LitView v{&seen, &light, nullptr, view->second.boundary.get(), &view->second.rows,
                     power, {}};
-          v.source = light.environment
-                         ? environment_entry(*seen.object->rays, probes.at(name).environment(),
-                                             static_cast<int>(task.channel), task.eta)
-                         : led_entry(*seen.object->rays, light.led, task.eta);
+          v.source = entry_of(name, light, probes, *seen.object->rays,
+                              static_cast<int>(task.channel), task.eta);
           lit_.push_back(std::move(v));
           known = std::prev(lit_.end());
         }
@@ -296,9 +293,7 @@ void estimate_transport(Estimation& e) {
   std::vector<std::optional<DipoleSystem>> systems(e.tasks.size());
   estimate_dipole(e, &systems);
   const RigProbes probes = open_probes(e.rig);
-  ScalePrior scale;
-  scale.relative_std = e.rig.camera.responsivity ? e.rig.camera.responsivity_relative_std
-                                                 : std::numeric_limits<double>::infinity();
+  const ScalePrior scale = scale_prior(e.rig);
   Progress progress("transport", static_cast<int>(e.tasks.size()), e.options.quiet);
   for (std::size_t i = 0; i < e.tasks.size(); ++i) {
     if (!systems[i]) continue;
