@@ -224,6 +224,7 @@ class DipoleEstimator {
     const Estimate first = result.estimate;
     const DipoleFitOptions options = options_of(task);
     DenseSystem system = full_system(i, first);
+    if (systems_ != nullptr) (*systems_)[i] = DipoleSystem{system, knots_, work_[i].rows};
     DipoleFit fit = fit_dipole(system, knots_, options);
     if (leave_outliers_out(system, fit, work_[i].rows)) {
       system = full_system(i, first);
@@ -231,7 +232,6 @@ class DipoleEstimator {
     }
     report_rows(task, work_[i].rows, result);
     result.estimate = fit.estimate;
-    if (systems_ != nullptr) (*systems_)[i] = DipoleSystem{system, knots_, work_[i].rows};
     if (!fit.estimate.converged) return;
     SmoothReflectanceOptions smooth;
     smooth.scale = options.scale;

@@ -82,7 +82,7 @@ void for_open_tasks(const std::string& label, const Estimation& e,
 // How well the rig knows the scale: free without a responsivity.
 ScalePrior scale_prior(const Rig& rig);
 
-// What the dipole was last fitted to.
+// What the dipole is fitted to, before it calls rows outliers.
 struct DipoleSystem {
   DenseSystem system;
   DistanceKnots knots;

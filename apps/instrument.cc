@@ -63,6 +63,7 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
     ChannelResult result;
     result.material = task.material;
     result.channel = kRgbName[task.channel];
+    result.model = options_.model == Model::kAuto ? Model::kDipole : options_.model;
     result.eta_int_over_ext = task.eta;
     for (const OpenedShot* shot : task.shots) {
       result.shots.push_back(shot->rig->file);
@@ -76,7 +77,7 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
                         options_, watch, out.results};
   if (options_.model == Model::kPaper) {
     estimate_paper(estimation);
-  } else if (options_.model == Model::kTransport) {
+  } else if (options_.model != Model::kDipole) {
     estimate_transport(estimation);
   } else {
     estimate_dipole(estimation);

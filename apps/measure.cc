@@ -44,6 +44,13 @@ bool Measurement::any_refused() const {
                      [](const ChannelResult& r) { return r.refused(); });
 }
 
+std::optional<DipoleDistance> dipole_distance(const ChannelResult& r) {
+  if (!r.dipole || !r.dipole->converged || !r.estimate.converged) return std::nullopt;
+  return DipoleDistance{
+      r.dipole->sigma_s_prime_per_mm.value / r.estimate.sigma_s_prime_per_mm.value - 1.0,
+      r.dipole->sigma_a_per_mm.value - r.estimate.sigma_a_per_mm.value};
+}
+
 const char* model_name(Model model) {
   switch (model) {
     case Model::kPaper:

@@ -17,12 +17,12 @@
 
 namespace scattermeter::apps {
 
-enum class Model { kDipole, kPaper, kTransport };
+enum class Model { kAuto, kDipole, kPaper, kTransport };
 
 struct MeasureOptions {
   Model model = Model::kDipole;
   std::optional<double> patch_size_mm;  // of every object; else the rig's, else chosen
-  double time_limit_s = 60;             // --model transport: per material and channel
+  double time_limit_s = 60;             // of transport: per material and channel
   bool quiet = false;
 };
 
@@ -36,18 +36,22 @@ struct ChannelResult {
   std::string material;
   char channel;  // 'R', 'G', 'B'
   double eta_int_over_ext;
+  Model model = Model::kDipole;  // that answers
   Estimate estimate;
   std::vector<std::string> shots;  // file names that took part
   // Patches, summed over the shots, by what kept them out (index: RowState; kUsed: in use), and
   // those that the silhouette, a crease or another part of the object hides in part.
   std::array<std::size_t, kRowStates> patches_by_state{};
   std::size_t patches_partly_seen = 0;
-  // --model dipole.
-  std::vector<ShotResult> singles;             // each shot alone; empty for a single shot
-  ShotAgreement agreement;                     // whether they tell the same
+  // Dipole and transport.
+  std::vector<ShotResult> singles;  // each shot alone; empty for a single shot
+  ShotAgreement agreement;          // whether they tell the same
+  // Of the dipole only.
   std::optional<SmoothReflectance> recovered;  // r(d) without the dipole
   std::optional<DipoleMisfit> misfit;          // whether the dipole fits it
-  std::optional<Estimate> dipole;              // --model transport: what the dipole answers
+  // Of transport only: what the dipole answers, and why --model auto did not leave it at that.
+  std::optional<Estimate> dipole;
+  std::string why_transport;
   bool refused() const { return !estimate.reasons.empty(); }
 };
 
@@ -67,6 +71,14 @@ struct Measurement {
 };
 
 const char* model_name(Model model);
+
+// How far the dipole's answer lies from transport's.
+struct DipoleDistance {
+  double sigma_s_prime_relative = 0;
+  double sigma_a_per_mm = 0;
+};
+// Empty where there are not two answers.
+std::optional<DipoleDistance> dipole_distance(const ChannelResult& result);
 
 // Throws InputError for bad input; nothing is written. A shot that is dark or clipped as a whole
 // refuses its material's channel and spoils nothing else.

@@ -30,8 +30,8 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
       ->add_option(
           "--model", options->model,
           "dipole: continuous fit with uncertainty; transport: volume Monte Carlo, knows the "
-          "object's shape, bodies of at most 32 planes; paper: quantised distances, "
-          "pseudo-inverse and grid, for comparison; auto: the best that applies (dipole)")
+          "object's shape; paper: quantised distances, pseudo-inverse and grid, for comparison; "
+          "auto: the dipole where the shots show that it holds, else transport")
       ->check(CLI::IsMember({"auto", "transport", "dipole", "paper"}))
       ->capture_default_str();
   command
@@ -39,10 +39,9 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
                    "edge of the surface patches in mm (default: the rig's, or object size / 50)")
       ->check(CLI::PositiveNumber);
   command
-      ->add_option(
-          "--time-limit", options->time_limit_s,
-          "seconds that --model transport may take per material and channel; where they run out, "
-          "the digits depend on the machine's speed")
+      ->add_option("--time-limit", options->time_limit_s,
+                   "seconds that transport may take per material and channel; where they run out, "
+                   "the digits depend on the machine's speed")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->callback([options, &context] {
@@ -51,7 +50,8 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
       MeasureOptions measure_options;
       measure_options.model = options->model == "paper"       ? Model::kPaper
                               : options->model == "transport" ? Model::kTransport
-                                                              : Model::kDipole;
+                              : options->model == "dipole"    ? Model::kDipole
+                                                              : Model::kAuto;
       measure_options.time_limit_s = options->time_limit_s;
       measure_options.quiet = context.quiet;
       if (options->patch_mm > 0.0) measure_options.patch_size_mm = options->patch_mm;

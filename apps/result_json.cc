@@ -46,7 +46,8 @@ Json left_out_json(const ChannelResult& r) {
           {"cut_at_zero", count(RowState::kFloor)},
           {"mirrors_a_light", count(RowState::kMirror)},
           {"deep_in_noise", count(RowState::kNoise)},
-          {"outlier", count(RowState::kOutlier)}};
+          {"outlier", count(RowState::kOutlier)},
+          {"at_an_edge", count(RowState::kEdge)}};
 }
 
 // Each shot alone, and whether they agree.
@@ -85,13 +86,13 @@ Json reflectance_json(const ChannelResult& r) {
   return j;
 }
 
-Json channel_json(const ChannelResult& r, Model model) {
+Json channel_json(const ChannelResult& r) {
   const Estimate& e = r.estimate;
   const bool known = e.converged;
   Json j;
   j["material"] = r.material;
   j["channel"] = std::string(1, r.channel);
-  j["model"] = model_name(model);
+  j["model"] = model_name(r.model);
   j["eta"] = r.eta_int_over_ext;
   j["sigma_s_prime_per_mm"] = quantity(e.sigma_s_prime_per_mm, known);
   j["sigma_a_per_mm"] = quantity(e.sigma_a_per_mm, known);
@@ -111,10 +112,15 @@ Json channel_json(const ChannelResult& r, Model model) {
   if (!r.singles.empty()) j["agreement"] = singles_json(r);
   if (r.dipole) {
     const Estimate& d = *r.dipole;
-    j["dipole"] = {{"sigma_s_prime_per_mm", quantity(d.sigma_s_prime_per_mm, d.converged)},
-                   {"sigma_a_per_mm", quantity(d.sigma_a_per_mm, d.converged)},
-                   {"verdict", d.reasons.empty() ? "ok" : "refused"},
-                   {"reasons", d.reasons}};
+    const std::optional<DipoleDistance> far = dipole_distance(r);
+    if (!r.why_transport.empty()) j["why_transport"] = r.why_transport;
+    j["dipole"] = {
+        {"sigma_s_prime_per_mm", quantity(d.sigma_s_prime_per_mm, d.converged)},
+        {"sigma_a_per_mm", quantity(d.sigma_a_per_mm, d.converged)},
+        {"verdict", d.reasons.empty() ? "ok" : "refused"},
+        {"reasons", d.reasons},
+        {"sigma_s_prime_off_relative", far ? number(far->sigma_s_prime_relative) : Json(nullptr)},
+        {"sigma_a_off_per_mm", far ? number(far->sigma_a_per_mm) : Json(nullptr)}};
   }
   if (r.recovered) j["reflectance"] = reflectance_json(r);
   return j;
@@ -125,7 +131,7 @@ Json channel_json(const ChannelResult& r, Model model) {
 std::string result_json(const Measurement& m, const std::string& command_line) {
   Json j;
   j["results"] = Json::array();
-  for (const ChannelResult& r : m.results) j["results"].push_back(channel_json(r, m.model));
+  for (const ChannelResult& r : m.results) j["results"].push_back(channel_json(r));
   j["patch_size_mm"] = Json::object();
   for (const auto& [object, size] : m.patch_size_mm) j["patch_size_mm"][object] = size;
   j["notes"] = m.notes;

@@ -36,7 +36,8 @@ std::string left_out(const Measurement& m) {
        {std::pair{RowState::kNoSamples, "without a sample of the colour"},
         std::pair{RowState::kClipped, "clipped"}, std::pair{RowState::kFloor, "cut at zero"},
         std::pair{RowState::kMirror, "mirror a light"},
-        std::pair{RowState::kNoise, "deep in noise"}, std::pair{RowState::kOutlier, "outliers"}}) {
+        std::pair{RowState::kNoise, "deep in noise"}, std::pair{RowState::kOutlier, "outliers"},
+        std::pair{RowState::kEdge, "at edges"}}) {
     const std::size_t n = sum[static_cast<std::size_t>(state)];
     if (n > 0) out += fmt::format(", {} {}", n, text);
   }
@@ -68,17 +69,31 @@ std::string result_table(const Measurement& m) {
                    {"sigma_a [1/mm]"},
                    {"residual"},
                    {"chi2/n"},
+                   {"model", Align::kLeft},
                    {"verdict", Align::kLeft}});
   std::string last;
   for (const ChannelResult& r : m.results) {
     const Estimate& e = r.estimate;
     const bool known = e.converged;
-    table.add_row(
-        {r.material == last ? "" : r.material, std::string(1, r.channel),
-         with_deviation(e.sigma_s_prime_per_mm, known), with_deviation(e.sigma_a_per_mm, known),
-         known ? fmt::format("{:.2f} %", 100.0 * e.rms_relative) : "-",
-         known ? fmt::format("{:.2f}", e.reduced_chi2) : "-", r.refused() ? "refused" : "ok"});
+    table.add_row({r.material == last ? "" : r.material, std::string(1, r.channel),
+                   with_deviation(e.sigma_s_prime_per_mm, known),
+                   with_deviation(e.sigma_a_per_mm, known),
+                   known ? fmt::format("{:.2f} %", 100.0 * e.rms_relative) : "-",
+                   known ? fmt::format("{:.2f}", e.reduced_chi2) : "-", model_name(r.model),
+                   r.refused() ? "refused" : "ok"});
     last = r.material;
+    if (!r.dipole) continue;
+    const Estimate& d = *r.dipole;
+    const std::optional<DipoleDistance> far = dipole_distance(r);
+    const std::string off =
+        far ? fmt::format("{:+.2g} %, {:+.1g} /mm", 100.0 * far->sigma_s_prime_relative,
+                          far->sigma_a_per_mm)
+            : "";
+    table.add_row({"", "", with_deviation(d.sigma_s_prime_per_mm, d.converged),
+                   with_deviation(d.sigma_a_per_mm, d.converged),
+                   d.converged ? fmt::format("{:.2f} %", 100.0 * d.rms_relative) : "-",
+                   d.converged ? fmt::format("{:.2f}", d.reduced_chi2) : "-", "(dipole)",
+                   off.empty() ? "refused" : off});
   }
   std::string out = table.text() + left_out(m) + agreement(m);
   for (const ChannelResult& r : m.results) {

@@ -11,196 +11,365 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
-#include <map>
-#include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <Eigen/SparseCore>
+#include <fmt/core.h>
+
 #include "apps/estimation_task.h"
+#include "apps/model_choice.h"
 #include "apps/progress.h"
 #include "apps/rig_probes.h"
-#include "core/camera_connection.h"
+#include "apps/task_simulation.h"
 #include "core/dipole_curve.h"
-#include "core/entry_source.h"
-#include "core/path_boundary.h"
+#include "core/excess_scatter.h"
+#include "core/lack_of_fit.h"
 #include "core/residual.h"
+#include "core/row_selection.h"
 #include "core/scattering_equation.h"
-#include "core/scattering_rows.h"
+#include "core/shot_agreement.h"
 
 namespace scattermeter::apps {
 namespace {
 
-// One light on one object, as the camera sees it.
-struct LitView {
-  const SeenObject* seen;
-  const RigLight* light;
-  std::unique_ptr<EntrySource> source;
-  const PathBoundary* boundary;
-  const ScatteringView* view;
-  double power;
-  // Rows of the task's system that it lights, and of the view's, side by side.
-  std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;
-};
+// Of the time for all, what rows err by with this many blocks.
+constexpr double kFinalBlocks = 512.0;
+constexpr std::size_t kLeastRows = 20;
+// Parts of a shot whose whole light is compared: at most 2^4, of this many patches at least.
+constexpr int kCellLevels = 4;
+constexpr int kCellRows = 12;
+// A misfit so improbable and so large that the answer is refused.
+constexpr double kMisfitPValue = 1e-6;
+constexpr double kMisfit = 0.01;
+// Rows farther off than this many robust deviations are dust and scratches. Renderings by Monte
+// Carlo have longer tails than the noise of a camera.
+constexpr double kOutlierStd = 8.0;
+
+const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
+                                     const std::string& cause) {
+  return std::find_if(step.causes.begin(), step.causes.end(),
+                      [&](const auto& c) { return c.name == cause; })
+      ->covariance;
+}
 
 // A material in a channel, on the way to its medium.
 class TransportFit {
  public:
-  TransportFit(const Rig& rig, const RigProbes& probes, const Task& task,
-               const DipoleSystem& dipole, const ScalePrior& scale, const MeasureOptions& options)
+  TransportFit(const Rig& rig, const RigProbes& probes, const Task& task, DipoleSystem dipole,
+               const ScalePrior& scale, const MeasureOptions& options)
       : task_(task),
-        system_(dipole.system),
         knots_(dipole.knots),
+        system_(std::move(dipole.system)),
+        rows_(std::move(dipole.rows)),
         scale_(scale),
-        options_(options) {
-    const TaskRows& rows = dipole.rows;
-    Eigen::Index at = 0;
-    for (std::size_t s = 0; s < task.shots.size(); ++s) {
-      const OpenedShot& shot = *task.shots[s];
-      const SeenObject& seen = *shot.seen;
-      const auto [view, is_new] = views_.try_emplace(&seen);
-      if (is_new) {
-        view->second.boundary = std::make_unique<PathBoundary>(*seen.object->rays);
-        view->second.rows = scattering_view(*seen.patches, seen.map.patch_of_row);
-      }
-      std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
-      for (std::size_t j = 0; j < rows[s].state.size(); ++j) {
-        if (rows[s].state[j] == RowState::kUsed) {
-          pairs.emplace_back(at++, static_cast<Eigen::Index>(j));
-        }
-      }
-      for (const std::string& name : shot.rig->lights) {
-        const RigLight& light = rig.light(name);
-        const double power = light.power()[static_cast<Eigen::Index>(task.channel)];
-        if (!(power > 0.0)) continue;
-        auto known = std::find_if(lit_.begin(), lit_.end(), [&](const LitView& v) {
-          return v.seen == &seen && v.light == &light;
-        });
-        if (known == lit_.end()) {
-          LitView v{&seen, &light, nullptr, view->second.boundary.get(), &view->second.rows,
-                    power, {}};
-          v.source = entry_of(name, light, probes, *seen.object->rays,
-                              static_cast<int>(task.channel), task.eta);
-          lit_.push_back(std::move(v));
-          known = std::prev(lit_.end());
-        }
-        known->rows.insert(known->rows.end(), pairs.begin(), pairs.end());
-      }
-    }
+        options_(options),
+        simulation_(rig, probes, task) {
+    // The image is that of whole patches.
+    keep([&](std::size_t shot, std::size_t row, Eigen::Index) {
+      return task_.shots[shot]->seen->map.guarded_of_row[row] == 0 ? RowState::kUsed
+                                                                   : RowState::kEdge;
+    });
   }
 
-  // Starts from `estimate` and replaces it.
-  void run(Estimate& estimate) {
-    for (const auto& [seen, view] : views_) {
-      if (!view.boundary->body().planes.empty()) continue;
-      estimate.reasons = {"transport is there for bodies of at most " +
-                          std::to_string(PathBoundary::kFewPlanes) + " planes; this one has more"};
-      return;
-    }
+  // Starts from the result's estimate and replaces it.
+  void run(ChannelResult& result) {
+    Estimate& estimate = result.estimate;
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     ScatteringPoint at{estimate.sigma_s_prime_per_mm.value, estimate.sigma_a_per_mm.value,
                        estimate.scale.value};
+    result.singles.clear();
+    result.agreement = {};
+    estimate.converged = false;
+    estimate.rows = static_cast<std::size_t>(system_.l.size());
+    if (estimate.rows < kLeastRows) {
+      refuse(result, fmt::format("only {} whole patches can be used, at least {} are needed",
+                                 estimate.rows, kLeastRows));
+      return;
+    }
     int blocks = 8;  // per light and view; more as the search closes in
-    Sums first = sums(Eigen::MatrixXd::Zero(0, system_.l.size()));
-    trace(first, at, blocks);
-    // Of the time for all, what rows err by with this many blocks.
-    constexpr double kFinalBlocks = 512.0;
-    ScatteringImage noisy = image(first);
+    TaskSimulation::Draw first = simulation_.draw(Eigen::MatrixXd::Zero(0, system_.l.size()));
+    simulation_.trace(first, at, blocks);
+    ScatteringImage noisy = simulation_.image(first);
     double traced = blocks;
+    bool outliers_known = false;
     constexpr int kRounds = 30;
     for (int round = 0; round < kRounds && seconds() < options_.time_limit_s; ++round) {
-      const ScatteringEquation equation(system_, scale_, smooth_pilot(noisy, at), at,
-                                        traced / kFinalBlocks);
+      Round r(*this, noisy, at, traced / kFinalBlocks);
       const double started_s = seconds();
-      Sums sum = sums(equation.projection());
-      trace(sum, at, blocks);
-      ScatteringEquation::Step step = equation.step(image(sum), covariance(sum), at);
+      TaskSimulation::Draw draw = simulation_.draw(r.projection());
+      simulation_.trace(draw, at, blocks);
+      r.take(draw);
       // Close enough for the paths drawn here to serve the root as well: as many as matter.
-      while (near(step) && !fine(step, at)) {
-        const int so_far = sum.per_view.front().blocks();
+      while (near(r.step) && !(fine(r.step, at) && draw.blocks() >= kLeastBlocks)) {
+        const int so_far = draw.blocks();
         const double per_block_s = (seconds() - started_s) / so_far;
         const int affordable = static_cast<int>((options_.time_limit_s - seconds()) / per_block_s);
         if (affordable < so_far / 8 + 1) break;
-        trace(sum, at, std::min(so_far, affordable));
-        step = equation.step(image(sum), covariance(sum), at);
+        simulation_.trace(draw, at, std::min(so_far, affordable));
+        r.take(draw);
       }
-      noisy = image(sum);
-      traced = sum.per_view.front().blocks();
-      if (near(step)) {
-        report(equation, noisy, step, at, estimate);
+      noisy = r.image;
+      traced = draw.blocks();
+      if (near(r.step)) {
+        const ScatteringPoint to = r.step.to;
+        if (!outliers_known && leave_outliers_out(r)) {
+          outliers_known = true;
+          at = to;
+          noisy = simulation_.image(draw);
+          continue;
+        }
+        report(r, result);
         return;
       }
-      if (step.change < 4.0 * std::sqrt(mc(step).maxCoeff()) || step.change < 0.2) blocks *= 2;
-      at = step.to;
+      if (r.step.change < 4.0 * std::sqrt(covariance_by(r.step, "Monte Carlo").maxCoeff()) ||
+          r.step.change < 0.2) {
+        blocks *= 2;
+      }
+      at = r.step.to;
     }
-    estimate.converged = false;
-    estimate.reasons = {"the search for the medium by transport did not converge in time"};
+    refuse(result, "the search for the medium by transport did not converge in time");
   }
 
  private:
-  struct View {
-    std::unique_ptr<PathBoundary> boundary;
-    ScatteringView rows;
+  static constexpr int kLeastBlocks = 64;  // for covariances of a shot's parts
+
+  // Shots with rows enough for an answer of their own.
+  struct Single {
+    std::size_t shot;
+    Eigen::Index first;  // row
+    DenseSystem system;
+    std::optional<ScatteringEquation> equation;
   };
-  struct Sums {
-    std::vector<ScatteringSum> per_view;
-    std::uint64_t seed = 0;
-  };
 
-  Sums sums(const Eigen::MatrixXd& projection) {
-    Sums out;
-    out.seed = 1000 * ++draws_;
-    for (const LitView& v : lit_) {
-      Eigen::MatrixXd own = Eigen::MatrixXd::Zero(projection.rows(), v.view->n_rows);
-      for (const auto& [row, view_row] : v.rows) own.col(view_row) += v.power * projection.col(row);
-      out.per_view.emplace_back(*v.view, own);
-    }
-    return out;
-  }
+  // One place of the search: equations for all shots and for each alone, and what paths drawn for
+  // them say.
+  struct Round {
+    const TransportFit& fit;
+    ScatteringPoint at;
+    ScatteringImage pilot;
+    ScatteringEquation joint;
+    std::vector<Single> singles;
+    ScatteringImage image;
+    Eigen::MatrixXd covariance;  // of projection() * image
+    // Over the Monte Carlo variance, what shots err by beyond their noise: among the rows, and in
+    // all.
+    double scatter_of_rows = 1;
+    double scatter = 1;
+    ScatteringEquation::Step step;
+    int blocks = 0;
 
-  void trace(Sums& sums, const ScatteringPoint& at, int blocks) {
-    const ScatteringMedium medium{at.sigma_s_per_mm, at.sigma_a_per_mm, 0.0, task_.eta};
-    for (std::size_t i = 0; i < lit_.size(); ++i) {
-      const LitView& v = lit_[i];
-      const CameraConnection camera(*v.boundary, v.seen->camera_center_mm, medium);
-      PathOptions options;
-      options.seed = sums.seed + i;
-      sums.per_view[i].trace({*v.boundary, medium, *v.source, &camera}, options, blocks);
-    }
-  }
-
-  ScatteringImage image(const Sums& sums) const {
-    ScatteringImage out;
-    const Eigen::Index n = system_.l.size();
-    out.l = out.per_log_sigma_s = out.per_sigma_a = out.variance = Eigen::VectorXd::Zero(n);
-    for (std::size_t i = 0; i < lit_.size(); ++i) {
-      const LitView& v = lit_[i];
-      const ScatteringImage own = sums.per_view[i].image();
-      for (const auto& [row, view_row] : v.rows) {
-        out.l[row] += v.power * own.l[view_row];
-        out.per_log_sigma_s[row] += v.power * own.per_log_sigma_s[view_row];
-        out.per_sigma_a[row] += v.power * own.per_sigma_a[view_row];
-        out.variance[row] += v.power * v.power * own.variance[view_row];
+    Round(const TransportFit& f, const ScatteringImage& noisy, const ScatteringPoint& place,
+          double monte_carlo)
+        : fit(f),
+          at(place),
+          pilot(f.smooth_pilot(noisy, place)),
+          joint(f.system_, f.scale_, pilot, place, monte_carlo) {
+      const std::vector<Eigen::Index>& shot_rows = f.system_.shot_rows;
+      Eigen::Index first = 0;
+      for (std::size_t s = 0; s < shot_rows.size() && shot_rows.size() > 1; ++s) {
+        if (shot_rows[s] >= static_cast<Eigen::Index>(kLeastRows))
+          singles.push_back({s, first, {}, {}});
+        first += shot_rows[s];
+      }
+      for (Single& single : singles) {
+        std::vector<Eigen::Index> rows(static_cast<std::size_t>(shot_rows[single.shot]));
+        std::iota(rows.begin(), rows.end(), single.first);
+        single.system = selected(f.system_, rows);
+        single.equation.emplace(single.system, f.scale_, part(pilot, single), place, monte_carlo);
       }
     }
-    return out;
-  }
+    // The equations hold on to what stands beside them.
+    Round(const Round&) = delete;
+    Round& operator=(const Round&) = delete;
 
-  static Eigen::MatrixXd covariance(const Sums& sums) {
-    Eigen::MatrixXd out = sums.per_view.front().projected_covariance();
-    for (std::size_t i = 1; i < sums.per_view.size(); ++i) {
-      out += sums.per_view[i].projected_covariance();
+    static ScatteringImage part(const ScatteringImage& m, const Single& single) {
+      const Eigen::Index n = single.system.l.size();
+      return {m.l.segment(single.first, n), m.per_log_sigma_s.segment(single.first, n),
+              m.per_sigma_a.segment(single.first, n), m.variance.segment(single.first, n)};
     }
-    return out;
+
+    Eigen::Index unknowns() const { return joint.projection().rows(); }
+    Eigen::Index first_cell() const {
+      return unknowns() * (1 + static_cast<Eigen::Index>(singles.size()));
+    }
+
+    // Of the joint answer, of each shot's own, and of the light of the shots' parts.
+    Eigen::MatrixXd projection() const {
+      Eigen::MatrixXd all =
+          Eigen::MatrixXd::Zero(first_cell() + fit.cells_.rows(), fit.system_.l.size());
+      all.topRows(unknowns()) = joint.projection();
+      for (std::size_t i = 0; i < singles.size(); ++i) {
+        const Eigen::MatrixXd& own = singles[i].equation->projection();
+        all.block(static_cast<Eigen::Index>(i + 1) * unknowns(), singles[i].first, unknowns(),
+                  own.cols()) = own;
+      }
+      all.bottomRows(fit.cells_.rows()) = fit.cells_;
+      return all;
+    }
+
+    void take(const TaskSimulation::Draw& draw) {
+      image = fit.simulation_.image(draw);
+      covariance = TaskSimulation::covariance(draw);
+      blocks = draw.blocks();
+      const Eigen::MatrixXd own = covariance.topLeftCorner(unknowns(), unknowns());
+      step = joint.step(image, own, at);
+      scatter_of_rows =
+          excess_scatter(joint.without_nuisances(joint.residual(image, at, step.to)),
+                         fit.system_.std_l.cwiseAbs2(), at.scale * at.scale * image.variance,
+                         joint.row_variance().cwiseInverse());
+      scatter = scatter_of_rows;
+      // What has been smoothed, as renderings are, scatters less from row to row than from part to
+      // part.
+      for (int i = 0; blocks >= kLeastBlocks && i < 4; ++i) {
+        const LackOfFit parts = misfit(scatter);
+        if (parts.dof > 0.0) scatter = std::max(scatter_of_rows, scatter * parts.chi2 / parts.dof);
+      }
+      step = joint.step(image, own, at, scatter);
+    }
+
+    ScatteringEquation::Step step_of(std::size_t i) const {
+      const Eigen::Index first = static_cast<Eigen::Index>(i + 1) * unknowns();
+      return singles[i].equation->step(part(image, singles[i]),
+                                       covariance.block(first, first, unknowns(), unknowns()), at,
+                                       scatter);
+    }
+
+    // Between the answers of all shots, from what they share.
+    ShotAgreement agreement(const std::vector<ScatteringEquation::Step>& steps) const {
+      const auto n = static_cast<Eigen::Index>(steps.size());
+      Eigen::VectorXd answers(2 * n);
+      Eigen::MatrixXd all(2 * n, 2 * n);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const auto& a = steps[static_cast<std::size_t>(i)];
+        answers.segment<2>(2 * i) = a.move.head<2>();
+        all.block<2, 2>(2 * i, 2 * i) = a.covariance.topLeftCorner<2, 2>();
+        for (Eigen::Index k = 0; k < i; ++k) {
+          const auto& b = steps[static_cast<std::size_t>(k)];
+          // Shots under the same light share paths.
+          const Eigen::MatrixXd paths =
+              at.scale * at.scale *
+              covariance.block((i + 1) * unknowns(), (k + 1) * unknowns(), unknowns(), unknowns());
+          const Eigen::MatrixXd shared =
+              a.pushes * b.pushes.transpose() + a.inverse * paths * b.inverse.transpose();
+          all.block<2, 2>(2 * i, 2 * k) = shared.topLeftCorner<2, 2>();
+          all.block<2, 2>(2 * k, 2 * i) = shared.topLeftCorner<2, 2>().transpose();
+        }
+      }
+      return agreement_of(answers, all);
+    }
+
+    // Of the light of the shots' parts, with free coefficients.
+    LackOfFit misfit(double expected_scatter) const {
+      const Eigen::Index n = fit.cells_.rows();
+      const Eigen::VectorXd rest = fit.cells_ * joint.residual(image, at, step.to);
+      const Eigen::MatrixXd noise =
+          fit.cells_ * fit.system_.std_l.cwiseAbs2().asDiagonal() * fit.cells_.transpose();
+      // The inverse of a covariance from so many blocks is too large in the mean (Hartlap,
+      // Simon & Schneider 2007); cells of other shots do not count.
+      const double cells = std::pow(2.0, kCellLevels);
+      const double too_large = (blocks - 1.0) / (blocks - cells - 2.0);
+      const Eigen::MatrixXd paths =
+          at.scale * at.scale * expected_scatter * too_large * covariance.bottomRightCorner(n, n);
+      const Eigen::MatrixXd j =
+          fit.cells_ * ScatteringEquation::jacobian(pilot, at, unknowns() == 3);
+      Eigen::MatrixXd free(n, j.cols() + joint.nuisances().cols());
+      constexpr double kWide = 30.0;  // of the light
+      for (Eigen::Index k = 0; k < j.cols(); ++k) {
+        free.col(k) = kWide / j.col(k).cwiseAbs().maxCoeff() * j.col(k);
+      }
+      free.rightCols(joint.nuisances().cols()) = fit.cells_ * joint.nuisances();
+      const auto unbound = std::count_if(fit.system_.nuisances.begin(), fit.system_.nuisances.end(),
+                                         [](const Nuisance& v) { return !std::isfinite(v.std); });
+      const int fitted = static_cast<int>(j.cols() + unbound);
+      if (n <= fitted) return {};
+      return lack_of_fit(rest, noise + paths, free, fitted);
+    }
+  };
+
+  static void refuse(ChannelResult& result, const std::string& reason) {
+    result.estimate.reasons = {reason};
   }
 
-  // The dipole's image and derivatives, and Monte Carlo variances as light and area would have
-  // them, on the whole as large as those of `noisy`: weights must not follow the noise of paths.
+  // Rows of which `state_of(shot, row of its view, row of the system so far)` is kUsed.
+  template <class StateOf>
+  void keep(const StateOf& state_of) {
+    std::vector<Eigen::Index> kept;
+    Eigen::Index at = 0;
+    for (std::size_t s = 0; s < rows_.size(); ++s) {
+      for (std::size_t j = 0; j < rows_[s].state.size(); ++j) {
+        if (rows_[s].state[j] != RowState::kUsed) continue;
+        const RowState state = state_of(s, j, at);
+        if (state == RowState::kUsed) {
+          kept.push_back(at);
+        } else {
+          leave_out(rows_[s], j, state);
+        }
+        ++at;
+      }
+    }
+    system_ = selected(system_, kept);
+    simulation_.set_rows(rows_);
+    divide();
+  }
+
+  // Weights of the rows in the light of parts of the shots, relative to what is observed of it.
+  void divide() {
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::Index first = 0;
+    Eigen::Index n_cells = 0;
+    for (const Eigen::Index n : system_.shot_rows) {
+      const auto begin = simulation_.center_mm().begin() + first;
+      const std::vector<int> cell = residual_cells({begin, begin + n}, kCellLevels, kCellRows);
+      Eigen::Index most = -1;
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const auto row = static_cast<std::size_t>(first + j);
+        const Eigen::Index own = cell[static_cast<std::size_t>(j)];
+        entries.emplace_back(n_cells + own, first + j, simulation_.area_mm2()[row]);
+        most = std::max(most, own);
+      }
+      n_cells += most + 1;
+      first += n;
+    }
+    Eigen::SparseMatrix<double> weights(n_cells, system_.l.size());
+    weights.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::VectorXd light = weights * system_.l;
+    cells_ = light.cwiseInverse().asDiagonal() * Eigen::MatrixXd(weights);
+  }
+
+  bool leave_outliers_out(const Round& r) {
+    const Eigen::VectorXd rest =
+        r.joint.without_nuisances(r.joint.residual(r.image, r.at, r.step.to));
+    const Eigen::VectorXd std = (system_.std_l.cwiseAbs2() + r.scatter * r.at.scale * r.at.scale *
+                                                                 smooth_variance(r.pilot, r.image))
+                                    .cwiseSqrt();
+    RowSelectionOptions options;
+    options.outlier_std = kOutlierStd;
+    const std::vector<Eigen::Index> far =
+        outliers(rest, Eigen::VectorXd::Zero(rest.size()), std, options);
+    if (far.empty()) return false;
+    keep([&](std::size_t, std::size_t, Eigen::Index row) {
+      return std::binary_search(far.begin(), far.end(), row) ? RowState::kOutlier : RowState::kUsed;
+    });
+    return true;
+  }
+
+  // Monte Carlo variances as light and area would have them, on the whole as large as those of
+  // `noisy`: weights must not follow the noise of paths.
+  Eigen::VectorXd smooth_variance(const ScatteringImage& pilot,
+                                  const ScatteringImage& noisy) const {
+    const Eigen::Map<const Eigen::VectorXd> area(simulation_.area_mm2().data(), pilot.l.size());
+    const Eigen::VectorXd share = pilot.l.cwiseMax(0.0).cwiseQuotient(area);
+    return share * (noisy.variance.sum() / share.sum());
+  }
+
+  // The dipole's image and derivatives.
   ScatteringImage smooth_pilot(const ScatteringImage& noisy, const ScatteringPoint& at) const {
     const double sigma_t = at.sigma_s_per_mm + at.sigma_a_per_mm;
     const double albedo = at.sigma_s_per_mm / sigma_t;
@@ -211,27 +380,16 @@ class TransportFit {
     const Eigen::VectorXd d_q = system_.weights * curve.d_q;
     out.per_log_sigma_s = albedo * d_u - albedo * (1.0 - albedo) * d_q;
     out.per_sigma_a = (d_u + albedo * d_q) / sigma_t;
-    Eigen::VectorXd share = Eigen::VectorXd::Zero(out.l.size());
-    for (const LitView& v : lit_) {
-      for (const auto& [row, view_row] : v.rows) {
-        share[row] = std::max(out.l[row], 0.0) / v.view->area_mm2[view_row];
-      }
-    }
-    out.variance = share * (noisy.variance.sum() / share.sum());
+    out.variance = smooth_variance(out, noisy);
     return out;
-  }
-
-  static const Eigen::MatrixXd& mc(const ScatteringEquation::Step& step) {
-    return std::find_if(step.causes.begin(), step.causes.end(),
-                        [](const auto& c) { return c.name == "Monte Carlo"; })
-        ->covariance;
   }
 
   // A step so short that what is not linear in it is small against the Monte Carlo error, or small.
   static bool near(const ScatteringEquation::Step& step) {
     constexpr double kNear = 0.03;
     constexpr double kFar = 0.1;
-    return step.change < std::clamp(3.0 * std::sqrt(mc(step)(0, 0)), kNear, kFar);
+    return step.change <
+           std::clamp(3.0 * std::sqrt(covariance_by(step, "Monte Carlo")(0, 0)), kNear, kFar);
   }
 
   // Monte Carlo is small against the rest, or against what anyone asks for.
@@ -240,7 +398,7 @@ class TransportFit {
     constexpr double kFloor[2] = {1e-3, 5e-3};
     const double unit[2] = {1.0, std::max(at.sigma_a_per_mm, 1e-3)};
     for (Eigen::Index k = 0; k < 2; ++k) {
-      const double own = mc(step)(k, k);
+      const double own = covariance_by(step, "Monte Carlo")(k, k);
       const double rest = step.covariance(k, k) - own;
       const double floor = kFloor[k] * unit[k];
       if (own > kOfRest * rest && own > floor * floor) return false;
@@ -248,11 +406,9 @@ class TransportFit {
     return true;
   }
 
-  void report(const ScatteringEquation& equation, const ScatteringImage& m,
-              const ScatteringEquation::Step& step, const ScatteringPoint& at, Estimate& e) const {
+  static void tell(const ScatteringEquation::Step& step, Estimate& e) {
     const double s = step.to.sigma_s_per_mm;
     const Eigen::MatrixXd& c = step.covariance;
-    e.reasons.clear();
     e.converged = true;
     e.sigma_s_prime_per_mm = normal_quantity(s, s * std::sqrt(c(0, 0)));
     e.sigma_a_per_mm = normal_quantity(step.to.sigma_a_per_mm, std::sqrt(c(1, 1)));
@@ -264,27 +420,71 @@ class TransportFit {
     }
     e.scale =
         normal_quantity(step.to.scale, c.rows() > 2 ? std::sqrt(c(2, 2)) * step.to.scale : 0.0);
-    const Eigen::VectorXd predicted =
-        at.scale * (m.l + std::log(s / at.sigma_s_per_mm) * m.per_log_sigma_s +
-                    (step.to.sigma_a_per_mm - at.sigma_a_per_mm) * m.per_sigma_a) +
-        (step.to.scale - at.scale) * m.l;
-    ScatteringImage there = m;
-    there.l = predicted / at.scale;
-    const double dof = static_cast<double>(system_.l.size() - c.rows());
-    e.reduced_chi2 = equation.chi2(there, at) / dof;
-    const Residual rest = residual(system_.l, predicted, system_.std_l);
-    e.rms_relative = rest.rms_relative;
-    e.psnr_db = rest.psnr_db;
+  }
+
+  void report(const Round& r, ChannelResult& result) const {
+    Estimate& e = result.estimate;
+    e.reasons.clear();
+    tell(r.step, e);
+    const Eigen::VectorXd rest = r.joint.residual(r.image, r.at, r.step.to);
+    const Eigen::VectorXd own = r.joint.without_nuisances(rest);
+    const Eigen::VectorXd variance =
+        system_.std_l.cwiseAbs2() + r.at.scale * r.at.scale * smooth_variance(r.pilot, r.image);
+    e.reduced_chi2 = own.cwiseAbs2().cwiseQuotient(variance).mean();
+    const Residual whole = residual(system_.l, system_.l - rest, system_.std_l);
+    e.rms_relative = whole.rms_relative;
+    e.psnr_db = whole.psnr_db;
+    report_rows(task_, rows_, result);
+    if (r.blocks < kLeastBlocks) {
+      e.reasons.push_back(
+          fmt::format("the time was too short: {} blocks of paths for each light, at "
+                      "least {} are needed",
+                      r.blocks, kLeastBlocks));
+    }
+    judge(r, e);
+    std::vector<ScatteringEquation::Step> steps;
+    for (std::size_t i = 0; i < r.singles.size(); ++i) {
+      steps.push_back(r.step_of(i));
+      ShotResult& single = result.singles.emplace_back();
+      single.file = task_.shots[r.singles[i].shot]->rig->file;
+      single.estimate.rows = static_cast<std::size_t>(r.singles[i].system.l.size());
+      tell(steps.back(), single.estimate);
+    }
+    if (steps.size() < 2) return;
+    result.agreement = r.agreement(steps);
+    widen_by_disagreement(result.agreement, e);
+  }
+
+  static void judge(const Round& r, Estimate& e) {
+    if (r.blocks >= kLeastBlocks) {
+      const LackOfFit misfit = r.misfit(r.scatter_of_rows);
+      e.misfit_relative = misfit.rms;
+      e.misfit_p_value = misfit.p_value;
+      if (misfit.p_value < kMisfitPValue && misfit.rms > kMisfit) {
+        e.reasons.push_back(fmt::format(
+            "transport does not explain the shots: parts of the image are {:.2g} % off (scale, "
+            "light, pose, shape or eta are not what the rig says)",
+            100.0 * misfit.rms));
+      }
+    }
+    constexpr double kUndetermined = 0.5;
+    const double relative = e.sigma_s_prime_per_mm.std / e.sigma_s_prime_per_mm.value;
+    if (!std::isfinite(relative) || relative > kUndetermined) {
+      e.reasons.push_back("these shots do not determine sigma_s'");
+    }
+    if (!std::isfinite(e.sigma_a_per_mm.std)) {
+      e.reasons.push_back("these shots set no upper limit to sigma_a");
+    }
   }
 
   const Task& task_;
-  const DenseSystem& system_;
-  const DistanceKnots& knots_;
+  DistanceKnots knots_;
+  DenseSystem system_;
+  TaskRows rows_;
   ScalePrior scale_;
   const MeasureOptions& options_;
-  std::map<const SeenObject*, View> views_;
-  std::vector<LitView> lit_;
-  std::uint64_t draws_ = 0;
+  TaskSimulation simulation_;
+  Eigen::MatrixXd cells_;  // parts of shots x rows: relative light
 };
 
 }  // namespace
@@ -292,19 +492,26 @@ class TransportFit {
 void estimate_transport(Estimation& e) {
   std::vector<std::optional<DipoleSystem>> systems(e.tasks.size());
   estimate_dipole(e, &systems);
-  const RigProbes probes = open_probes(e.rig);
-  const ScalePrior scale = scale_prior(e.rig);
-  Progress progress("transport", static_cast<int>(e.tasks.size()), e.options.quiet);
+  std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < e.tasks.size(); ++i) {
     if (!systems[i]) continue;
+    e.results[i].why_transport = why_transport(e.results[i], systems[i]->system);
+    if (e.options.model == Model::kTransport || !e.results[i].why_transport.empty()) {
+      wanted.push_back(i);
+    }
+  }
+  if (wanted.empty()) return;
+  const RigProbes probes = open_probes(e.rig);
+  Progress progress("transport", static_cast<int>(wanted.size()), e.options.quiet);
+  for (const std::size_t i : wanted) {
     ChannelResult& result = e.results[i];
+    result.model = Model::kTransport;
     result.dipole = result.estimate;
-    // Those are the dipole's.
-    result.singles.clear();
-    result.agreement = {};
+    result.recovered.reset();
+    result.misfit.reset();
+    TransportFit(e.rig, probes, e.tasks[i], std::move(*systems[i]), scale_prior(e.rig), e.options)
+        .run(result);
     progress.step();
-    TransportFit fit(e.rig, probes, e.tasks[i], *systems[i], scale, e.options);
-    fit.run(result.estimate);
   }
   e.watch.lap("transport");
 }

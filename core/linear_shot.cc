@@ -1,6 +1,8 @@
 #include "core/linear_shot.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace scattermeter {
@@ -37,26 +39,45 @@ DenseSystem stack(const std::vector<LinearShot>& shots) {
   return out;
 }
 
+DenseSystem selected(const DenseSystem& system, const std::vector<Eigen::Index>& rows) {
+  DenseSystem out;
+  out.weights = system.weights(rows, Eigen::all);
+  out.l = system.l(rows);
+  out.std_l = system.std_l(rows);
+  out.nuisances = system.nuisances;
+  if (!system.nuisances.empty()) {
+    out.nuisance_columns = system.nuisance_columns(rows, Eigen::all);
+  }
+  Eigen::Index end = 0;
+  auto next = rows.begin();
+  for (const Eigen::Index n : system.shot_rows) {
+    end += n;
+    const auto after = std::lower_bound(next, rows.end(), end);
+    out.shot_rows.push_back(after - next);
+    next = after;
+  }
+  return out;
+}
+
 DenseSystem shot_of(const DenseSystem& system, std::size_t shot) {
-  Eigen::Index first = 0;
-  for (std::size_t i = 0; i < shot; ++i) first += system.shot_rows.at(i);
-  const Eigen::Index rows = system.shot_rows.at(shot);
-  DenseSystem out{system.weights.middleRows(first, rows),
-                  system.l.segment(first, rows),
-                  system.std_l.segment(first, rows),
-                  {},
-                  {},
-                  {rows}};
+  const auto before = system.shot_rows.begin() + static_cast<std::ptrdiff_t>(shot);
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(system.shot_rows.at(shot)));
+  std::iota(rows.begin(), rows.end(),
+            std::accumulate(system.shot_rows.begin(), before, Eigen::Index{0}));
+  DenseSystem out = selected(system, rows);
+  out.shot_rows = {static_cast<Eigen::Index>(rows.size())};
+  std::vector<Nuisance> touching;
   std::vector<Eigen::Index> columns;
   for (std::size_t v = 0; v < system.nuisances.size(); ++v) {
     const auto column = static_cast<Eigen::Index>(v);
-    if (rows == 0 || system.nuisance_columns.col(column).segment(first, rows).isZero(0.0)) continue;
+    if (rows.empty() || out.nuisance_columns.col(column).isZero(0.0)) continue;
     columns.push_back(column);
-    out.nuisances.push_back(system.nuisances[v]);
+    touching.push_back(system.nuisances[v]);
   }
-  out.nuisance_columns =
-      system.nuisance_columns.middleRows(system.nuisances.empty() ? 0 : first,
-                                         system.nuisances.empty() ? 0 : rows)(Eigen::all, columns);
+  if (!system.nuisances.empty()) {
+    out.nuisance_columns = Eigen::MatrixXd(out.nuisance_columns(Eigen::all, columns));
+  }
+  out.nuisances = touching;
   return out;
 }
 

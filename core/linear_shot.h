@@ -43,6 +43,9 @@ struct DenseSystem {
   std::vector<Eigen::Index> shot_rows = {};  // number of rows of each shot, in order
 };
 
+// Some of the rows, in ascending order, with all nuisances.
+DenseSystem selected(const DenseSystem& system, const std::vector<Eigen::Index>& rows);
+
 // The rows of one shot, and the nuisances that touch them.
 DenseSystem shot_of(const DenseSystem& system, std::size_t shot);
 

@@ -19,8 +19,9 @@ enum class RowState : unsigned char {
   kMirror,     // mirrors a light into the camera
   kNoise,      // its expected light does not stand out of the noise
   kOutlier,    // far from what all others say: dust, a scratch, a mark
+  kEdge,       // beside a silhouette, a step or a crease, for a model of whole patches
 };
-inline constexpr std::size_t kRowStates = 7;
+inline constexpr std::size_t kRowStates = 8;
 
 // One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), the mean over the samples of all
 // channels on the patch (those that SampleMap::mean_mm and spread_mm2 describe) of a quadratic

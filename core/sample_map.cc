@@ -158,6 +158,7 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
   std::vector<Eigen::Vector3d> sum_mm(n_patches, Eigen::Vector3d::Zero());
   std::vector<Eigen::Matrix3d> square_mm2(n_patches, Eigen::Matrix3d::Zero());
   std::vector<double> count(n_patches, 0.0);
+  std::vector<std::size_t> guarded(n_patches, 0);
   for (int y = 0; y < rays.height; ++y) {
     for (int x = 0; x < rays.width; ++x) {
       const std::size_t i = mapper.index(x, y);
@@ -172,6 +173,7 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
         count[k] += 1.0;
       } else if (mapper.seen(i).patch >= 0) {
         ++map.samples_guarded;
+        ++guarded[static_cast<std::size_t>(mapper.seen(i).patch)];
       }
     }
   }
@@ -187,6 +189,7 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
     row_of_patch[idx] = static_cast<std::int32_t>(map.patch_of_row.size());
     map.patch_of_row.push_back(k);
     map.coverage.push_back(coverage);
+    map.guarded_of_row.push_back(guarded[idx]);
     const Eigen::Vector3d mean = sum_mm[idx] / count[idx];
     map.mean_mm.push_back(patches.center_mm(k) + mean);
     map.spread_mm2.push_back(square_mm2[idx] / count[idx] - mean * mean.transpose());

@@ -43,6 +43,7 @@ struct SampleMap {
   std::vector<Eigen::Vector3d> mean_mm;     // mean surface point of each row's samples, world
   std::vector<Eigen::Matrix3d> spread_mm2;  // their covariance about it
   std::vector<double> coverage;             // seen share of each row's patch
+  std::vector<std::size_t> guarded_of_row;  // samples on the row's patch that are left out
   std::vector<std::vector<std::int32_t>> adjacent_rows;  // of each row (core/adjacent_rows.h)
   std::size_t samples_on_object = 0;
   std::size_t samples_guarded = 0;

@@ -9,18 +9,15 @@
 #include <Eigen/LU>
 
 namespace scattermeter {
-namespace {
 
-// Derivatives of scale * m by the unknowns.
-Eigen::MatrixXd jacobian(const ScatteringImage& m, const ScatteringPoint& at, bool scale_moves) {
+Eigen::MatrixXd ScatteringEquation::jacobian(const ScatteringImage& m, const ScatteringPoint& at,
+                                             bool scale_moves) {
   Eigen::MatrixXd j(m.l.size(), scale_moves ? 3 : 2);
   j.col(0) = at.scale * m.per_log_sigma_s;
   j.col(1) = at.scale * m.per_sigma_a;
   if (scale_moves) j.col(2) = at.scale * m.l;
   return j;
 }
-
-}  // namespace
 
 ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePrior& scale,
                                        const ScatteringImage& pilot, const ScatteringPoint& at,
@@ -61,7 +58,7 @@ Eigen::VectorXd ScatteringEquation::solve_covariance(const Eigen::VectorXd& rows
 
 ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
                                                   const Eigen::MatrixXd& projected_covariance,
-                                                  const ScatteringPoint& at) const {
+                                                  const ScatteringPoint& at, double scatter) const {
   const Eigen::Index n = projection_.rows();
   const bool prior = n == 3 && std::isfinite(scale_.relative_std);
   const double precision = prior ? 1.0 / (scale_.relative_std * scale_.relative_std) : 0.0;
@@ -78,6 +75,8 @@ ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
   const double largest =
       std::max({std::abs(move[0]), std::abs(move[1]) / sigma_t, n == 3 ? std::abs(move[2]) : 0.0});
   Step out;
+  out.move = move;
+  out.inverse = inverse;
   out.change = largest;
   if (largest > most) move *= most / largest;
   out.to = {at.sigma_s_per_mm * std::exp(move[0]), std::max(0.0, at.sigma_a_per_mm + move[1]),
@@ -86,11 +85,16 @@ ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
     out.causes.push_back({name, inverse * of_projection * inverse.transpose()});
   };
   add("noise", projection_ * system_.std_l.cwiseAbs2().asDiagonal() * projection_.transpose());
-  add("Monte Carlo", at.scale * at.scale * projected_covariance);
+  const Eigen::MatrixXd monte_carlo = at.scale * at.scale * projected_covariance;
+  add("Monte Carlo", monte_carlo);
+  if (scatter > 1.0) add("scatter", (scatter - 1.0) * monte_carlo);
+  out.pushes = Eigen::MatrixXd::Zero(n, nuisances_.cols() + (prior ? 1 : 0));
+  out.pushes.leftCols(nuisances_.cols()) = inverse * (projection_ * nuisances_);
   if (prior) {
     Eigen::MatrixXd scale = Eigen::MatrixXd::Zero(n, n);
     scale(2, 2) = precision;
     add("scale", scale);
+    out.pushes.rightCols(1) = std::sqrt(precision) * inverse.col(2);
   }
   std::map<std::string, Eigen::MatrixXd> groups;
   for (Eigen::Index i = 0; i < nuisances_.cols(); ++i) {
@@ -107,9 +111,15 @@ ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
   return out;
 }
 
-double ScatteringEquation::chi2(const ScatteringImage& m, const ScatteringPoint& at) const {
-  const Eigen::VectorXd residual = system_.l - at.scale * m.l;
-  return residual.dot(solve_covariance(residual));
+Eigen::VectorXd ScatteringEquation::residual(const ScatteringImage& m, const ScatteringPoint& at,
+                                             const ScatteringPoint& to) const {
+  return system_.l - to.scale * m.l -
+         at.scale * (std::log(to.sigma_s_per_mm / at.sigma_s_per_mm) * m.per_log_sigma_s +
+                     (to.sigma_a_per_mm - at.sigma_a_per_mm) * m.per_sigma_a);
+}
+
+Eigen::VectorXd ScatteringEquation::without_nuisances(const Eigen::VectorXd& residual) const {
+  return row_variance_.cwiseProduct(solve_covariance(residual));
 }
 
 }  // namespace scattermeter

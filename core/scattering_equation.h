@@ -38,8 +38,8 @@ class ScatteringEquation {
 
   struct Step {
     ScatteringPoint to;
-    // Covariance of (log sigma_s, sigma_a[, log scale]) by cause: "noise", "Monte Carlo", "scale",
-    // the nuisances' groups.
+    // Covariance of (log sigma_s, sigma_a[, log scale]) by cause: "noise", "Monte Carlo", "scatter"
+    // (of the shots, beyond their noise), "scale", the nuisances' groups.
     struct Cause {
       std::string name;
       Eigen::MatrixXd covariance;
@@ -47,14 +47,31 @@ class ScatteringEquation {
     std::vector<Cause> causes;
     Eigen::MatrixXd covariance;  // the sum
     double change = 0;           // largest of |d log sigma_s|, |d log sigma_t|, |d log scale|
+    Eigen::VectorXd move;        // uncut, in the unknowns
+    Eigen::MatrixXd inverse;     // from projection() * l to the move
+    // What common causes of unit size move: a column for every nuisance, and one for the scale
+    // where it has a prior (its error, in its standard deviations).
+    Eigen::MatrixXd pushes;
   };
   // One Newton step from `at`, m there, and the covariance of projection() * m at scale 1.
-  // A step is cut to a factor of 1.5 in sigma_s' and at sigma_a = 0.
+  // A step is cut to a factor of 1.5 in sigma_s' and at sigma_a = 0. scatter >= 1: over the Monte
+  // Carlo variance of the rows, how much they err beyond their noise (core/excess_scatter.h).
   Step step(const ScatteringImage& m, const Eigen::MatrixXd& projected_covariance,
-            const ScatteringPoint& at) const;
+            const ScatteringPoint& at, double scatter = 1.0) const;
 
-  // Of the rows against `scale * m`, with the noise of both and the nuisances' priors.
-  double chi2(const ScatteringImage& m, const ScatteringPoint& at) const;
+  // Measured less predicted l at a step's end, m linear on the way from `at`; nuisances nominal.
+  Eigen::VectorXd residual(const ScatteringImage& m, const ScatteringPoint& at,
+                           const ScatteringPoint& to) const;
+  // The same less what the nuisances, at their most probable, make of it.
+  Eigen::VectorXd without_nuisances(const Eigen::VectorXd& residual) const;
+  // Of noise and Monte Carlo, as weighed with.
+  const Eigen::VectorXd& row_variance() const { return row_variance_; }
+  // Columns times their standard deviations; free ones at a size far beyond what the rows leave
+  // open.
+  const Eigen::MatrixXd& nuisances() const { return nuisances_; }
+  // Derivatives of scale * m by the unknowns, rows x unknowns.
+  static Eigen::MatrixXd jacobian(const ScatteringImage& m, const ScatteringPoint& at,
+                                  bool scale_moves);
 
  private:
   Eigen::VectorXd solve_covariance(const Eigen::VectorXd& rows) const;

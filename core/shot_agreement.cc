@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <Eigen/Cholesky>
 
@@ -92,6 +93,30 @@ ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& kno
   }
   out.chi2 = std::max(0.0, apart.fall() - together.fall());
   out.dof = static_cast<int>(2 * (n_shots - 1));
+  out.p_value = chi_square_tail(out.chi2, out.dof);
+  return out;
+}
+
+ShotAgreement agreement_of(const Eigen::VectorXd& answers, const Eigen::MatrixXd& covariance) {
+  const Eigen::Index n = answers.size();
+  if (n % 2 != 0 || covariance.rows() != n || covariance.cols() != n) {
+    throw std::invalid_argument("agreement_of: sizes");
+  }
+  ShotAgreement out;
+  out.dof = std::max(0, static_cast<int>(n) - 2);
+  if (out.dof == 0) return out;
+  // In units that make a row of the covariance as large as another.
+  const Eigen::VectorXd unit = covariance.diagonal().cwiseSqrt();
+  const Eigen::VectorXd x = answers.cwiseQuotient(unit);
+  const Eigen::MatrixXd c =
+      unit.cwiseInverse().asDiagonal() * covariance * unit.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd common(n, 2);
+  for (Eigen::Index i = 0; i < n; ++i) common.row(i) = Eigen::RowVector2d::Unit(i % 2) / unit[i];
+  const Eigen::LDLT<Eigen::MatrixXd> inverse(c);
+  const Eigen::MatrixXd weighed = inverse.solve(common);
+  const Eigen::Vector2d best = (common.transpose() * weighed).ldlt().solve(weighed.transpose() * x);
+  const Eigen::VectorXd rest = x - common * best;
+  out.chi2 = std::max(0.0, rest.dot(inverse.solve(rest)));
   out.p_value = chi_square_tail(out.chi2, out.dof);
   return out;
 }

@@ -1,6 +1,8 @@
 // Whether the shots of one material tell the same.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "core/dipole_solver.h"
 #include "core/linear_shot.h"
 
@@ -23,6 +25,12 @@ struct ShotAgreement {
 ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& knots,
                              const DipoleSolver::Point& joint, double eta_int_over_ext,
                              const ScalePrior& scale, double noise_inflation);
+
+// The same from every shot's own answer: `answers` holds (log sigma_s', sigma_a), or other two
+// unknowns, of one shot after the other, and `covariance` all that they share and do not. Where
+// shots agree the answers scatter about their best common value as chi-square.
+// Precondition (std::invalid_argument): sizes agree and are even.
+ShotAgreement agreement_of(const Eigen::VectorXd& answers, const Eigen::MatrixXd& covariance);
 
 // Widens deviations and intervals by sqrt(chi2 / dof) (Birge's ratio) where shots disagree; a line
 // "disagreement" in the budget says how much that adds.

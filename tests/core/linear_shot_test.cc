@@ -37,6 +37,25 @@ TEST(LinearShot, StacksUsedRowsOnly) {
   EXPECT_THROW(stack({{{{&a, 1.0}}, &one}, {{{&other, 1.0}}, &two}}), std::invalid_argument);
 }
 
+// Some rows, from several shots.
+TEST(LinearShot, SomeRowsOfASystem) {
+  DenseSystem s{WeightMatrix(4, 1), Eigen::VectorXd(4), Eigen::VectorXd(4)};
+  s.weights << 1, 2, 3, 4;
+  s.l << 10, 20, 30, 40;
+  s.std_l << 5, 6, 7, 8;
+  s.shot_rows = {1, 1, 2};
+  s.nuisances = {{"one", 0.1, true}};
+  s.nuisance_columns.resize(4, 1);
+  s.nuisance_columns << 1, 0, 0, 2;
+  const DenseSystem some = selected(s, {0, 2, 3});
+  EXPECT_EQ(some.weights, Eigen::Vector3d(1, 3, 4));
+  EXPECT_EQ(some.l, Eigen::Vector3d(10, 30, 40));
+  EXPECT_EQ(some.std_l, Eigen::Vector3d(5, 7, 8));
+  EXPECT_EQ(some.shot_rows, (std::vector<Eigen::Index>{1, 0, 2}));
+  EXPECT_EQ(some.nuisance_columns, Eigen::Vector3d(1, 0, 2));
+  EXPECT_EQ(selected(s, {}).shot_rows, (std::vector<Eigen::Index>{0, 0, 0}));
+}
+
 // The rows of one shot, with the nuisances that move any of them and no others.
 TEST(LinearShot, OneShotOfASystem) {
   DenseSystem s{WeightMatrix(5, 2), Eigen::VectorXd(5), Eigen::VectorXd(5)};

@@ -1,5 +1,6 @@
 #include "core/sample_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,6 +33,33 @@ TEST_F(CubeView, CoverageOfSeenPatchesIsOne) {
     const Eigen::Vector3d& n = patches_.normal(patch);
     EXPECT_GT(n.z() + n.x() - n.y(), 0.5);
   }
+}
+
+// Without a guard every row is of whole patches; with one, those along the edges have samples that
+// are left out, and no others.
+TEST_F(CubeView, GuardedRowsStandAtEdges) {
+  const SampleMap bare = map_samples(rays_, scene_, patches_, 1.3, {0, 0.8});
+  for (const std::size_t n : bare.guarded_of_row) EXPECT_EQ(n, 0U);
+  const SampleMap map = map_samples(rays_, scene_, patches_, 1.3, {2, 0.3});
+  ASSERT_EQ(map.guarded_of_row.size(), map.patch_of_row.size());
+  std::size_t guarded = 0;
+  for (std::size_t row = 0; row < map.guarded_of_row.size(); ++row) {
+    const Eigen::Vector3d c = patches_.center_mm(map.patch_of_row[row]);
+    const double to_edge_mm = [&] {  // of the face that the patch lies on
+      std::vector<double> mm;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double low = axis == 2 ? 0.0 : -10.0;
+        mm.push_back(std::min(c[axis] - low, low + 20.0 - c[axis]));
+      }
+      std::sort(mm.begin(), mm.end());
+      return mm[1];
+    }();
+    if (map.guarded_of_row[row] == 0) continue;
+    ++guarded;
+    EXPECT_LT(to_edge_mm, 1.0);
+  }
+  EXPECT_GT(guarded, 100U);
+  EXPECT_LT(guarded, map.patch_of_row.size() / 3);
 }
 
 // The mean of the samples lies in the patch, near its centre where the patch is wholly seen.

@@ -121,19 +121,70 @@ TEST(ScatteringEquation, NuisancesWiden) {
   EXPECT_LT((sum - wide.covariance).norm(), 1e-12 * sum.norm());
 }
 
-// The truth's chi-square is that of the noise.
-TEST(ScatteringEquation, Chi2) {
+// The residual at the end of a step is that of the image there, and what a nuisance with a wide
+// prior makes of it can be told and taken off.
+TEST(ScatteringEquation, Residual) {
   const ScatteringImage truth = image_of(2.0, 0.01);
   DenseSystem system = system_of(truth.l, 1e-3);
   ScatteringImage quiet = truth;
   quiet.variance.setZero();
   const ScatteringPoint at{2.0, 0.01, 1.0};
+  const ScatteringPoint beside{2.004, 0.01001, 1.001};
   const ScatteringEquation equation(system, {0.0}, quiet, at);
-  EXPECT_NEAR(equation.chi2(truth, at), 0.0, 1e-12);
-  system.l.array() += 1e-3;
-  EXPECT_NEAR(ScatteringEquation(system, {0.0}, quiet, at).chi2(truth, at), 200.0, 1e-9);
+  EXPECT_LT(equation.residual(truth, at, at).norm(), 1e-12);
+  const ScatteringImage there = image_of(2.004, 0.01001);
+  EXPECT_LT((equation.residual(truth, at, beside) - (truth.l - 1.001 * there.l)).norm(),
+            0.005 * (truth.l - 1.001 * there.l).norm());
+  Eigen::VectorXd wave(kRows);
+  for (Eigen::Index j = 0; j < kRows; ++j) wave[j] = std::sin(0.1 * static_cast<double>(j));
+  system.nuisances = {{"wave", 1.0, true}};
+  system.nuisance_columns = wave;
+  const ScatteringEquation wavy(system, {0.0}, quiet, at);
+  EXPECT_LT(wavy.without_nuisances(0.3 * wave).norm(), 1e-4 * wave.norm());
   quiet.l.conservativeResize(3);
   EXPECT_THROW(ScatteringEquation(system, {0.0}, quiet, at), std::invalid_argument);
+}
+
+// What a nuisance and the scale's error move is what the equation answers to them.
+TEST(ScatteringEquation, Pushes) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  DenseSystem system = system_of(truth.l, 1e-3);
+  system.nuisances = {{"tilt", 0.02, true}};
+  system.nuisance_columns = truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kRows, -1.0, 1.0));
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const auto move = [&](const DenseSystem& s, double log_scale) {
+    const ScatteringEquation equation(s, {0.02}, truth, at);
+    ScatteringPoint from = at;
+    from.scale = std::exp(log_scale);
+    return equation.step(truth, Eigen::MatrixXd::Zero(3, 3), from);
+  };
+  const ScatteringEquation::Step nominal = move(system, 0.0);
+  ASSERT_EQ(nominal.pushes.cols(), 2);
+  DenseSystem tilted = system;
+  tilted.l += 0.02 * system.nuisance_columns;
+  EXPECT_LT((move(tilted, 0.0).move - nominal.pushes.col(0)).norm(),
+            1e-9 * nominal.pushes.col(0).norm());
+  // Standing at a scale one deviation off with shots that meet it, only the prior pulls.
+  DenseSystem brighter = system;
+  brighter.l *= std::exp(0.02);
+  EXPECT_LT((move(brighter, 0.02).move + nominal.pushes.col(1)).norm(),
+            0.05 * nominal.pushes.col(1).norm());
+}
+
+// Scatter beyond the noise is a cause of its own, as correlated as the paths.
+TEST(ScatteringEquation, ScatterWidens) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  const DenseSystem system = system_of(truth.l, 1e-3);
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const ScatteringEquation equation(system, {0.0}, truth, at);
+  const Eigen::MatrixXd paths = 1e-6 * equation.projection() * equation.projection().transpose();
+  const auto plain = equation.step(truth, paths, at);
+  const auto wide = equation.step(truth, paths, at, 5.0);
+  EXPECT_LT((wide.covariance - plain.covariance -
+             4.0 * equation.step(truth, paths, at).inverse * paths * plain.inverse.transpose())
+                .norm(),
+            1e-12 * wide.covariance.norm());
+  EXPECT_EQ(wide.causes.size(), plain.causes.size() + 1);
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <limits>
 #include <random>
+#include <stdexcept>
 
+#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include "core/dipole_curve.h"
@@ -152,6 +154,43 @@ TEST(ShotAgreement, OfOneShotSaysNothing) {
   EXPECT_EQ(a.dof, 0);
   EXPECT_EQ(a.chi2, 0.0);
   EXPECT_EQ(a.p_value, 1.0);
+}
+
+// Answers of four shots that share an error: their chi-square about the best common value is that
+// of six degrees of freedom, however large what they share.
+TEST(AgreementOf, IsChiSquare) {
+  constexpr int kShots = 4, kDraws = 4000;
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd own(2 * kShots, 2 * kShots), shared(2 * kShots, 2);
+  own.setZero();
+  for (int i = 0; i < kShots; ++i) {
+    const double s = 0.01 * (1 + i), a = 1e-4 * (4 - i);
+    own.block<2, 2>(2 * i, 2 * i) << s * s, 0.6 * s * a, 0.6 * s * a, a * a;
+    shared.block<2, 2>(2 * i, 0) << 0.05, 0.0, 2e-4, 1e-3;
+  }
+  const Eigen::MatrixXd covariance = own + shared * shared.transpose();
+  const Eigen::MatrixXd factor = own.llt().matrixL();
+  double mean = 0.0;
+  int below = 0;
+  for (int d = 0; d < kDraws; ++d) {
+    Eigen::VectorXd z(2 * kShots);
+    for (double& v : z) v = normal(random);
+    Eigen::VectorXd answers = factor * z + shared * Eigen::Vector2d(normal(random), normal(random));
+    for (int i = 0; i < kShots; ++i) answers.segment<2>(2 * i) += Eigen::Vector2d(0.7, 0.004);
+    const ShotAgreement agreement = agreement_of(answers, covariance);
+    EXPECT_EQ(agreement.dof, 6);
+    mean += agreement.chi2 / kDraws;
+    below += agreement.p_value < 0.05 ? 1 : 0;
+    if (d > 0) continue;
+    answers[2] += 0.4;
+    EXPECT_TRUE(agreement_of(answers, covariance).disagree());
+  }
+  EXPECT_NEAR(mean, 6.0, 4.0 * std::sqrt(12.0 / kDraws));
+  EXPECT_NEAR(below / static_cast<double>(kDraws), 0.05, 4.0 * std::sqrt(0.05 * 0.95 / kDraws));
+  EXPECT_EQ(agreement_of(Eigen::Vector2d(1, 2), Eigen::Matrix2d::Identity()).dof, 0);
+  EXPECT_THROW(agreement_of(Eigen::Vector2d(1, 2), Eigen::Matrix3d::Identity()),
+               std::invalid_argument);
 }
 
 }  // namespace
