@@ -93,7 +93,7 @@ std::string rows_text(const std::vector<ModelsBenchRow>& rows) {
          "of the shots is worth in an answer; z: error over both\n";
 }
 
-// Answers of one model on one body.
+// Answers of one model on one body; the lists hold refused ones, too.
 struct Summary {
   std::size_t answered = 0, refused = 0, failed = 0;
   std::vector<double> s, a, abs_s, abs_a, seconds;
@@ -106,8 +106,8 @@ std::string summary_text(const std::vector<ModelsBenchRow>& rows) {
     Summary& sum = sums[{r.body, r.model}];
     sum.refused += r.status == ModelsBenchStatus::kRefused ? 1 : 0;
     sum.failed += r.status == ModelsBenchStatus::kFailed ? 1 : 0;
-    if (r.status != ModelsBenchStatus::kAnswered) continue;
-    ++sum.answered;
+    sum.answered += r.status == ModelsBenchStatus::kAnswered ? 1 : 0;
+    if (!std::isfinite(r.error_sigma_s_prime)) continue;
     sum.s.push_back(r.error_sigma_s_prime);
     sum.a.push_back(r.error_sigma_a);
     sum.abs_s.push_back(std::abs(r.error_sigma_s_prime));
@@ -141,7 +141,7 @@ std::string summary_text(const std::vector<ModelsBenchRow>& rows) {
     }
   }
   return fmt::format("\n{}", table.text()) +
-         "Of the answers with status ok; bias and s are medians\n";
+         "bias and s: medians over the answers, refused ones too\n";
 }
 
 std::string left_out_text(const std::vector<ModelsBenchRow>& rows) {
@@ -155,46 +155,59 @@ std::string left_out_text(const std::vector<ModelsBenchRow>& rows) {
   return fmt::format("\nLeft out: {}\n{}", n, list);
 }
 
-PlotSeries guide(double error, std::size_t look, double from, double to) {
-  PlotSeries line{fmt::format("{:g} %", 100.0 * error),
-                  PlotSeries::Style::kDashedLine,
-                  {from, to},
-                  {error, error}};
+PlotSeries guide(const std::string& name, double percent, std::size_t look, const PlotAxis& x) {
+  PlotSeries line{name, PlotSeries::Style::kDashedLine, {*x.min, *x.max}, {percent, percent}};
   line.look = look;
   return line;
 }
 
+// The whole decades that hold a range.
+void set_decades(PlotAxis& axis, double from, double to) {
+  axis.min = std::pow(10.0, std::floor(std::log10(from)));
+  axis.max = std::max(10.0 * *axis.min, std::pow(10.0, std::ceil(std::log10(to))));
+}
+
+// error: relative; truth_std: 1/mm, and truth what it is relative to.
 Plot error_plot(const std::vector<ModelsBenchRow>& rows, const std::string& name,
-                double ModelsBenchRow::*error) {
+                double ModelsBenchRow::*error, double ModelsBenchRow::*truth_std,
+                double Medium::*truth) {
   Plot plot;
-  plot.title =
-      fmt::format("Error of {} against run time, shots rendered by volume Monte Carlo", name);
+  plot.title = fmt::format("Error of {} on shots rendered by volume Monte Carlo", name);
   plot.x = {"run time of one material and channel [s]", true};
-  plot.y = {fmt::format("|answer / truth - 1| of {} [1]", name), true};
+  plot.y = {fmt::format("|answer / truth - 1| of {} [%]", name), true};
   plot.legend_outside = true;
   plot.width_px = 1100;
-  double from = INFINITY, to = 0.0;
+  double from_s = INFINITY, to_s = 0.0, from = 0.5, to = 10.0;
+  std::vector<double> floors;
   for (std::size_t m = 0; m < model_names().size(); ++m) {
     const std::string& model = model_names()[m];
     PlotSeries answered{model, PlotSeries::Style::kPoints, {}, {}};
     PlotSeries refused{fmt::format("{}, refused", model), PlotSeries::Style::kOpenPoints, {}, {}};
     answered.look = refused.look = m;
     for (const ModelsBenchRow& r : rows) {
-      if (r.model != model || !(std::abs(r.*error) > 0.0)) continue;
+      const double percent = 100.0 * std::abs(r.*error);
+      if (r.model != model || !(percent > 0.0)) continue;
       PlotSeries& series = r.status == ModelsBenchStatus::kAnswered ? answered : refused;
       series.x.push_back(r.seconds);
-      series.y.push_back(std::abs(r.*error));
-      from = std::min(from, r.seconds);
-      to = std::max(to, r.seconds);
+      series.y.push_back(percent);
+      from_s = std::min(from_s, r.seconds);
+      to_s = std::max(to_s, r.seconds);
+      from = std::min(from, percent);
+      to = std::max(to, percent);
+      const double floor = 100.0 * r.*truth_std / (r.material.medium.*truth);
+      if (std::isfinite(floor)) floors.push_back(floor);
     }
     plot.series.push_back(answered);
     plot.series.push_back(refused);
   }
-  if (!(to > 0.0)) return plot;
-  plot.x.min = 0.7 * from;
-  plot.x.max = 1.4 * to;
-  plot.series.push_back(guide(0.05, 4, *plot.x.min, *plot.x.max));
-  plot.series.push_back(guide(0.01, 6, *plot.x.min, *plot.x.max));
+  if (!(to_s > 0.0)) return plot;
+  set_decades(plot.x, from_s, to_s);
+  set_decades(plot.y, from, to);
+  plot.series.push_back(guide("5 %", 5.0, 4, plot.x));
+  plot.series.push_back(guide("1 %", 1.0, 6, plot.x));
+  if (!floors.empty()) {
+    plot.series.push_back(guide("error of the shots", median(floors), 3, plot.x));
+  }
   return plot;
 }
 
@@ -258,11 +271,13 @@ std::string models_bench_csv(const std::vector<ModelsBenchRow>& rows) {
 }
 
 Plot models_bench_plot_sigma_s_prime(const std::vector<ModelsBenchRow>& rows) {
-  return error_plot(rows, "sigma_s'", &ModelsBenchRow::error_sigma_s_prime);
+  return error_plot(rows, "sigma_s'", &ModelsBenchRow::error_sigma_s_prime,
+                    &ModelsBenchRow::truth_std_sigma_s_prime_per_mm, &Medium::sigma_s_prime_per_mm);
 }
 
 Plot models_bench_plot_sigma_a(const std::vector<ModelsBenchRow>& rows) {
-  return error_plot(rows, "sigma_a", &ModelsBenchRow::error_sigma_a);
+  return error_plot(rows, "sigma_a", &ModelsBenchRow::error_sigma_a,
+                    &ModelsBenchRow::truth_std_sigma_a_per_mm, &Medium::sigma_a_per_mm);
 }
 
 }  // namespace scattermeter::apps

@@ -91,7 +91,7 @@ std::string script_of(const Plot& plot, const std::string& terminal) {
   script += fmt::format("set title {} noenhanced\n", quoted(plot.title));
   script += axis("x", plot.x) + axis("y", plot.y);
   script += "set grid lc rgb '#DDDDDD'\nset boxwidth 1.0 relative\n";
-  script += plot.legend_outside ? "set key outside right top noenhanced\n"
+  script += plot.legend_outside ? "set key outside right top Left reverse noenhanced\n"
                                 : "set key top right noenhanced\n";
   std::string curves;
   std::size_t drawn = 0;

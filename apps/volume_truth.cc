@@ -8,7 +8,8 @@
 namespace scattermeter::apps {
 namespace {
 
-// Of the exposure that suits the dipole: the volume may be brighter, its noise more so.
+// Of the exposure that suits the dipole: the volume may be brighter. Beyond the range samples count
+// on, at the variance of its top: to drop what noise made bright would be a bias.
 constexpr double kHeadroom = 0.5;
 
 CfaSamples samples(const VirtualShots& shots, std::size_t shot, const SampleMap& where) {
@@ -24,10 +25,10 @@ CfaSamples mean_samples(const std::vector<VirtualShots>& batches, std::size_t sh
     for (std::size_t i = 0; i < mean.signal_counts.size(); ++i) {
       mean.signal_counts[i] += more.signal_counts[i];
       mean.variance_counts2[i] += more.variance_counts2[i];
-      mean.clipped[i] = mean.clipped[i] | more.clipped[i];
     }
   }
   for (float& s : mean.signal_counts) s *= weight;
+  std::fill(mean.clipped.begin(), mean.clipped.end(), std::uint8_t{0});
   for (float& v : mean.variance_counts2) v *= weight;
   return mean;
 }

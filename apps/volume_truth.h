@@ -18,7 +18,7 @@ struct VolumeTruthOptions {
   // 1 / sqrt(2 (n - 1)) of itself.
   int batches = 8;
   std::uint64_t seed = 1;
-  // Of the sensor's noise; absent: the mean signal itself. No rounding either way.
+  // Of the sensor's noise; absent: the mean signal itself. Nothing is rounded or clipped.
   std::optional<std::uint64_t> noise_seed = std::nullopt;
 };
 
