@@ -23,8 +23,8 @@
 namespace scattermeter::apps {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr Quantity kNoQuantity{kNone, kNone, kNone, kNone};
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr Quantity kNoQuantity{kMissing, kMissing, kMissing, kMissing};
 
 // One material and channel on one body, in one colour of light.
 struct Case {
@@ -91,7 +91,7 @@ ModelsBenchRow empty_row(const std::string& body, const ListedMaterial& material
   for (double* number : {&row.truth_std_sigma_s_prime_per_mm, &row.truth_std_sigma_a_per_mm,
                          &row.truth_patch_std, &row.error_sigma_s_prime, &row.error_sigma_a,
                          &row.z_sigma_s_prime, &row.z_sigma_a, &row.seconds, &row.cpu_seconds}) {
-    *number = kNone;
+    *number = kMissing;
   }
   return row;
 }

@@ -82,8 +82,10 @@ void add_models_bench(CLI::App& bench, CommandContext& context, const SharedBenc
       ->check(CLI::IsMember(models_by_name()))
       ->capture_default_str();
   command
-      ->add_option("--paths", options->bench.paths,
-                   "of the shots' Monte Carlo, for each light and channel")
+      ->add_option(
+          "--paths", options->bench.paths,
+          "of the shots' Monte Carlo, for each light and channel; with few (16000, where a "
+          "patch errs by a quarter) what single patches err by is a bias as well")
       ->check(CLI::Range(std::int64_t{512}, std::int64_t{1'000'000'000'000}))
       ->capture_default_str();
   command

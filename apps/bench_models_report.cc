@@ -73,8 +73,13 @@ std::string rows_text(const std::vector<ModelsBenchRow>& rows) {
                    {"s"},
                    {"CPU s"},
                    {"status", Align::kLeft}});
+  double least = INFINITY, most = 0.0;
   for (const ModelsBenchRow& r : rows) {
     if (r.status == ModelsBenchStatus::kLeftOut) continue;
+    if (std::isfinite(r.truth_patch_std)) {
+      least = std::min(least, r.truth_patch_std);
+      most = std::max(most, r.truth_patch_std);
+    }
     const double s = r.material.medium.sigma_s_prime_per_mm;
     const double a = r.material.medium.sigma_a_per_mm;
     table.add_row(
@@ -88,7 +93,13 @@ std::string rows_text(const std::vector<ModelsBenchRow>& rows) {
          cell("{:+.6f}", a * r.error_sigma_a), cell("{:+.1f}", r.z_sigma_a),
          cell("{:.1f}", r.seconds), cell("{:.1f}", r.cpu_seconds), status_text(r)});
   }
-  return table.text() +
+  const std::string noise =
+      most == 0.0
+          ? ""
+          : fmt::format(
+                "Monte Carlo error of a patch's light in the shots, median: {:.1f} to {:.1f} %\n",
+                100.0 * least, 100.0 * most);
+  return table.text() + noise +
          "error: answer / truth - 1, ± as stated by the model; truth ±: what the Monte Carlo error "
          "of the shots is worth in an answer; z: error over both\n";
 }

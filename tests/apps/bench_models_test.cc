@@ -131,6 +131,7 @@ TEST(BenchModels, TransportIsRight) {
   const std::string table = models_bench_table(rows);
   EXPECT_THAT(table, HasSubstr("easy G    transport"));
   EXPECT_THAT(table, HasSubstr("failed: "));
+  EXPECT_THAT(table, HasSubstr("Monte Carlo error of a patch's light"));
   EXPECT_THAT(table, HasSubstr("Left out: 1\n  cube, glass G: mean free path"));
   const std::string csv = models_bench_csv(rows);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 5);
