@@ -11,6 +11,7 @@
 
 #include "apps/bodies.h"
 #include "apps/bodies_rig.h"
+#include "apps/instrument.h"
 #include "apps/volume_truth.h"
 #include "tests/apps/small_rig.h"
 #include "tests/temporary_folder.h"
@@ -38,6 +39,29 @@ TEST(BenchModels, SaysWhatDoesNotApply) {
   EXPECT_EQ(why_left_out(dark, cube, 0.52), "");
   EXPECT_EQ(why_left_out(dark, cube, 0.53),
             "light dies off within 0.39 mm, patches are of 0.53 mm");
+}
+
+// Shots that the dipole made of each body come back from the dipole: camera, lights and patches
+// suit the bodies. To what bench materials takes for right.
+TEST(BodiesRig, EveryBodyIsMeasured) {
+  const Medium medium{0.8, 0.01, 1.0};
+  for (const char* body : {"sphere", "slab", "scan"}) {
+    const Rig rig = bodies_rig(968, 1.3, {{"m", {medium, medium, medium}}}, {body});
+    const ObjectScenes scenes = bodies_scenes(rig);
+    const VirtualShots shots(rig, scenes, {.noise = true, .quiet = true});
+    MeasureOptions options;
+    options.quiet = true;
+    Instrument instrument(rig, scenes, options);
+    const Measurement m = instrument.measure(
+        shots_from(rig, all_shots(rig), SampleSource([&](std::size_t i, const SampleMap& where) {
+                     return shots.ideal_samples(i, where.x0, where.y0, where.width, where.height);
+                   })));
+    for (const ChannelResult& r : m.results) {
+      EXPECT_FALSE(r.refused()) << body << ": " << r.estimate.reasons.front();
+      EXPECT_NEAR(r.estimate.sigma_s_prime_per_mm.value, 0.8, 0.01 * 0.8) << body;
+      EXPECT_NEAR(r.estimate.sigma_a_per_mm.value, 0.01, 0.05 * 0.01) << body;
+    }
+  }
 }
 
 // The noise that is put on the dipole's image is that of the mean of the batches.
