@@ -91,6 +91,7 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   add_paper_bench(*bench, context, common);
   add_patches_bench(*bench, context, common);
   add_materials_bench(*bench, context, common);
+  add_models_bench(*bench, context, common);
   add_transport_bench(*bench, context, common);
 }
 

@@ -1,6 +1,9 @@
 #include "apps/bodies.h"
 
+#include <stdexcept>
 #include <utility>
+
+#include "apps/round_bodies.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -26,17 +29,22 @@ void add_band(TriangleMesh& mesh, int lower, int upper) {
   }
 }
 
-}  // namespace
-
-TriangleMesh cube_mesh() {
+// Square, on z = 0.
+TriangleMesh block(double width_mm, double height_mm) {
   TriangleMesh mesh;
-  add_square(mesh, 10, 0);
-  add_square(mesh, 10, 20);
+  add_square(mesh, 0.5 * width_mm, 0);
+  add_square(mesh, 0.5 * width_mm, height_mm);
   add_quad(mesh, 3, 2, 1, 0);
   add_band(mesh, 0, 4);
   add_quad(mesh, 4, 5, 6, 7);
   return mesh;
 }
+
+}  // namespace
+
+TriangleMesh cube_mesh() { return block(20, 20); }
+
+TriangleMesh slab_mesh() { return block(40, 10); }
 
 TriangleMesh pyramid_on_pedestal_mesh() {
   TriangleMesh mesh;
@@ -58,6 +66,20 @@ TriangleMesh pyramid_mesh() {
   add_quad(mesh, 3, 2, 1, 0);
   for (int i = 0; i < 4; ++i) mesh.triangles.push_back({i, (i + 1) % 4, 4});
   return mesh;
+}
+
+const std::vector<std::string>& body_names() {
+  static const std::vector<std::string> names = {"cube", "pyramid", "sphere", "slab", "scan"};
+  return names;
+}
+
+TriangleMesh body_mesh(const std::string& name) {
+  if (name == "cube") return cube_mesh();
+  if (name == "pyramid") return pyramid_on_pedestal_mesh();
+  if (name == "sphere") return sphere_mesh();
+  if (name == "slab") return slab_mesh();
+  if (name == "scan") return scanned_mesh();
+  throw std::invalid_argument("body_mesh: no body '" + name + "'");
 }
 
 }  // namespace scattermeter::apps

@@ -1,6 +1,9 @@
 // Bodies to shoot, made in code.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "core/triangle_mesh.h"
 
 namespace scattermeter::apps {
@@ -13,5 +16,12 @@ TriangleMesh cube_mesh();
 TriangleMesh pyramid_on_pedestal_mesh();
 // A square pyramid, base 20 mm, height 20 mm.
 TriangleMesh pyramid_mesh();
+// A plate of 40 x 40 x 10 mm.
+TriangleMesh slab_mesh();
+
+// "cube", "pyramid" (on its pedestal), "sphere", "slab", "scan" (apps/round_bodies.h).
+const std::vector<std::string>& body_names();
+// By one of these names; std::invalid_argument for another.
+TriangleMesh body_mesh(const std::string& name);
 
 }  // namespace scattermeter::apps

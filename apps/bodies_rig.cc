@@ -6,11 +6,11 @@
 namespace scattermeter::apps {
 
 Rig bodies_rig(int image_width_px, double eta_int_over_ext,
-               const std::vector<NamedMedia>& materials) {
+               const std::vector<NamedMedia>& materials, const std::vector<std::string>& bodies) {
   Rig rig;
   rig.path = "bodies_rig";
   set_up_camera(rig, image_width_px);
-  for (const char* name : {"cube", "pyramid"}) {
+  for (const std::string& name : bodies) {
     RigObject object;
     object.name = name;
     object.eta_int_over_ext = eta_int_over_ext;
@@ -20,7 +20,7 @@ Rig bodies_rig(int image_width_px, double eta_int_over_ext,
                 studio_led("led2", {-70, -20, 60}, {70, 20, -50})};
   for (const auto& [material, media] : materials) {
     rig.truth_materials[material] = media;
-    for (const char* object : {"cube", "pyramid"}) {
+    for (const std::string& object : bodies) {
       for (const char* number : {"1", "2"}) {
         RigShot shot;
         shot.file = material + "_" + object + "_" + number + ".dng";
@@ -35,9 +35,7 @@ Rig bodies_rig(int image_width_px, double eta_int_over_ext,
 }
 
 ObjectScenes bodies_scenes(const Rig& rig) {
-  return open_objects(rig, [](const RigObject& object) {
-    return object.name == "cube" ? cube_mesh() : pyramid_on_pedestal_mesh();
-  });
+  return open_objects(rig, [](const RigObject& object) { return body_mesh(object.name); });
 }
 
 }  // namespace scattermeter::apps

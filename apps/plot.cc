@@ -58,13 +58,26 @@ std::string data_block(const Plot& plot, std::size_t index, std::size_t& drawn) 
   return out + "END_OF_DATA\n";
 }
 
+// gnuplot's open and filled squares, discs, triangles, and so on.
+constexpr struct { int open, filled; } kShapes[] = {{4, 5}, {6, 7}, {8, 9}, {12, 13}};
+
+const char* colour_of(const PlotSeries& s, std::size_t index) {
+  return kColours[s.look.value_or(index) % std::size(kColours)];
+}
+
 std::string style_of(const PlotSeries& s, std::size_t index) {
-  const std::string colour = kColours[index % std::size(kColours)];
+  const std::string colour = colour_of(s, index);
+  const auto& shape = kShapes[s.look.value_or(1) % std::size(kShapes)];
   switch (s.style) {
     case PlotSeries::Style::kLine:
       return fmt::format("with lines lw 2 lc rgb '{}'", colour);
+    case PlotSeries::Style::kDashedLine:
+      return fmt::format("with lines lw 1.5 dt 2 lc rgb '{}'", colour);
     case PlotSeries::Style::kPoints:
-      return fmt::format("with points pt 7 ps 0.8 lc rgb '{}'", colour);
+      return fmt::format("with points pt {} ps {} lc rgb '{}'", shape.filled, s.look ? 1.2 : 0.8,
+                         colour);
+    case PlotSeries::Style::kOpenPoints:
+      return fmt::format("with points pt {} ps 1.2 lc rgb '{}'", shape.open, colour);
     case PlotSeries::Style::kLineAndPoints:
       return fmt::format("with linespoints lw 2 pt 7 ps 0.8 lc rgb '{}'", colour);
     case PlotSeries::Style::kBoxes:
@@ -77,7 +90,9 @@ std::string script_of(const Plot& plot, const std::string& terminal) {
   std::string script = terminal;
   script += fmt::format("set title {} noenhanced\n", quoted(plot.title));
   script += axis("x", plot.x) + axis("y", plot.y);
-  script += "set grid lc rgb '#DDDDDD'\nset key top right noenhanced\nset boxwidth 1.0 relative\n";
+  script += "set grid lc rgb '#DDDDDD'\nset boxwidth 1.0 relative\n";
+  script += plot.legend_outside ? "set key outside right top Left reverse noenhanced\n"
+                                : "set key top right noenhanced\n";
   std::string curves;
   std::size_t drawn = 0;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
@@ -89,7 +104,7 @@ std::string script_of(const Plot& plot, const std::string& terminal) {
     // The bars first: gnuplot blanks the place of their points.
     if (!s.y_std.empty()) {
       curves += fmt::format("$series{} using 1:2:3 notitle with yerrorbars pt 7 ps 0 lc rgb '{}', ",
-                            i, kColours[i % std::size(kColours)]);
+                            i, colour_of(s, i));
     }
     const std::string title = s.name.empty() ? "notitle" : "title " + quoted(s.name);
     curves += fmt::format("$series{} using 1:2 {} {}", i, title, style_of(s, i));

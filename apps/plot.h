@@ -15,12 +15,15 @@ struct PlotAxis {
 };
 
 struct PlotSeries {
-  enum class Style { kLine, kPoints, kLineAndPoints, kBoxes };
+  enum class Style { kLine, kDashedLine, kPoints, kOpenPoints, kLineAndPoints, kBoxes };
   std::string name;  // in the legend; "": not there
   Style style = Style::kLine;
   std::vector<double> x;
   std::vector<double> y;
   std::vector<double> y_std = {};  // error bars; empty: none. Not for boxes
+  // Of eight colours; of open and filled points with it their shape, the same for both. Absent: the
+  // colour of its place in the list, and discs.
+  std::optional<std::size_t> look = std::nullopt;
 };
 
 struct Plot {
@@ -28,6 +31,7 @@ struct Plot {
   PlotAxis x;
   PlotAxis y;
   std::vector<PlotSeries> series;
+  bool legend_outside = false;  // to the right of the axes; else in their upper right corner
   int width_px = 1000;
   int height_px = 640;
 };

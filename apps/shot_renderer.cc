@@ -131,6 +131,7 @@ SurfaceField ShotRenderer::volume_field(const RigShot& shot, Stage& s) {
     const RigLight& light = rig_.light(name);
     std::vector<Eigen::Array3d> values(field.nodes_mm().size(), Eigen::Array3d::Zero());
     for (int c = 0; c < 3; ++c) {
+      if (!(light.power()[c] > 0.0)) continue;
       Medium reduced = truth_of(rig_, shot)[static_cast<std::size_t>(c)];
       reduced.eta_int_over_ext = eta;
       const ScatteringMedium medium = scattering_medium(reduced);

@@ -52,6 +52,23 @@ TEST(Plot, DrawsPngAndSvg) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "it's a $(folder)"), {}), 2);
 }
 
+// A look is a colour and a shape, wherever the series stands in the list.
+TEST(Plot, Looks) {
+  const TemporaryFolder folder;
+  Plot plot;
+  plot.legend_outside = true;
+  plot.series = {{"filled", PlotSeries::Style::kPoints, {1, 2}, {3, 5}, {}, 2},
+                 {"open", PlotSeries::Style::kOpenPoints, {1, 2}, {4, 6}, {}, 2},
+                 {"dashed", PlotSeries::Style::kDashedLine, {1, 2}, {4, 4}, {}, 4}};
+  write_plot(plot, folder / "looks.svg");
+  const std::string svg = slurp(folder / "looks.svg");
+  for (const char* text : {">filled<", ">open<", "#gpPt7' transform", "#gpPt8' transform",
+                           "rgb(  0, 158, 115)", "rgb(230, 159,   0)' stroke-dasharray"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+  EXPECT_THAT(svg, ::testing::Not(HasSubstr("rgb(  0, 114, 178)")));  // the first colour
+}
+
 TEST(Plot, Boxes) {
   const TemporaryFolder folder;
   Plot plot;
