@@ -1,5 +1,6 @@
 #include "apps/bodies.h"
 
+#include <numbers>
 #include <utility>
 
 namespace scattermeter::apps {
@@ -57,6 +58,24 @@ TriangleMesh pyramid_mesh() {
   mesh.vertices_mm.emplace_back(0, 0, 20);
   add_quad(mesh, 3, 2, 1, 0);
   for (int i = 0; i < 4; ++i) mesh.triangles.push_back({i, (i + 1) % 4, 4});
+  return mesh;
+}
+
+TriangleMesh sphere_mesh(int levels) {
+  constexpr double kRadius_mm = 10.0;
+  const double phi = std::numbers::phi;
+  TriangleMesh mesh;
+  mesh.vertices_mm = {{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0},
+                      {0, -1, phi}, {0, 1, phi}, {0, -1, -phi}, {0, 1, -phi},
+                      {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1}, {-phi, 0, 1}};
+  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                    {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                    {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                    {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  mesh = cut_finer(std::move(mesh), levels);
+  for (Eigen::Vector3d& v : mesh.vertices_mm) {
+    v = kRadius_mm * v.normalized() + Eigen::Vector3d(0, 0, kRadius_mm);
+  }
   return mesh;
 }
 

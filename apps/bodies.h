@@ -13,5 +13,8 @@ TriangleMesh cube_mesh();
 TriangleMesh pyramid_on_pedestal_mesh();
 // A square pyramid, base 20 mm, height 20 mm.
 TriangleMesh pyramid_mesh();
+// A sphere of 20 mm diameter: an icosahedron cut finer, its vertices moved onto the sphere;
+// 20 * 4^levels triangles.
+TriangleMesh sphere_mesh(int levels);
 
 }  // namespace scattermeter::apps

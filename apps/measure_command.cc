@@ -30,8 +30,8 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
       ->add_option(
           "--model", options->model,
           "dipole: continuous fit with uncertainty; transport: volume Monte Carlo, knows the "
-          "object's shape, bodies of at most 32 planes; paper: quantised distances, "
-          "pseudo-inverse and grid, for comparison; auto: the best that applies (dipole)")
+          "object's shape; paper: quantised distances, pseudo-inverse and grid, for comparison; "
+          "auto: the best that applies (dipole)")
       ->check(CLI::IsMember({"auto", "transport", "dipole", "paper"}))
       ->capture_default_str();
   command

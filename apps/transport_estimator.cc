@@ -39,6 +39,7 @@ struct LitView {
   const RigLight* light;
   std::unique_ptr<EntrySource> source;
   const PathBoundary* boundary;
+  const CameraConnection* camera;  // of some medium
   const ScatteringView* view;
   double power;
   // Rows of the task's system that it lights, and of the view's, side by side.
@@ -63,6 +64,8 @@ class TransportFit {
       const auto [view, is_new] = views_.try_emplace(&seen);
       if (is_new) {
         view->second.boundary = std::make_unique<PathBoundary>(*seen.object->rays);
+        view->second.camera.emplace(*view->second.boundary, seen.camera_center_mm,
+                                    ScatteringMedium{1.0, 0.0, 0.0, task.eta});
         view->second.rows = scattering_view(*seen.patches, seen.map.patch_of_row);
       }
       std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
@@ -79,8 +82,14 @@ class TransportFit {
           return v.seen == &seen && v.light == &light;
         });
         if (known == lit_.end()) {
-          LitView v{&seen, &light, nullptr, view->second.boundary.get(), &view->second.rows,
-                    power, {}};
+          LitView v{&seen,
+                    &light,
+                    nullptr,
+                    view->second.boundary.get(),
+                    &*view->second.camera,
+                    &view->second.rows,
+                    power,
+                    {}};
           v.source = entry_of(name, light, probes, *seen.object->rays,
                               static_cast<int>(task.channel), task.eta);
           lit_.push_back(std::move(v));
@@ -93,12 +102,6 @@ class TransportFit {
 
   // Starts from `estimate` and replaces it.
   void run(Estimate& estimate) {
-    for (const auto& [seen, view] : views_) {
-      if (!view.boundary->body().planes.empty()) continue;
-      estimate.reasons = {"transport is there for bodies of at most " +
-                          std::to_string(PathBoundary::kFewPlanes) + " planes; this one has more"};
-      return;
-    }
     const auto start = std::chrono::steady_clock::now();
     const auto seconds = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -145,6 +148,7 @@ class TransportFit {
  private:
   struct View {
     std::unique_ptr<PathBoundary> boundary;
+    std::optional<CameraConnection> camera;
     ScatteringView rows;
   };
   struct Sums {
@@ -167,7 +171,7 @@ class TransportFit {
     const ScatteringMedium medium{at.sigma_s_per_mm, at.sigma_a_per_mm, 0.0, task_.eta};
     for (std::size_t i = 0; i < lit_.size(); ++i) {
       const LitView& v = lit_[i];
-      const CameraConnection camera(*v.boundary, v.seen->camera_center_mm, medium);
+      const CameraConnection camera = v.camera->with(medium);
       PathOptions options;
       options.seed = sums.seed + i;
       sums.per_view[i].trace({*v.boundary, medium, *v.source, &camera}, options, blocks);

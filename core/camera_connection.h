@@ -1,10 +1,12 @@
 // Light from a scattering to a camera, through the smooth surface.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/facet_beams.h"
 #include "core/henyey_greenstein.h"
 #include "core/path_boundary.h"
 #include "core/path_score.h"
@@ -46,13 +48,28 @@ RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
 // A connection of n images through one plane is made with a probability that falls with the depth
 // below the plane and the walls' distances, and weighs more for it (roulette; unbiased).
 //
-// For bodies of at most PathBoundary::kFewPlanes planes, convex or not; std::invalid_argument for
-// others.
+// Bodies of more than PathBoundary::kFewPlanes planes: through every facet whose refracted beam
+// holds the point (FacetBeams), where nothing lies between; probability by the ray's length. No
+// images: what is reflected inside after its last scattering, or leaves a body that is not convex
+// and enters it again after it, is left out (PathScore::straight). Of what leaves within 0.38 rad
+// of (1, -1, 1), eta 1.3, isotropic, sigma_a 0.002 per mm, LED at (30, -60, 80) mm, that is in per
+// cent, +- the last digit (0.00: below 0.01):
+//   mean free path mm           0.46   2
+//   20 mm cube, sharp           0.9    4.8   (few planes: images make up for it)
+//   edges rounded by 1 mm       0.02   2.0
+//   edges rounded by 3 mm       0.00   0.17
+//   edges rounded by 8 mm              0.00
+//   sphere of radius 10 mm      0.00   0.04 at 3.3 mm
+//   the same, its radius waved by 30 % (about 6 mm from dent to dent): 0.9 at 0.46 and at 1 mm
 class CameraConnection {
  public:
-  // The boundary must outlive the object. most_walls: 0 .. 2, reflections inside on the way.
+  // The boundary must outlive the object. most_walls: 0 .. 2, reflections inside on the way; of
+  // bodies of few planes only.
   CameraConnection(const PathBoundary& boundary, const Eigen::Vector3d& camera_in_world_mm,
                    const ScatteringMedium& medium, int most_walls = 2);
+  // The same camera and body for another medium: what takes long to build is shared.
+  // std::invalid_argument if eta differs.
+  CameraConnection with(const ScatteringMedium& medium) const;
 
   // A scattering: where, the direction of flight before it, the path's weight after it, number of
   // scatterings (this one with them) and length up to here.
@@ -82,6 +99,12 @@ class CameraConnection {
   };
   void through(const Window& window, const Image& image, const Vertex& vertex, double deepest_mm,
                double least_bound_mm, std::vector<PathScore>& scores) const;
+  void through_facets(const Vertex& vertex, double deepest_mm,
+                      std::vector<PathScore>& scores) const;
+
+  void push(const Vertex& vertex, const Eigen::Vector3d& passage, const RefractedRay& ray,
+            int facet, const Eigen::Vector3d& outgoing, double reflectance, bool straight,
+            double bound_mm, std::vector<PathScore>& scores) const;
 
   const PathBoundary& boundary_;
   Eigen::Vector3d camera_mm_;
@@ -90,6 +113,7 @@ class CameraConnection {
   int most_walls_;
   HenyeyGreenstein phase_;
   std::vector<Window> windows_;
+  std::shared_ptr<const FacetBeams> beams_;  // of a body of many planes
 };
 
 }  // namespace scattermeter
