@@ -82,6 +82,7 @@ CameraConnection::CameraConnection(const PathBoundary& boundary,
   const std::vector<BodyPlane>& planes = boundary.body().planes;
   if (planes.empty()) {
     beams_ = std::make_shared<FacetBeams>(boundary.scene().mesh(), camera_mm_, eta_);
+    cone_ = std::make_shared<EscapeCone>(eta_);
   }
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const double height_mm = -planes[k].depth_mm(camera_mm_);
@@ -212,6 +213,23 @@ void CameraConnection::through_facets(const Vertex& vertex, double deepest_mm,
     push(vertex, passage, ray, facet.facet_idx, (passage - vertex.x).normalized(), 1.0, true,
          ray.length_mm, scores);
   });
+}
+
+std::optional<PathScore> CameraConnection::not_connected(const PathScore& escape) const {
+  if (!cone_ || escape.straight || escape.scatterings == 0) return std::nullopt;
+  const Eigen::Vector3d to_camera = (camera_mm_ - escape.point_mm).normalized();
+  const Eigen::Vector3d& normal = boundary_.facet_normal(escape.facet_idx);
+  const double cosine = to_camera.dot(normal);
+  if (!(cosine > 0.0) || escape.direction.dot(to_camera) < EscapeCone::kCosHalf) {
+    return std::nullopt;
+  }
+  if (!boundary_.convex() && boundary_.scene().occluded(escape.point_mm, normal, camera_mm_)) {
+    return std::nullopt;
+  }
+  PathScore score = escape;
+  score.direction = to_camera;
+  score.weight = std::numbers::pi * escape.weight / cone_->transmitting_sr(cosine);
+  return score;
 }
 
 // `bound_mm`: the lower bound of the path's length that decided whether it was made.

@@ -164,8 +164,16 @@ class PathTracer {
   // `at`, `x`: where it left; the direction is its last.
   void escape(const Crossing& at, const Eigen::Vector3d& x, const Path& path) {
     audit_.escaped += path.weight;
-    sink_.escape({x, path.direction, world_.boundary.facet_at(at, x), path.weight, path.scatterings,
-                  path.length_mm, path.straight});
+    const PathScore score{x,
+                          path.direction,
+                          world_.boundary.facet_at(at, x),
+                          path.weight,
+                          path.scatterings,
+                          path.length_mm,
+                          path.straight};
+    sink_.escape(score);
+    if (world_.camera == nullptr) return;
+    if (const auto seen = world_.camera->not_connected(score)) sink_.camera(*seen);
   }
 
   void lose(const Path& path) {
