@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include "apps/bodies.h"
 #include "apps/csv.h"
 #include "apps/progress.h"
+#include "apps/round_bodies.h"
 #include "apps/text_table.h"
 #include "core/path_tracer.h"
 
@@ -25,10 +27,11 @@ struct Sum {
 };
 
 struct Body {
+  std::string name;
   RayScene scene;
   PathBoundary boundary;
-  Body(const TriangleMesh& mesh, PathBoundary::Method method)
-      : scene(mesh), boundary(scene, method) {}
+  Body(std::string called, const TriangleMesh& mesh, PathBoundary::Method method)
+      : name(std::move(called)), scene(mesh), boundary(scene, method) {}
 };
 
 TransportBenchRow measure(const Body& body, double mean_free_path_mm, bool connections,
@@ -53,6 +56,7 @@ TransportBenchRow measure(const Body& body, double mean_free_path_mm, bool conne
     seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   }
   TransportBenchRow row;
+  row.body = body.name;
   row.triangles = static_cast<std::int64_t>(body.scene.mesh().triangles.size());
   row.by_rays = !body.boundary.by_planes();
   row.mean_free_path_mm = mean_free_path_mm;
@@ -72,27 +76,31 @@ TransportBenchRow measure(const Body& body, double mean_free_path_mm, bool conne
 std::vector<TransportBenchRow> bench_transport(const TransportBenchOptions& options) {
   const std::vector<double> mean_free_paths_mm = {1.0 / 2.192, 0.1, 0.2, 1.0, 2.0, 7.0};
   const std::vector<int> levels = {0, 2, 4, 6, 8};
+  const std::vector<int> sphere_levels = {2, 4, 5, 7};
   std::vector<TransportBenchRow> rows;
-  Progress progress("tracing", static_cast<int>(mean_free_paths_mm.size() + levels.size()),
-                    options.quiet);
-  const Body cube(cube_mesh(), PathBoundary::Method::kAuto);
-  for (double mm : mean_free_paths_mm) {
-    for (bool connections : {false, true}) rows.push_back(measure(cube, mm, connections, options));
+  Progress progress(
+      "tracing", static_cast<int>(mean_free_paths_mm.size() + levels.size() + sphere_levels.size()),
+      options.quiet);
+  const auto both = [&](const Body& body, double mm) {
+    for (bool connections : {false, true}) rows.push_back(measure(body, mm, connections, options));
     progress.step();
-  }
+  };
+  const Body cube("cube", cube_mesh(), PathBoundary::Method::kAuto);
+  for (double mm : mean_free_paths_mm) both(cube, mm);
   for (int level : levels) {
-    const Body fine(cut_finer(cube_mesh(), level), PathBoundary::Method::kRays);
-    for (bool connections : {false, true}) {
-      rows.push_back(measure(fine, mean_free_paths_mm.front(), connections, options));
-    }
-    progress.step();
+    both({"cube", cut_finer(cube_mesh(), level), PathBoundary::Method::kRays},
+         mean_free_paths_mm.front());
+  }
+  for (int level : sphere_levels) {
+    both({"sphere", sphere_mesh(level), PathBoundary::Method::kAuto}, mean_free_paths_mm.front());
   }
   return rows;
 }
 
 std::string transport_bench_table(const std::vector<TransportBenchRow>& rows) {
   using Align = TextTable::Align;
-  TextTable table({{"triangles"},
+  TextTable table({{"body", Align::kLeft},
+                   {"triangles"},
                    {"by", Align::kLeft},
                    {"mean free path mm"},
                    {"connections", Align::kLeft},
@@ -102,7 +110,7 @@ std::string transport_bench_table(const std::vector<TransportBenchRow>& rows) {
                    {"audit error"},
                    {"lost"}});
   for (const TransportBenchRow& r : rows) {
-    table.add_row({std::to_string(r.triangles), r.by_rays ? "rays" : "planes",
+    table.add_row({r.body, std::to_string(r.triangles), r.by_rays ? "rays" : "planes",
                    fmt::format("{:.3f}", r.mean_free_path_mm), r.connections ? "on" : "off",
                    fmt::format("{:.1f}", r.scatterings_per_path),
                    fmt::format("{:.1f}", 1e-6 * r.scatterings_per_s),
@@ -113,10 +121,10 @@ std::string transport_bench_table(const std::vector<TransportBenchRow>& rows) {
 }
 
 std::string transport_bench_csv(const std::vector<TransportBenchRow>& rows) {
-  Csv csv({"triangles", "by", "mean_free_path_mm", "connections", "scatterings_per_path",
+  Csv csv({"body", "triangles", "by", "mean_free_path_mm", "connections", "scatterings_per_path",
            "scatterings_per_s_and_core", "escaped", "audit_error", "lost_paths"});
   for (const TransportBenchRow& r : rows) {
-    csv.add_row({std::to_string(r.triangles), r.by_rays ? "rays" : "planes",
+    csv.add_row({r.body, std::to_string(r.triangles), r.by_rays ? "rays" : "planes",
                  csv_number(r.mean_free_path_mm), r.connections ? "on" : "off",
                  csv_number(r.scatterings_per_path), csv_number(r.scatterings_per_s),
                  csv_number(r.escaped), csv_number(r.audit_error), std::to_string(r.lost_paths)});

@@ -13,8 +13,9 @@ struct TransportBenchOptions {
   bool quiet = false;
 };
 
-// The 20 mm cube (eta 1.3, g 0, sigma_a 0.002 per mm) under one LED.
+// The 20 mm cube or sphere (eta 1.3, g 0, sigma_a 0.002 per mm) under one LED.
 struct TransportBenchRow {
+  std::string body;
   std::int64_t triangles = 12;
   bool by_rays = false;  // else by the planes of the convex body
   double mean_free_path_mm = 0;
@@ -26,8 +27,8 @@ struct TransportBenchRow {
   std::int64_t lost_paths = 0;
 };
 
-// Mean free paths of 0.1 to 7 mm on 12 triangles, then 12 to 786432 triangles at 0.46 mm; each with
-// and without connections. On one thread.
+// Mean free paths of 0.1 to 7 mm in the cube of 12 triangles, then 12 to 786432 triangles at
+// 0.46 mm, then spheres of 320 to 327680; each with and without connections. On one thread.
 std::vector<TransportBenchRow> bench_transport(const TransportBenchOptions& options);
 
 std::string transport_bench_table(const std::vector<TransportBenchRow>& rows);

@@ -10,9 +10,9 @@ void add_transport_bench(CLI::App& bench, CommandContext& context,
   const auto options = std::make_shared<TransportBenchOptions>();
   CLI::App* command = bench.add_subcommand(
       "transport",
-      "Speed of the volumetric Monte Carlo: scatterings per second of one core, in a 20 mm cube, "
-      "over the mean free path and the number of triangles.\n"
-      "transport.csv: triangles, by (planes of the convex body, or rays), mean_free_path_mm, "
+      "Speed of the volumetric Monte Carlo: scatterings per second of one core, in a 20 mm cube "
+      "or sphere, over the mean free path and the number of triangles.\n"
+      "transport.csv: body, triangles, by (planes of the convex body, or rays), mean_free_path_mm, "
       "connections (to the camera), scatterings_per_path, scatterings_per_s_and_core, escaped (of "
       "what entered), audit_error, lost_paths.");
   command->add_option("--seconds", options->seconds, "processor time of a row, about")

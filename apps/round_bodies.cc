@@ -59,8 +59,8 @@ void set_down(TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh sphere_mesh() {
-  TriangleMesh mesh = unit_sphere(4);
+TriangleMesh sphere_mesh(int levels) {
+  TriangleMesh mesh = unit_sphere(levels);
   // The icosphere's own lowest place is a middle of an edge: it has a corner there.
   for (Eigen::Vector3d& v : mesh.vertices_mm) v = 10.0 * v + Eigen::Vector3d(0, 0, 10);
   return mesh;

@@ -121,10 +121,8 @@ SurfaceField ShotRenderer::volume_field(const RigShot& shot, Stage& s) {
   const ObjectScene& scene = scenes_.at(shot.object);
   const double eta = scene.rig->eta_int_over_ext;
   if (!s.boundary) s.boundary = std::make_unique<PathBoundary>(*scene.rays);
-  if (s.boundary->body().planes.empty()) {
-    throw InputError(rig_.at(scene.rig->line) + ": objects." + shot.object,
-                     "has more than " + std::to_string(PathBoundary::kFewPlanes) +
-                         " planes; the volume is rendered for bodies of fewer only");
+  if (!s.camera) {
+    s.camera.emplace(*s.boundary, view_.center_in_world_mm(), ScatteringMedium{1.0, 0.0, 0.0, eta});
   }
   SurfaceField field(*s.patches, s.needed, smooth_parts(scene.mesh()));
   for (const std::string& name : shot.lights) {
@@ -136,7 +134,7 @@ SurfaceField ShotRenderer::volume_field(const RigShot& shot, Stage& s) {
       reduced.eta_int_over_ext = eta;
       const ScatteringMedium medium = scattering_medium(reduced);
       const auto source = entry_of(name, light, probes_, *scene.rays, c, eta);
-      const CameraConnection camera(*s.boundary, view_.center_in_world_mm(), medium);
+      const CameraConnection camera = s.camera->with(medium);
       const VolumeLight l =
           volume_radiosity(field, *s.patches, {*s.boundary, medium, *source, &camera},
                            {transport_.seed * 1'000'003ULL + runs_++, transport_.paths});

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "apps/object_scene.h"
 #include "apps/rig.h"
 #include "apps/rig_probes.h"
+#include "core/camera_connection.h"
 #include "core/cfa_samples.h"
 #include "core/dipole_image.h"
 #include "core/incident_light.h"
@@ -43,9 +45,7 @@ struct RenderTransport {
 // its shots. Rig and scenes must outlive it. Not for several threads at once (it uses all of them).
 class ShotRenderer {
  public:
-  // Throws InputError where the rig lacks a truth material or pose, or for a probe; with the
-  // volume, for a body of more planes than connections to the camera take
-  // (core/camera_connection.h).
+  // Throws InputError where the rig lacks a truth material or pose, or for a probe.
   ShotRenderer(const Rig& rig, const ObjectScenes& scenes, const RenderTransport& transport = {});
 
   // Throws InputError when the object is out of view. The rectangle is the object's; with a board
@@ -65,7 +65,9 @@ class ShotRenderer {
     std::unique_ptr<ShadeMap> pixels;
     std::vector<bool> needed;
     std::map<std::string, std::vector<IncidentLight>> lights;
-    std::unique_ptr<PathBoundary> boundary;  // volume only
+    // Volume only.
+    std::unique_ptr<PathBoundary> boundary;
+    std::optional<CameraConnection> camera;
   };
   Stage& stage(const std::string& object);
   std::vector<IncidentLight> light_on(const RigLight& light, const ObjectScene& scene,

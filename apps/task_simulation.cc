@@ -4,8 +4,6 @@
 #include <iterator>
 #include <string>
 
-#include "core/camera_connection.h"
-
 namespace scattermeter::apps {
 
 TaskSimulation::TaskSimulation(const Rig& rig, const RigProbes& probes, const Task& task)
@@ -16,6 +14,8 @@ TaskSimulation::TaskSimulation(const Rig& rig, const RigProbes& probes, const Ta
     const auto [view, is_new] = views_.try_emplace(&seen);
     if (is_new) {
       view->second.boundary = std::make_unique<PathBoundary>(*seen.object->rays);
+      view->second.camera.emplace(*view->second.boundary, seen.camera_center_mm,
+                                  ScatteringMedium{1.0, 0.0, 0.0, task.eta});
       view->second.rows = scattering_view(*seen.patches, seen.map.patch_of_row);
     }
     for (const std::string& name : shot.rig->lights) {
@@ -79,7 +79,7 @@ void TaskSimulation::trace(Draw& draw, const ScatteringPoint& at, int blocks) co
   const ScatteringMedium medium{at.sigma_s_per_mm, at.sigma_a_per_mm, 0.0, task_.eta};
   for (std::size_t i = 0; i < lit_.size(); ++i) {
     const LitView& v = lit_[i];
-    const CameraConnection camera(*v.view->boundary, v.seen->camera_center_mm, medium);
+    const CameraConnection camera = v.view->camera->with(medium);
     PathOptions options;
     options.seed = draw.seed + i;
     draw.of_light[i].trace({*v.view->boundary, medium, *v.source, &camera}, options, blocks);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 
 #include "apps/estimation_task.h"
 #include "apps/rig_probes.h"
+#include "core/camera_connection.h"
 #include "core/entry_source.h"
 #include "core/path_boundary.h"
 #include "core/scattering_equation.h"
@@ -49,6 +51,7 @@ class TaskSimulation {
  private:
   struct View {
     std::unique_ptr<PathBoundary> boundary;
+    std::optional<CameraConnection> camera;  // of some medium
     ScatteringView rows;
   };
   // One light on one object, as the camera sees it.

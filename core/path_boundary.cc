@@ -6,6 +6,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/convexity.h"
+
 namespace scattermeter {
 namespace {
 
@@ -20,6 +22,7 @@ PathBoundary::PathBoundary(const RayScene& scene, Method method)
       size_mm_(bounds(scene.mesh()).size_mm().maxCoeff()),
       grain_mm_(kGrain * size_mm_),
       body_(body_planes(scene.mesh(), kFewPlanes)),
+      convex_(body_.planes.empty() ? is_convex(scene.mesh()) : body_.convex),
       by_planes_(body_.convex && method == Method::kAuto) {
   const TriangleMesh& mesh = scene.mesh();
   for (int f = 0; f < static_cast<int>(mesh.triangles.size()); ++f) {
@@ -142,13 +145,13 @@ Eigen::Vector3d PathBoundary::off_the_edges(int facet, const Eigen::Vector3d& x)
 
 std::optional<Crossing> PathBoundary::entering(const Eigen::Vector3d& x,
                                                const Eigen::Vector3d& direction) const {
-  if (body_.convex) return std::nullopt;
+  if (convex_) return std::nullopt;
   bool lost = false;  // then the direction grazes the facet that was left
   return passed(x, direction, 4.0 * size_mm_, -1.0, lost);
 }
 
 bool PathBoundary::clear_inside(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-  if (body_.convex) return true;
+  if (convex_) return true;
   const Eigen::Vector3d way = to - from;
   const double length_mm = way.norm();
   if (length_mm <= 3.0 * grain_mm_) return true;

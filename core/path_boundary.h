@@ -1,6 +1,7 @@
 // The surface of a body, for paths that run inside it.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -42,6 +43,11 @@ class PathBoundary {
   // Planes are there for every body of few of them; by_planes(): they bound it.
   const BodyPlanes& body() const { return body_; }
   bool by_planes() const { return by_planes_; }
+  bool convex() const { return convex_; }
+  // A lower bound of the distance from a point inside to the surface; 0 for a body by planes.
+  double clearance_mm(const Eigen::Vector3d& x) const {
+    return grid_ ? std::max(0.0, grid_->at(x)) : 0.0;
+  }
   const Eigen::Vector3d& facet_normal(int facet) const {
     return normal_[static_cast<std::size_t>(facet)];
   }
@@ -95,6 +101,7 @@ class PathBoundary {
   double size_mm_;
   double grain_mm_;
   BodyPlanes body_;
+  bool convex_;
   bool by_planes_;
   std::vector<Eigen::Vector3d> normal_;  // by facet
   std::vector<double> offset_mm_;

@@ -17,6 +17,8 @@ struct PathScore {
   double weight = 0;
   int scatterings = 0;   // before it
   double length_mm = 0;  // inside the body
+  // Since its last scattering it was neither reflected nor did it leave the body and enter again.
+  bool straight = false;
 };
 
 // Power by fate, in the source's unit. entered = absorbed + escaped + roulette + lost to rounding.

@@ -73,7 +73,8 @@ class PathTracer {
 
  private:
   void trace(const Entry& entry, RandomStream& random) {
-    Path path{entry.position_mm, entry.direction, entry.power / options_.paths_per_block, 0, 0.0};
+    Path path{
+        entry.position_mm, entry.direction, entry.power / options_.paths_per_block, 0, 0.0, false};
     audit_.entered += path.weight;
     const double roulette_below = options_.roulette_weight * path.weight;
     double clearance_mm = 0.0;
@@ -108,6 +109,7 @@ class PathTracer {
         for (const PathScore& score : scores_) sink_.camera(score);
       }
       path.direction = phase_.sample(path.direction, random);
+      path.straight = true;
       if (path.weight < roulette_below) {
         constexpr double kSurvives = 0.1;
         if (random.uniform() >= kSurvives) {
@@ -126,6 +128,7 @@ class PathTracer {
     double weight;
     int scatterings;
     double length_mm;  // up to the end of the step under way
+    bool straight;     // as in PathScore
   };
 
   // At the surface from inside: reflects (false) or refracts out (true).
@@ -136,6 +139,7 @@ class PathTracer {
       return true;
     }
     path.direction = reflected(path.direction, at.normal);
+    path.straight = false;
     return false;
   }
 
@@ -145,6 +149,7 @@ class PathTracer {
     Eigen::Vector3d x = path.x;
     while (const std::optional<Crossing> at = world_.boundary.entering(x, path.direction)) {
       x = at->point_mm;
+      path.straight = false;
       const double cosine = -path.direction.dot(at->normal);
       if (random.uniform() < fresnel_transmittance(eta_, cosine)) {
         path.direction = refracted(path.direction, at->normal, eta_);
@@ -159,8 +164,16 @@ class PathTracer {
   // `at`, `x`: where it left; the direction is its last.
   void escape(const Crossing& at, const Eigen::Vector3d& x, const Path& path) {
     audit_.escaped += path.weight;
-    sink_.escape({x, path.direction, world_.boundary.facet_at(at, x), path.weight, path.scatterings,
-                  path.length_mm});
+    const PathScore score{x,
+                          path.direction,
+                          world_.boundary.facet_at(at, x),
+                          path.weight,
+                          path.scatterings,
+                          path.length_mm,
+                          path.straight};
+    sink_.escape(score);
+    if (world_.camera == nullptr) return;
+    if (const auto seen = world_.camera->not_connected(score)) sink_.camera(*seen);
   }
 
   void lose(const Path& path) {

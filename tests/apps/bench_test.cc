@@ -165,17 +165,19 @@ TEST(BenchTransport, AuditsEveryRow) {
   options.seconds = 0.01;
   options.quiet = true;
   const std::vector<TransportBenchRow> rows = bench_transport(options);
-  ASSERT_EQ(rows.size(), 22U);
+  ASSERT_EQ(rows.size(), 30U);
   EXPECT_EQ(rows.front().triangles, 12);
-  EXPECT_EQ(rows.back().triangles, 786432);
+  EXPECT_EQ(rows[21].triangles, 786432);
+  EXPECT_EQ(rows.back().triangles, 327680);
   for (const TransportBenchRow& row : rows) {
     EXPECT_LT(std::abs(row.audit_error), 1e-9);
-    EXPECT_EQ(row.lost_paths, 0);
+    // Of round bodies one path in some ten thousand is lost to rounding.
+    EXPECT_LE(row.lost_paths, row.body == "cube" ? 0 : 2);
     EXPECT_GT(row.scatterings_per_s, 0.0);
     // Between 0.952 and 0.967 with long runs.
     EXPECT_NEAR(row.escaped, 0.96, 0.03);
   }
-  EXPECT_THAT(transport_bench_csv(rows), HasSubstr("786432,rays,"));
+  EXPECT_THAT(transport_bench_csv(rows), HasSubstr("cube,786432,rays,"));
 }
 
 TEST(BenchCommand, BadUsage) {

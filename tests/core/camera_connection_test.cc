@@ -1,12 +1,16 @@
 #include "core/camera_connection.h"
 
+#include <algorithm>
+#include <numbers>
 #include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/path_blocks.h"
 #include "tests/core/block_mean.h"
 #include "tests/core/boxes.h"
+#include "tests/core/bumps.h"
 #include "tests/core/spheres.h"
 
 namespace scattermeter {
@@ -57,9 +61,7 @@ struct FirstScatterings {
 //        = pi / eta^2 sigma_s p E / (sigma_t (1 + cos)),
 // cos that of the refracted ray from P to the camera; over the middle of the face by a midpoint
 // rule.
-TEST(CameraConnection, SeesSingleScatteringAsQuadratureDoes) {
-  const RayScene scene(testing::make_box({-12, -12, -12}, {12, 12, 0}));
-  const PathBoundary boundary(scene);
+void expect_single_scattering(const PathBoundary& boundary) {
   const ScatteringMedium medium{1.5, 0.5, 0.4, 1.3};
   const auto source = beam_entry({{-10, -10, 0}, {20, 0, 0}, {0, 20, 0}, {0, 0, -1}});
   for (const Eigen::Vector3d& eye : {Eigen::Vector3d(3, -8, 10), Eigen::Vector3d(0, -800, 400)}) {
@@ -87,10 +89,147 @@ TEST(CameraConnection, SeesSingleScatteringAsQuadratureDoes) {
   }
 }
 
-TEST(CameraConnection, RefusesManyPlanes) {
+TEST(CameraConnection, SeesSingleScatteringAsQuadratureDoes) {
+  const RayScene scene(testing::make_box({-12, -12, -12}, {12, 12, 0}));
+  const PathBoundary boundary(scene);
+  expect_single_scattering(boundary);
+}
+
+// The same box with a bottom of many planes, far below: the connections go through the beams of the
+// facets of a top that is cut in 128.
+TEST(CameraConnection, SeesSingleScatteringThroughManyFacets) {
+  TriangleMesh box = cut_finer(testing::make_box({-12, -12, -12}, {12, 12, 0}), 3);
+  for (Eigen::Vector3d& v : box.vertices_mm) {
+    if (v.z() == -12.0) v.z() -= 0.02 * (v.head<2>() - Eigen::Vector2d(1, 2)).squaredNorm();
+  }
+  const RayScene scene(box);
+  const PathBoundary boundary(scene);
+  ASSERT_TRUE(boundary.body().planes.empty());
+  expect_single_scattering(boundary);
+}
+
+// Distance along a ray to a facet, from Cramer's rule; negative: none.
+double distance_to(const TriangleMesh& mesh, std::size_t facet, const Eigen::Vector3d& from,
+                   const Eigen::Vector3d& unit) {
+  const auto& t = mesh.triangles[facet];
+  const Eigen::Vector3d& a = mesh.vertices_mm[static_cast<std::size_t>(t[0])];
+  const Eigen::Vector3d ab = mesh.vertices_mm[static_cast<std::size_t>(t[1])] - a;
+  const Eigen::Vector3d ac = mesh.vertices_mm[static_cast<std::size_t>(t[2])] - a;
+  const Eigen::Vector3d p = unit.cross(ac);
+  const double det = ab.dot(p);
+  const Eigen::Vector3d s = from - a;
+  const double u = s.dot(p) / det;
+  const double v = unit.dot(s.cross(ab)) / det;
+  return u >= 0.0 && v >= 0.0 && u + v <= 1.0 ? ac.dot(s.cross(ab)) / det : -1.0;
+}
+bool between(const TriangleMesh& mesh, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+             double less_mm) {
+  const double length_mm = (to - from).norm();
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    const double d = distance_to(mesh, f, from, (to - from) / length_mm);
+    if (d > less_mm && d < length_mm - less_mm) return true;
+  }
+  return false;
+}
+
+// What is connected, and with what weight, against all facets one by one and all that may lie
+// between. Shallow points, whose roulette is sure.
+void expect_as_by_all_facets(const TriangleMesh& mesh, const Eigen::Vector3d& eye, double eta,
+                             int least) {
+  const RayScene scene(mesh);
+  const PathBoundary boundary(scene);
+  const ScatteringMedium medium{0.1, 0.01, 0.5, eta};
+  const double sure_mm = 0.7 / medium.sigma_t_per_mm();
+  const CameraConnection camera(boundary, eye, medium);
+  RandomStream random(5, 0);
+  int n_scores = 0;
+  int doubtful = 0;
+  std::vector<PathScore> scores;
+  for (int i = 0; i < 3000; ++i) {
+    // Beneath a random place.
+    const std::size_t under = random.bits() % mesh.triangles.size();
+    const auto& t = mesh.triangles[under];
+    Eigen::Vector3d x = mesh.vertices_mm[static_cast<std::size_t>(t[0])];
+    const double u = random.uniform();
+    const double v = (1.0 - u) * random.uniform();
+    x += u * (mesh.vertices_mm[static_cast<std::size_t>(t[1])] - x) +
+         v * (mesh.vertices_mm[static_cast<std::size_t>(t[2])] - x);
+    x -= (0.01 + 2.0 * random.uniform()) * boundary.facet_normal(static_cast<int>(under));
+    if (!scene.contains(x)) continue;
+    const Eigen::Vector3d before = Eigen::Vector3d(1, 2, -1).normalized();
+    camera.connect({x, before, 2.0, 7, 3.0}, random, scores);
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+      const auto found = std::find_if(scores.begin(), scores.end(), [&](const PathScore& s) {
+        return s.facet_idx == static_cast<int>(f);
+      });
+      const Eigen::Vector3d& n = boundary.facet_normal(static_cast<int>(f));
+      const Eigen::Vector3d& a = mesh.vertices_mm[static_cast<std::size_t>(mesh.triangles[f][0])];
+      const double height_mm = n.dot(eye - a);
+      const double depth_mm = n.dot(a - x);
+      double expected = 0.0;
+      if (height_mm > 0.0 && depth_mm > 0.0) {
+        const Eigen::Vector3d foot = eye - height_mm * n;
+        const Eigen::Vector3d across = x + depth_mm * n - foot;
+        const RefractedRay ray = refracted_ray(height_mm, depth_mm, across.norm(), eta);
+        const Eigen::Vector3d p = foot + ray.radius_mm * across.normalized();
+        if (ray.length_mm > 2.0 * sure_mm) continue;
+        // Places within 0.1 um of a silhouette or an edge may fall either way.
+        if (distance_to(mesh, f, p + n, -n) > 0.0 && !between(mesh, x, p, 1e-4) &&
+            !between(mesh, eye, p, 1e-4)) {
+          const double by_roulette =
+              std::min(1.0, std::exp(0.7 - medium.sigma_t_per_mm() * ray.length_mm));
+          if (by_roulette < 1.0) continue;
+          expected = std::numbers::pi / (eta * eta) * 2.0 *
+                     HenyeyGreenstein(0.5).per_sr(before.dot((p - x).normalized())) *
+                     std::exp(-medium.sigma_t_per_mm() * ray.length_mm) /
+                     (ray.cos_inside * ray.spread);
+          ++n_scores;
+        } else if (found != scores.end() && ray.length_mm > sure_mm) {
+          ADD_FAILURE() << "facet " << f << " is not connected";
+        }
+      }
+      const double weight = found == scores.end() ? 0.0 : found->weight;
+      if (std::abs(weight - expected) > 1e-6 * expected) ++doubtful;
+      if (found != scores.end() && expected > 0.0) {
+        EXPECT_NEAR(weight, expected, 1e-6 * expected);
+        EXPECT_EQ(found->scatterings, 7);
+        EXPECT_GT(found->length_mm, 3.0);
+      }
+    }
+  }
+  EXPECT_GE(n_scores, least);
+  EXPECT_LE(doubtful, n_scores / 500);
+}
+
+TEST(CameraConnection, ConnectsThroughAllFacetsThatHoldThePoint) {
+  for (double eta : {1.0, 1.3}) {
+    expect_as_by_all_facets(testing::make_sphere(10, 3), {0, -100, 150}, eta, 500);
+    expect_as_by_all_facets(testing::make_sphere(10, 2), {0, 13, 4}, eta, 300);
+    expect_as_by_all_facets(testing::make_bumps(10, 0.4, 3), {30, 20, 40}, eta, 300);
+  }
+}
+
+// The same camera for another medium: the same digits as one built for it.
+TEST(CameraConnection, IsSharedByMedia) {
   const RayScene scene(testing::make_sphere(10, 2));
   const PathBoundary boundary(scene);
-  EXPECT_THROW(CameraConnection(boundary, {0, 0, 50}, ScatteringMedium{}), std::invalid_argument);
+  const CameraConnection camera(boundary, {0, 0, 50}, {1.0, 0.1, 0.0, 1.3});
+  const ScatteringMedium other{0.3, 0.2, 0.6, 1.3};
+  const CameraConnection shared = camera.with(other);
+  const CameraConnection own(boundary, {0, 0, 50}, other);
+  std::vector<PathScore> a, b;
+  RandomStream random_a(1, 1), random_b(1, 1);
+  int n = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector3d x(0.02 * i, -0.01 * i, 9.0 - 0.01 * i);
+    shared.connect({x, {0, 0, 1}, 1.0, 1, 1.0}, random_a, a);
+    own.connect({x, {0, 0, 1}, 1.0, 1, 1.0}, random_b, b);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].weight, b[k].weight);
+    n += static_cast<int>(a.size());
+  }
+  EXPECT_GT(n, 50);
+  EXPECT_THROW(camera.with({1.0, 0.1, 0.0, 1.4}), std::invalid_argument);
 }
 
 }  // namespace
