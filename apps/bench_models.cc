@@ -75,14 +75,6 @@ class Clocks {
   std::clock_t cpu_start_ = std::clock();
 };
 
-// Transport that gives up leaves the dipole's answer, which is no answer of its own.
-bool has_own_answer(const ChannelResult& result, Model model) {
-  if (!result.estimate.converged) return false;
-  return model != Model::kTransport ||
-         (result.dipole &&
-          result.dipole->sigma_s_prime_per_mm.value != result.estimate.sigma_s_prime_per_mm.value);
-}
-
 ModelsBenchRow empty_row(const std::string& body, const ListedMaterial& material) {
   ModelsBenchRow row;
   row.body = body;
@@ -96,12 +88,12 @@ ModelsBenchRow empty_row(const std::string& body, const ListedMaterial& material
   return row;
 }
 
-void judge(const ChannelResult& result, Model model, ModelsBenchRow& row) {
+void judge(const ChannelResult& result, ModelsBenchRow& row) {
   if (result.refused()) {
     row.status = ModelsBenchStatus::kRefused;
     row.reason = result.estimate.reasons.front();
   }
-  if (!has_own_answer(result, model)) return;
+  if (!result.estimate.converged) return;
   const Medium& truth = row.material.medium;
   row.sigma_s_prime_per_mm = result.estimate.sigma_s_prime_per_mm;
   row.sigma_a_per_mm = result.estimate.sigma_a_per_mm;
@@ -181,7 +173,7 @@ std::vector<ModelsBenchRow> rows_of_case(const std::string& body, const ListedMa
         Instrument instrument(c.told, c.scenes, measure_options);
         const ChannelResult result = measured(instrument, c, shots.shots());
         clocks.stop(row);
-        judge(result, model, row);
+        judge(result, row);
       } catch (const std::exception& e) {
         row.status = ModelsBenchStatus::kFailed;
         row.reason = e.what();

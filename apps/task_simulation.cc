@@ -67,10 +67,15 @@ void TaskSimulation::set_rows(const TaskRows& rows) {
 TaskSimulation::Draw TaskSimulation::draw(const Eigen::MatrixXd& projection) {
   Draw out;
   out.seed = 1000 * ++draws_;
+  out.n_projected = projection.rows();
   for (const LitView& v : lit_) {
     Eigen::MatrixXd own = Eigen::MatrixXd::Zero(projection.rows(), v.view->rows.n_rows);
     for (const auto& [row, view_row] : v.rows) own.col(view_row) += v.power * projection.col(row);
-    out.of_light.emplace_back(v.view->rows, own);
+    std::vector<Eigen::Index>& touched = out.projected.emplace_back();
+    for (Eigen::Index k = 0; k < own.rows(); ++k) {
+      if (!own.row(k).isZero(0.0)) touched.push_back(k);
+    }
+    out.of_light.emplace_back(v.view->rows, own(touched, Eigen::all));
   }
   return out;
 }
@@ -103,9 +108,9 @@ ScatteringImage TaskSimulation::image(const Draw& draw) const {
 }
 
 Eigen::MatrixXd TaskSimulation::covariance(const Draw& draw) {
-  Eigen::MatrixXd out = draw.of_light.front().projected_covariance();
-  for (std::size_t i = 1; i < draw.of_light.size(); ++i) {
-    out += draw.of_light[i].projected_covariance();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(draw.n_projected, draw.n_projected);
+  for (std::size_t i = 0; i < draw.of_light.size(); ++i) {
+    out(draw.projected[i], draw.projected[i]) += draw.of_light[i].projected_covariance();
   }
   return out;
 }

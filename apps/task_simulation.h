@@ -37,6 +37,9 @@ class TaskSimulation {
   // Paths drawn for one medium, none yet.
   struct Draw {
     std::vector<ScatteringSum> of_light;
+    std::vector<std::vector<Eigen::Index>>
+        projected;  // rows of the projection that a light touches
+    Eigen::Index n_projected = 0;
     std::uint64_t seed = 0;
     int blocks() const { return of_light.front().blocks(); }
   };

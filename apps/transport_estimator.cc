@@ -11,13 +11,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <Eigen/SparseCore>
 #include <fmt/core.h>
 
 #include "apps/estimation_task.h"
@@ -25,26 +23,23 @@
 #include "apps/progress.h"
 #include "apps/rig_probes.h"
 #include "apps/task_simulation.h"
+#include "apps/transport_round.h"
 #include "core/dipole_curve.h"
-#include "core/excess_scatter.h"
-#include "core/lack_of_fit.h"
+#include "core/part_light.h"
 #include "core/residual.h"
 #include "core/row_selection.h"
-#include "core/scattering_equation.h"
-#include "core/shot_agreement.h"
 
 namespace scattermeter::apps {
 namespace {
 
 // Of the time for all, what rows err by with this many blocks.
 constexpr double kFinalBlocks = 512.0;
-constexpr std::size_t kLeastRows = 20;
-// Parts of a shot whose whole light is compared: at most 2^4, of this many patches at least.
-constexpr int kCellLevels = 4;
-constexpr int kCellRows = 12;
+constexpr int kFirstBlocks = 8;
+// Paths that the pilot must have followed before a round may be the last.
+constexpr double kLearnedBlocks = 32.0;
 // A misfit so improbable and so large that the answer is refused.
 constexpr double kMisfitPValue = 1e-6;
-constexpr double kMisfit = 0.01;
+constexpr double kMisfit = 0.003;
 // Rows farther off than this many robust deviations are dust and scratches. Renderings by Monte
 // Carlo have longer tails than the noise of a camera.
 constexpr double kOutlierStd = 8.0;
@@ -54,6 +49,68 @@ const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
   return std::find_if(step.causes.begin(), step.causes.end(),
                       [&](const auto& c) { return c.name == cause; })
       ->covariance;
+}
+
+// A step so short that what is not linear in it is small: a few hundredths squared, halved, of the
+// light. At first it has to be shorter, or paths would be spent on a place that proves too far.
+bool near(const TransportRound& r) {
+  constexpr double kNear = 0.02;
+  constexpr double kStillNear = 0.035;
+  return r.step().change < (r.blocks() > TransportRound::kLeastBlocks ? kStillNear : kNear);
+}
+
+// Monte Carlo is small against the rest, or against what anyone asks for.
+bool fine(const TransportRound& r) {
+  constexpr double kOfRest = 0.1;  // of the variance
+  constexpr double kFloor[2] = {1e-3, 5e-3};
+  const double unit[2] = {1.0, std::max(r.at().sigma_a_per_mm, 1e-3)};
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const double own = covariance_by(r.step(), "Monte Carlo")(k, k);
+    const double rest = r.step().covariance(k, k) - own;
+    const double floor = kFloor[k] * unit[k];
+    if (own > kOfRest * rest && own > floor * floor) return false;
+  }
+  return r.blocks() >= TransportRound::kLeastBlocks;
+}
+
+void tell(const ScatteringEquation::Step& step, Estimate& e) {
+  const double s = step.to.sigma_s_per_mm;
+  const Eigen::MatrixXd& c = step.covariance;
+  e.converged = true;
+  e.sigma_s_prime_per_mm = normal_quantity(s, s * std::sqrt(c(0, 0)));
+  e.sigma_a_per_mm = normal_quantity(step.to.sigma_a_per_mm, std::sqrt(c(1, 1)));
+  e.correlation = c(0, 1) / std::sqrt(c(0, 0) * c(1, 1));
+  e.budget.clear();
+  for (const auto& cause : step.causes) {
+    e.budget.push_back(
+        {cause.name, s * std::sqrt(cause.covariance(0, 0)), std::sqrt(cause.covariance(1, 1))});
+  }
+  e.scale = normal_quantity(step.to.scale, c.rows() > 2 ? std::sqrt(c(2, 2)) * step.to.scale : 0.0);
+}
+
+void judge(const TransportRound& r, Estimate& e) {
+  if (r.blocks() < TransportRound::kLeastBlocks) {
+    e.reasons.push_back(fmt::format(
+        "the time was too short: {} blocks of paths for each light, at least {} are needed",
+        r.blocks(), TransportRound::kLeastBlocks));
+  }
+  const LackOfFit misfit = r.misfit();
+  e.misfit_relative = misfit.rms;
+  e.misfit_p_value = misfit.p_value;
+  if (misfit.p_value < kMisfitPValue && misfit.rms > kMisfit) {
+    e.reasons.push_back(fmt::format(
+        "transport does not explain the shots: parts of the image are {:.2g} % off (scale, light, "
+        "pose, shape or eta are not what the rig says)",
+        100.0 * misfit.rms));
+  }
+  constexpr double kUndetermined = 0.5;
+  const double relative = e.sigma_s_prime_per_mm.std / e.sigma_s_prime_per_mm.value;
+  if (!std::isfinite(relative) || relative > kUndetermined) {
+    e.reasons.push_back("these shots do not determine sigma_s'");
+  }
+  if (!std::isfinite(e.sigma_a_per_mm.std)) {
+    e.reasons.push_back("these shots set no upper limit to sigma_a");
+  }
 }
 
 // A material in a channel, on the way to its medium.
@@ -82,219 +139,76 @@ class TransportFit {
     const auto seconds = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
+    const bool free_scale = !std::isfinite(scale_.relative_std);
     ScatteringPoint at{estimate.sigma_s_prime_per_mm.value, estimate.sigma_a_per_mm.value,
-                       estimate.scale.value};
+                       free_scale ? estimate.scale.value : 1.0};
     result.singles.clear();
     result.agreement = {};
     estimate.converged = false;
     estimate.rows = static_cast<std::size_t>(system_.l.size());
-    if (estimate.rows < kLeastRows) {
-      refuse(result, fmt::format("only {} whole patches can be used, at least {} are needed",
-                                 estimate.rows, kLeastRows));
+    if (system_.l.size() < TransportRound::kLeastRows) {
+      estimate.reasons = {fmt::format("only {} whole patches can be used, at least {} are needed",
+                                      estimate.rows, TransportRound::kLeastRows)};
       return;
     }
-    int blocks = 8;  // per light and view; more as the search closes in
-    TaskSimulation::Draw first = simulation_.draw(Eigen::MatrixXd::Zero(0, system_.l.size()));
-    simulation_.trace(first, at, blocks);
-    ScatteringImage noisy = simulation_.image(first);
-    double traced = blocks;
+    int blocks = kFirstBlocks;  // per light and view; more as the search closes in
+    Look last = first_look(at);
     bool outliers_known = false;
     constexpr int kRounds = 30;
     for (int round = 0; round < kRounds && seconds() < options_.time_limit_s; ++round) {
-      Round r(*this, noisy, at, traced / kFinalBlocks);
+      const bool learned = part_light_.blocks() >= kLearnedBlocks;
+      // On the way, a scale known to a deviation is taken as exact: the search is steadier.
+      TransportRound r({system_, parts_, simulation_},
+                       learned || free_scale ? scale_ : ScalePrior{}, at, pilot(last.image, at),
+                       last.blocks / kFinalBlocks + last.scatter - 1.0,
+                       (1.0 / kFinalBlocks + (last.scatter - 1.0) / last.blocks) *
+                           part_light_.cells_alike(parts_));
       const double started_s = seconds();
       TaskSimulation::Draw draw = simulation_.draw(r.projection());
       simulation_.trace(draw, at, blocks);
       r.take(draw);
       // Close enough for the paths drawn here to serve the root as well: as many as matter.
-      while (near(r.step) && !(fine(r.step, at) && draw.blocks() >= kLeastBlocks)) {
-        const int so_far = draw.blocks();
-        const double per_block_s = (seconds() - started_s) / so_far;
+      while (learned && near(r) && !fine(r)) {
+        const double per_block_s = (seconds() - started_s) / r.blocks();
         const int affordable = static_cast<int>((options_.time_limit_s - seconds()) / per_block_s);
-        if (affordable < so_far / 8 + 1) break;
-        simulation_.trace(draw, at, std::min(so_far, affordable));
+        if (affordable < r.blocks() / 8 + 1) break;
+        simulation_.trace(draw, at, std::min(r.blocks(), affordable));
         r.take(draw);
       }
-      noisy = r.image;
-      traced = draw.blocks();
-      if (near(r.step)) {
-        const ScatteringPoint to = r.step.to;
-        if (!outliers_known && leave_outliers_out(r)) {
-          outliers_known = true;
-          at = to;
-          noisy = simulation_.image(draw);
-          continue;
-        }
-        report(r, result);
-        return;
-      }
-      if (r.step.change < 4.0 * std::sqrt(covariance_by(r.step, "Monte Carlo").maxCoeff()) ||
-          r.step.change < 0.2) {
+      // What a far place has shown is not what holds here.
+      constexpr double kFar = 0.3;
+      if (r.step().change > kFar) part_light_.forget();
+      last = {r.image(), r.blocks(), r.scatter()};
+      part_light_.learn(parts_, r.image(), r.cell_covariance(), dipole(at), r.blocks());
+      const ScatteringPoint to = r.step().to;
+      if (learned && near(r)) {
+        if (outliers_known || !leave_outliers_out(r)) return report(r, result);
+        outliers_known = true;
+        last = first_look(to);
+      } else if (r.step().change < 0.2 || r.scatter_within() > 1.5) {
+        // Where the paths' noise decides how far the step goes, more of them.
         blocks *= 2;
       }
-      at = r.step.to;
+      at = to;
     }
-    refuse(result, "the search for the medium by transport did not converge in time");
+    estimate.reasons = {"the search for the medium by transport did not converge in time"};
   }
 
  private:
-  static constexpr int kLeastBlocks = 64;  // for covariances of a shot's parts
-
-  // Shots with rows enough for an answer of their own.
-  struct Single {
-    std::size_t shot;
-    Eigen::Index first;  // row
-    DenseSystem system;
-    std::optional<ScatteringEquation> equation;
-  };
-
-  // One place of the search: equations for all shots and for each alone, and what paths drawn for
-  // them say.
-  struct Round {
-    const TransportFit& fit;
-    ScatteringPoint at;
-    ScatteringImage pilot;
-    ScatteringEquation joint;
-    std::vector<Single> singles;
+  // What paths drawn elsewhere say of the errors to come.
+  struct Look {
     ScatteringImage image;
-    Eigen::MatrixXd covariance;  // of projection() * image
-    // Over the Monte Carlo variance, what shots err by beyond their noise: among the rows, and in
-    // all.
-    double scatter_of_rows = 1;
-    double scatter = 1;
-    ScatteringEquation::Step step;
     int blocks = 0;
-
-    Round(const TransportFit& f, const ScatteringImage& noisy, const ScatteringPoint& place,
-          double monte_carlo)
-        : fit(f),
-          at(place),
-          pilot(f.smooth_pilot(noisy, place)),
-          joint(f.system_, f.scale_, pilot, place, monte_carlo) {
-      const std::vector<Eigen::Index>& shot_rows = f.system_.shot_rows;
-      Eigen::Index first = 0;
-      for (std::size_t s = 0; s < shot_rows.size() && shot_rows.size() > 1; ++s) {
-        if (shot_rows[s] >= static_cast<Eigen::Index>(kLeastRows))
-          singles.push_back({s, first, {}, {}});
-        first += shot_rows[s];
-      }
-      for (Single& single : singles) {
-        std::vector<Eigen::Index> rows(static_cast<std::size_t>(shot_rows[single.shot]));
-        std::iota(rows.begin(), rows.end(), single.first);
-        single.system = selected(f.system_, rows);
-        single.equation.emplace(single.system, f.scale_, part(pilot, single), place, monte_carlo);
-      }
-    }
-    // The equations hold on to what stands beside them.
-    Round(const Round&) = delete;
-    Round& operator=(const Round&) = delete;
-
-    static ScatteringImage part(const ScatteringImage& m, const Single& single) {
-      const Eigen::Index n = single.system.l.size();
-      return {m.l.segment(single.first, n), m.per_log_sigma_s.segment(single.first, n),
-              m.per_sigma_a.segment(single.first, n), m.variance.segment(single.first, n)};
-    }
-
-    Eigen::Index unknowns() const { return joint.projection().rows(); }
-    Eigen::Index first_cell() const {
-      return unknowns() * (1 + static_cast<Eigen::Index>(singles.size()));
-    }
-
-    // Of the joint answer, of each shot's own, and of the light of the shots' parts.
-    Eigen::MatrixXd projection() const {
-      Eigen::MatrixXd all =
-          Eigen::MatrixXd::Zero(first_cell() + fit.cells_.rows(), fit.system_.l.size());
-      all.topRows(unknowns()) = joint.projection();
-      for (std::size_t i = 0; i < singles.size(); ++i) {
-        const Eigen::MatrixXd& own = singles[i].equation->projection();
-        all.block(static_cast<Eigen::Index>(i + 1) * unknowns(), singles[i].first, unknowns(),
-                  own.cols()) = own;
-      }
-      all.bottomRows(fit.cells_.rows()) = fit.cells_;
-      return all;
-    }
-
-    void take(const TaskSimulation::Draw& draw) {
-      image = fit.simulation_.image(draw);
-      covariance = TaskSimulation::covariance(draw);
-      blocks = draw.blocks();
-      const Eigen::MatrixXd own = covariance.topLeftCorner(unknowns(), unknowns());
-      step = joint.step(image, own, at);
-      scatter_of_rows =
-          excess_scatter(joint.without_nuisances(joint.residual(image, at, step.to)),
-                         fit.system_.std_l.cwiseAbs2(), at.scale * at.scale * image.variance,
-                         joint.row_variance().cwiseInverse());
-      scatter = scatter_of_rows;
-      // What has been smoothed, as renderings are, scatters less from row to row than from part to
-      // part.
-      for (int i = 0; blocks >= kLeastBlocks && i < 4; ++i) {
-        const LackOfFit parts = misfit(scatter);
-        if (parts.dof > 0.0) scatter = std::max(scatter_of_rows, scatter * parts.chi2 / parts.dof);
-      }
-      step = joint.step(image, own, at, scatter);
-    }
-
-    ScatteringEquation::Step step_of(std::size_t i) const {
-      const Eigen::Index first = static_cast<Eigen::Index>(i + 1) * unknowns();
-      return singles[i].equation->step(part(image, singles[i]),
-                                       covariance.block(first, first, unknowns(), unknowns()), at,
-                                       scatter);
-    }
-
-    // Between the answers of all shots, from what they share.
-    ShotAgreement agreement(const std::vector<ScatteringEquation::Step>& steps) const {
-      const auto n = static_cast<Eigen::Index>(steps.size());
-      Eigen::VectorXd answers(2 * n);
-      Eigen::MatrixXd all(2 * n, 2 * n);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const auto& a = steps[static_cast<std::size_t>(i)];
-        answers.segment<2>(2 * i) = a.move.head<2>();
-        all.block<2, 2>(2 * i, 2 * i) = a.covariance.topLeftCorner<2, 2>();
-        for (Eigen::Index k = 0; k < i; ++k) {
-          const auto& b = steps[static_cast<std::size_t>(k)];
-          // Shots under the same light share paths.
-          const Eigen::MatrixXd paths =
-              at.scale * at.scale *
-              covariance.block((i + 1) * unknowns(), (k + 1) * unknowns(), unknowns(), unknowns());
-          const Eigen::MatrixXd shared =
-              a.pushes * b.pushes.transpose() + a.inverse * paths * b.inverse.transpose();
-          all.block<2, 2>(2 * i, 2 * k) = shared.topLeftCorner<2, 2>();
-          all.block<2, 2>(2 * k, 2 * i) = shared.topLeftCorner<2, 2>().transpose();
-        }
-      }
-      return agreement_of(answers, all);
-    }
-
-    // Of the light of the shots' parts, with free coefficients.
-    LackOfFit misfit(double expected_scatter) const {
-      const Eigen::Index n = fit.cells_.rows();
-      const Eigen::VectorXd rest = fit.cells_ * joint.residual(image, at, step.to);
-      const Eigen::MatrixXd noise =
-          fit.cells_ * fit.system_.std_l.cwiseAbs2().asDiagonal() * fit.cells_.transpose();
-      // The inverse of a covariance from so many blocks is too large in the mean (Hartlap,
-      // Simon & Schneider 2007); cells of other shots do not count.
-      const double cells = std::pow(2.0, kCellLevels);
-      const double too_large = (blocks - 1.0) / (blocks - cells - 2.0);
-      const Eigen::MatrixXd paths =
-          at.scale * at.scale * expected_scatter * too_large * covariance.bottomRightCorner(n, n);
-      const Eigen::MatrixXd j =
-          fit.cells_ * ScatteringEquation::jacobian(pilot, at, unknowns() == 3);
-      Eigen::MatrixXd free(n, j.cols() + joint.nuisances().cols());
-      constexpr double kWide = 30.0;  // of the light
-      for (Eigen::Index k = 0; k < j.cols(); ++k) {
-        free.col(k) = kWide / j.col(k).cwiseAbs().maxCoeff() * j.col(k);
-      }
-      free.rightCols(joint.nuisances().cols()) = fit.cells_ * joint.nuisances();
-      const auto unbound = std::count_if(fit.system_.nuisances.begin(), fit.system_.nuisances.end(),
-                                         [](const Nuisance& v) { return !std::isfinite(v.std); });
-      const int fitted = static_cast<int>(j.cols() + unbound);
-      if (n <= fitted) return {};
-      return lack_of_fit(rest, noise + paths, free, fitted);
-    }
+    double scatter = 1;
   };
 
-  static void refuse(ChannelResult& result, const std::string& reason) {
-    result.estimate.reasons = {reason};
+  Look first_look(const ScatteringPoint& at) {
+    TaskSimulation::Draw draw = simulation_.draw(parts_.cells());
+    simulation_.trace(draw, at, kFirstBlocks);
+    const Look look{simulation_.image(draw), kFirstBlocks, 1.0};
+    part_light_.learn(parts_, look.image, TaskSimulation::covariance(draw), dipole(at),
+                      kFirstBlocks);
+    return look;
   }
 
   // Rows of which `state_of(shot, row of its view, row of the system so far)` is kUsed.
@@ -316,39 +230,17 @@ class TransportFit {
     }
     system_ = selected(system_, kept);
     simulation_.set_rows(rows_);
-    divide();
+    parts_ =
+        ShotParts(system_.shot_rows, simulation_.center_mm(), simulation_.area_mm2(), system_.l);
+    part_light_.forget();
   }
 
-  // Weights of the rows in the light of parts of the shots, relative to what is observed of it.
-  void divide() {
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::Index first = 0;
-    Eigen::Index n_cells = 0;
-    for (const Eigen::Index n : system_.shot_rows) {
-      const auto begin = simulation_.center_mm().begin() + first;
-      const std::vector<int> cell = residual_cells({begin, begin + n}, kCellLevels, kCellRows);
-      Eigen::Index most = -1;
-      for (Eigen::Index j = 0; j < n; ++j) {
-        const auto row = static_cast<std::size_t>(first + j);
-        const Eigen::Index own = cell[static_cast<std::size_t>(j)];
-        entries.emplace_back(n_cells + own, first + j, simulation_.area_mm2()[row]);
-        most = std::max(most, own);
-      }
-      n_cells += most + 1;
-      first += n;
-    }
-    Eigen::SparseMatrix<double> weights(n_cells, system_.l.size());
-    weights.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::VectorXd light = weights * system_.l;
-    cells_ = light.cwiseInverse().asDiagonal() * Eigen::MatrixXd(weights);
-  }
-
-  bool leave_outliers_out(const Round& r) {
-    const Eigen::VectorXd rest =
-        r.joint.without_nuisances(r.joint.residual(r.image, r.at, r.step.to));
-    const Eigen::VectorXd std = (system_.std_l.cwiseAbs2() + r.scatter * r.at.scale * r.at.scale *
-                                                                 smooth_variance(r.pilot, r.image))
-                                    .cwiseSqrt();
+  bool leave_outliers_out(const TransportRound& r) {
+    const Eigen::VectorXd rest = r.equation().without_nuisances(r.residual());
+    const Eigen::VectorXd std =
+        (system_.std_l.cwiseAbs2() +
+         r.scatter() * r.at().scale * r.at().scale * smooth_variance(r.pilot().l, r.image()))
+            .cwiseSqrt();
     RowSelectionOptions options;
     options.outlier_std = kOutlierStd;
     const std::vector<Eigen::Index> far =
@@ -362,15 +254,13 @@ class TransportFit {
 
   // Monte Carlo variances as light and area would have them, on the whole as large as those of
   // `noisy`: weights must not follow the noise of paths.
-  Eigen::VectorXd smooth_variance(const ScatteringImage& pilot,
-                                  const ScatteringImage& noisy) const {
-    const Eigen::Map<const Eigen::VectorXd> area(simulation_.area_mm2().data(), pilot.l.size());
-    const Eigen::VectorXd share = pilot.l.cwiseMax(0.0).cwiseQuotient(area);
+  Eigen::VectorXd smooth_variance(const Eigen::VectorXd& l, const ScatteringImage& noisy) const {
+    const Eigen::Map<const Eigen::VectorXd> area(simulation_.area_mm2().data(), l.size());
+    const Eigen::VectorXd share = l.cwiseMax(0.0).cwiseQuotient(area);
     return share * (noisy.variance.sum() / share.sum());
   }
 
-  // The dipole's image and derivatives.
-  ScatteringImage smooth_pilot(const ScatteringImage& noisy, const ScatteringPoint& at) const {
+  ScatteringImage dipole(const ScatteringPoint& at) const {
     const double sigma_t = at.sigma_s_per_mm + at.sigma_a_per_mm;
     const double albedo = at.sigma_s_per_mm / sigma_t;
     const DipoleCurve curve = dipole_curve(knots_, std::log(sigma_t), 1.0 - albedo, task_.eta);
@@ -380,101 +270,48 @@ class TransportFit {
     const Eigen::VectorXd d_q = system_.weights * curve.d_q;
     out.per_log_sigma_s = albedo * d_u - albedo * (1.0 - albedo) * d_q;
     out.per_sigma_a = (d_u + albedo * d_q) / sigma_t;
-    out.variance = smooth_variance(out, noisy);
     return out;
   }
 
-  // A step so short that what is not linear in it is small against the Monte Carlo error, or small.
-  static bool near(const ScatteringEquation::Step& step) {
-    constexpr double kNear = 0.03;
-    constexpr double kFar = 0.1;
-    return step.change <
-           std::clamp(3.0 * std::sqrt(covariance_by(step, "Monte Carlo")(0, 0)), kNear, kFar);
+  // The dipole's image and derivatives, set right part by part.
+  ScatteringImage pilot(const ScatteringImage& noisy, const ScatteringPoint& at) const {
+    ScatteringImage out = dipole(at);
+    if (part_light_.blocks() >= kLearnedBlocks) part_light_.correct(parts_, out);
+    out.variance = smooth_variance(out.l, noisy);
+    return out;
   }
 
-  // Monte Carlo is small against the rest, or against what anyone asks for.
-  static bool fine(const ScatteringEquation::Step& step, const ScatteringPoint& at) {
-    constexpr double kOfRest = 0.1;  // of the variance
-    constexpr double kFloor[2] = {1e-3, 5e-3};
-    const double unit[2] = {1.0, std::max(at.sigma_a_per_mm, 1e-3)};
-    for (Eigen::Index k = 0; k < 2; ++k) {
-      const double own = covariance_by(step, "Monte Carlo")(k, k);
-      const double rest = step.covariance(k, k) - own;
-      const double floor = kFloor[k] * unit[k];
-      if (own > kOfRest * rest && own > floor * floor) return false;
-    }
-    return true;
-  }
-
-  static void tell(const ScatteringEquation::Step& step, Estimate& e) {
-    const double s = step.to.sigma_s_per_mm;
-    const Eigen::MatrixXd& c = step.covariance;
-    e.converged = true;
-    e.sigma_s_prime_per_mm = normal_quantity(s, s * std::sqrt(c(0, 0)));
-    e.sigma_a_per_mm = normal_quantity(step.to.sigma_a_per_mm, std::sqrt(c(1, 1)));
-    e.correlation = c(0, 1) / std::sqrt(c(0, 0) * c(1, 1));
-    e.budget.clear();
-    for (const auto& cause : step.causes) {
-      e.budget.push_back(
-          {cause.name, s * std::sqrt(cause.covariance(0, 0)), std::sqrt(cause.covariance(1, 1))});
-    }
-    e.scale =
-        normal_quantity(step.to.scale, c.rows() > 2 ? std::sqrt(c(2, 2)) * step.to.scale : 0.0);
-  }
-
-  void report(const Round& r, ChannelResult& result) const {
+  void report(const TransportRound& r, ChannelResult& result) const {
     Estimate& e = result.estimate;
     e.reasons.clear();
-    tell(r.step, e);
-    const Eigen::VectorXd rest = r.joint.residual(r.image, r.at, r.step.to);
-    const Eigen::VectorXd own = r.joint.without_nuisances(rest);
+    tell(r.step(), e);
+    const Eigen::VectorXd rest = r.residual();
+    if (std::isfinite(scale_.relative_std)) {
+      const double scale = std::exp(r.equation().settled_log_scale(rest));
+      e.scale = normal_quantity(scale, scale * scale_.relative_std);
+    }
     const Eigen::VectorXd variance =
-        system_.std_l.cwiseAbs2() + r.at.scale * r.at.scale * smooth_variance(r.pilot, r.image);
-    e.reduced_chi2 = own.cwiseAbs2().cwiseQuotient(variance).mean();
+        system_.std_l.cwiseAbs2() +
+        r.at().scale * r.at().scale * smooth_variance(r.pilot().l, r.image());
+    e.reduced_chi2 =
+        r.equation().without_nuisances(rest).cwiseAbs2().cwiseQuotient(variance).mean();
     const Residual whole = residual(system_.l, system_.l - rest, system_.std_l);
     e.rms_relative = whole.rms_relative;
     e.psnr_db = whole.psnr_db;
+    e.rows = static_cast<std::size_t>(system_.l.size());
     report_rows(task_, rows_, result);
-    if (r.blocks < kLeastBlocks) {
-      e.reasons.push_back(
-          fmt::format("the time was too short: {} blocks of paths for each light, at "
-                      "least {} are needed",
-                      r.blocks, kLeastBlocks));
-    }
     judge(r, e);
-    std::vector<ScatteringEquation::Step> steps;
-    for (std::size_t i = 0; i < r.singles.size(); ++i) {
-      steps.push_back(r.step_of(i));
+    const std::vector<std::size_t> shots = r.shots();
+    const std::vector<ScatteringEquation::Step> steps = r.steps_of_shots();
+    for (std::size_t i = 0; i < shots.size(); ++i) {
       ShotResult& single = result.singles.emplace_back();
-      single.file = task_.shots[r.singles[i].shot]->rig->file;
-      single.estimate.rows = static_cast<std::size_t>(r.singles[i].system.l.size());
-      tell(steps.back(), single.estimate);
+      single.file = task_.shots[shots[i]]->rig->file;
+      single.estimate.rows = r.rows_of_shot(i);
+      tell(steps[i], single.estimate);
     }
     if (steps.size() < 2) return;
     result.agreement = r.agreement(steps);
     widen_by_disagreement(result.agreement, e);
-  }
-
-  static void judge(const Round& r, Estimate& e) {
-    if (r.blocks >= kLeastBlocks) {
-      const LackOfFit misfit = r.misfit(r.scatter_of_rows);
-      e.misfit_relative = misfit.rms;
-      e.misfit_p_value = misfit.p_value;
-      if (misfit.p_value < kMisfitPValue && misfit.rms > kMisfit) {
-        e.reasons.push_back(fmt::format(
-            "transport does not explain the shots: parts of the image are {:.2g} % off (scale, "
-            "light, pose, shape or eta are not what the rig says)",
-            100.0 * misfit.rms));
-      }
-    }
-    constexpr double kUndetermined = 0.5;
-    const double relative = e.sigma_s_prime_per_mm.std / e.sigma_s_prime_per_mm.value;
-    if (!std::isfinite(relative) || relative > kUndetermined) {
-      e.reasons.push_back("these shots do not determine sigma_s'");
-    }
-    if (!std::isfinite(e.sigma_a_per_mm.std)) {
-      e.reasons.push_back("these shots set no upper limit to sigma_a");
-    }
   }
 
   const Task& task_;
@@ -484,7 +321,8 @@ class TransportFit {
   ScalePrior scale_;
   const MeasureOptions& options_;
   TaskSimulation simulation_;
-  Eigen::MatrixXd cells_;  // parts of shots x rows: relative light
+  ShotParts parts_;
+  PartLight part_light_;
 };
 
 }  // namespace

@@ -21,10 +21,10 @@ Eigen::MatrixXd ScatteringEquation::jacobian(const ScatteringImage& m, const Sca
 
 ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePrior& scale,
                                        const ScatteringImage& pilot, const ScatteringPoint& at,
-                                       double monte_carlo)
+                                       double monte_carlo, const Eigen::MatrixXd& correlated)
     : system_(system), scale_(scale) {
   const Eigen::Index rows = system.l.size();
-  if (pilot.l.size() != rows) {
+  if (pilot.l.size() != rows || (correlated.size() > 0 && correlated.rows() != rows)) {
     throw std::invalid_argument("ScatteringEquation: image and system differ in rows");
   }
   row_variance_ = system.std_l.cwiseAbs2() + monte_carlo * at.scale * at.scale * pilot.variance;
@@ -38,11 +38,23 @@ ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePri
     nuisances_.col(i) *=
         std::isfinite(std) ? std : (size > 0.0 ? kWide * system.l.norm() / size : 0.0);
   }
-  const Eigen::MatrixXd weighted = row_variance_.cwiseInverse().asDiagonal() * nuisances_;
-  capacitance_ = (Eigen::MatrixXd::Identity(nuisances_.cols(), nuisances_.cols()) +
-                  nuisances_.transpose() * weighted)
+  for (const Nuisance& v : system.nuisances) causes_.push_back(v.group);
+  if (scale.relative_std > 0.0 && std::isfinite(scale.relative_std)) {
+    nuisances_.conservativeResize(rows, nuisances_.cols() + 1);
+    nuisances_.rightCols(1) = scale.relative_std * at.scale * pilot.l;
+    causes_.push_back("scale");
+  }
+  columns_.resize(rows, nuisances_.cols() + correlated.cols());
+  columns_.leftCols(nuisances_.cols()) = nuisances_;
+  if (correlated.size() > 0) columns_.rightCols(correlated.cols()) = correlated;
+  const Eigen::MatrixXd weighted = row_variance_.cwiseInverse().asDiagonal() * columns_;
+  capacitance_ = (Eigen::MatrixXd::Identity(columns_.cols(), columns_.cols()) +
+                  columns_.transpose() * weighted)
                      .inverse();
-  const Eigen::MatrixXd z = jacobian(pilot, at, scale.relative_std > 0.0);
+  const Eigen::MatrixXd z = jacobian(pilot, at, !std::isfinite(scale.relative_std));
+  relative_size_ = z.colwise().norm() / (at.scale * pilot.l.norm());
+  // A change of sigma_s that the image hides is a change still.
+  relative_size_[0] = std::max(relative_size_[0], 1.0);
   projection_.resize(z.cols(), rows);
   for (Eigen::Index k = 0; k < z.cols(); ++k) {
     projection_.row(k) = solve_covariance(z.col(k)).transpose();
@@ -51,34 +63,27 @@ ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePri
 
 Eigen::VectorXd ScatteringEquation::solve_covariance(const Eigen::VectorXd& rows) const {
   const Eigen::VectorXd direct = rows.cwiseQuotient(row_variance_);
-  if (nuisances_.cols() == 0) return direct;
-  const Eigen::VectorXd inner = capacitance_ * (nuisances_.transpose() * direct);
-  return direct - (nuisances_ * inner).cwiseQuotient(row_variance_);
+  if (columns_.cols() == 0) return direct;
+  const Eigen::VectorXd inner = capacitance_ * (columns_.transpose() * direct);
+  return direct - (columns_ * inner).cwiseQuotient(row_variance_);
 }
 
 ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
                                                   const Eigen::MatrixXd& projected_covariance,
                                                   const ScatteringPoint& at, double scatter) const {
   const Eigen::Index n = projection_.rows();
-  const bool prior = n == 3 && std::isfinite(scale_.relative_std);
-  const double precision = prior ? 1.0 / (scale_.relative_std * scale_.relative_std) : 0.0;
-  Eigen::MatrixXd slope = projection_ * jacobian(m, at, n == 3);
-  Eigen::VectorXd misfit = projection_ * (system_.l - at.scale * m.l);
-  if (n == 3) {
-    slope(2, 2) += precision;
-    misfit[2] -= precision * std::log(at.scale);
-  }
+  const Eigen::MatrixXd slope = projection_ * jacobian(m, at, n == 3);
+  const Eigen::VectorXd misfit = projection_ * (system_.l - at.scale * m.l);
   const Eigen::MatrixXd inverse = slope.inverse();
   Eigen::VectorXd move = inverse * misfit;
-  const double most = std::log(1.5);
-  const double sigma_t = at.sigma_s_per_mm + at.sigma_a_per_mm;
-  const double largest =
-      std::max({std::abs(move[0]), std::abs(move[1]) / sigma_t, n == 3 ? std::abs(move[2]) : 0.0});
+  // By what it does to the image: light that has come far feels a small sigma_a.
+  const double largest = move.cwiseAbs().cwiseProduct(relative_size_).maxCoeff();
   Step out;
   out.move = move;
   out.inverse = inverse;
   out.change = largest;
-  if (largest > most) move *= most / largest;
+  constexpr double kMost = 0.4;
+  if (largest > kMost) move *= kMost / largest;
   out.to = {at.sigma_s_per_mm * std::exp(move[0]), std::max(0.0, at.sigma_a_per_mm + move[1]),
             n == 3 ? at.scale * std::exp(move[2]) : at.scale};
   const auto add = [&](const std::string& name, const Eigen::MatrixXd& of_projection) {
@@ -88,24 +93,13 @@ ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
   const Eigen::MatrixXd monte_carlo = at.scale * at.scale * projected_covariance;
   add("Monte Carlo", monte_carlo);
   if (scatter > 1.0) add("scatter", (scatter - 1.0) * monte_carlo);
-  out.pushes = Eigen::MatrixXd::Zero(n, nuisances_.cols() + (prior ? 1 : 0));
-  out.pushes.leftCols(nuisances_.cols()) = inverse * (projection_ * nuisances_);
-  if (prior) {
-    Eigen::MatrixXd scale = Eigen::MatrixXd::Zero(n, n);
-    scale(2, 2) = precision;
-    add("scale", scale);
-    out.pushes.rightCols(1) = std::sqrt(precision) * inverse.col(2);
-  }
+  out.pushes = inverse * (projection_ * nuisances_);
   std::map<std::string, Eigen::MatrixXd> groups;
   for (Eigen::Index i = 0; i < nuisances_.cols(); ++i) {
-    const Eigen::VectorXd push = projection_ * nuisances_.col(i);
-    Eigen::MatrixXd& sum = groups
-                               .try_emplace(system_.nuisances[static_cast<std::size_t>(i)].group,
-                                            Eigen::MatrixXd::Zero(n, n))
-                               .first->second;
-    sum += push * push.transpose();
+    groups.try_emplace(causes_[static_cast<std::size_t>(i)], Eigen::MatrixXd::Zero(n, n))
+        .first->second += out.pushes.col(i) * out.pushes.col(i).transpose();
   }
-  for (const auto& [name, covariance] : groups) add(name, covariance);
+  for (const auto& [name, covariance] : groups) out.causes.push_back({name, covariance});
   out.covariance = Eigen::MatrixXd::Zero(n, n);
   for (const Step::Cause& cause : out.causes) out.covariance += cause.covariance;
   return out;
@@ -118,8 +112,14 @@ Eigen::VectorXd ScatteringEquation::residual(const ScatteringImage& m, const Sca
                      (to.sigma_a_per_mm - at.sigma_a_per_mm) * m.per_sigma_a);
 }
 
+double ScatteringEquation::settled_log_scale(const Eigen::VectorXd& residual) const {
+  if (causes_.empty() || causes_.back() != "scale") return 0.0;
+  return scale_.relative_std *
+         nuisances_.col(nuisances_.cols() - 1).dot(solve_covariance(residual));
+}
+
 Eigen::VectorXd ScatteringEquation::without_nuisances(const Eigen::VectorXd& residual) const {
-  return row_variance_.cwiseProduct(solve_covariance(residual));
+  return residual - nuisances_ * (nuisances_.transpose() * solve_covariance(residual));
 }
 
 }  // namespace scattermeter

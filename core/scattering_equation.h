@@ -1,6 +1,7 @@
 // The medium whose simulated image is the observed one.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -27,13 +28,16 @@ struct ScatteringPoint {
 class ScatteringEquation {
  public:
   // pilot: image at `at`, rows as the system's (l for the shots' real lights: W/mm^2 at scale 1).
-  // monte_carlo: relative to the pilot's variance, the one expected of the m to come.
+  // monte_carlo: relative to the pilot's variance, the one expected of the m to come and of what
+  // else the shots err by beyond their noise. correlated (rows x any number, or empty): columns of
+  // unit deviation, how that is alike from row to row; for the weights alone.
   // Precondition: as many rows each (std::invalid_argument).
   ScatteringEquation(const DenseSystem& system, const ScalePrior& scale,
                      const ScatteringImage& pilot, const ScatteringPoint& at,
-                     double monte_carlo = 1.0);
+                     double monte_carlo = 1.0, const Eigen::MatrixXd& correlated = {});
 
-  // Unknowns x rows: Z^T W. Unknowns: log sigma_s, sigma_a, and log scale unless it is exact.
+  // Unknowns x rows: Z^T W. Unknowns: log sigma_s, sigma_a, and log scale where it is free. A scale
+  // with a prior is a nuisance: noisy derivatives leave its own equation no definite sign.
   const Eigen::MatrixXd& projection() const { return projection_; }
 
   struct Step {
@@ -46,15 +50,17 @@ class ScatteringEquation {
     };
     std::vector<Cause> causes;
     Eigen::MatrixXd covariance;  // the sum
-    double change = 0;           // largest of |d log sigma_s|, |d log sigma_t|, |d log scale|
-    Eigen::VectorXd move;        // uncut, in the unknowns
-    Eigen::MatrixXd inverse;     // from projection() * l to the move
-    // What common causes of unit size move: a column for every nuisance, and one for the scale
-    // where it has a prior (its error, in its standard deviations).
+    // Largest relative change of the image that an unknown's move makes (of sigma_s: its own, where
+    // that is larger), uncut.
+    double change = 0;
+    Eigen::VectorXd move;     // uncut, in the unknowns
+    Eigen::MatrixXd inverse;  // from projection() * l to the move
+    // What common causes of one deviation move: a column for every nuisance, and one for a scale
+    // that has a prior.
     Eigen::MatrixXd pushes;
   };
   // One Newton step from `at`, m there, and the covariance of projection() * m at scale 1.
-  // A step is cut to a factor of 1.5 in sigma_s' and at sigma_a = 0. scatter >= 1: over the Monte
+  // A step is cut to a change of 0.4 and at sigma_a = 0. scatter >= 1: over the Monte
   // Carlo variance of the rows, how much they err beyond their noise (core/excess_scatter.h).
   Step step(const ScatteringImage& m, const Eigen::MatrixXd& projected_covariance,
             const ScatteringPoint& at, double scatter = 1.0) const;
@@ -66,9 +72,11 @@ class ScatteringEquation {
   Eigen::VectorXd without_nuisances(const Eigen::VectorXd& residual) const;
   // Of noise and Monte Carlo, as weighed with.
   const Eigen::VectorXd& row_variance() const { return row_variance_; }
-  // Columns times their standard deviations; free ones at a size far beyond what the rows leave
-  // open.
+  // Columns times their standard deviations, last that of a scale with a prior; free ones at a size
+  // far beyond what the rows leave open.
   const Eigen::MatrixXd& nuisances() const { return nuisances_; }
+  // The most probable log of a scale with a prior; else 0.
+  double settled_log_scale(const Eigen::VectorXd& residual) const;
   // Derivatives of scale * m by the unknowns, rows x unknowns.
   static Eigen::MatrixXd jacobian(const ScatteringImage& m, const ScatteringPoint& at,
                                   bool scale_moves);
@@ -77,10 +85,13 @@ class ScatteringEquation {
   Eigen::VectorXd solve_covariance(const Eigen::VectorXd& rows) const;
   const DenseSystem& system_;
   ScalePrior scale_;
-  Eigen::VectorXd row_variance_;  // noise and Monte Carlo
-  Eigen::MatrixXd nuisances_;     // columns times their standard deviations
-  Eigen::MatrixXd capacitance_;   // of Woodbury's identity, inverted
+  Eigen::VectorXd row_variance_;     // noise and Monte Carlo
+  std::vector<std::string> causes_;  // of the nuisances
+  Eigen::MatrixXd nuisances_;        // columns times their standard deviations
+  Eigen::MatrixXd columns_;          // those and the correlated ones
+  Eigen::MatrixXd capacitance_;      // of Woodbury's identity, inverted
   Eigen::MatrixXd projection_;
+  Eigen::VectorXd relative_size_;  // of the image's change with each unknown
 };
 
 }  // namespace scattermeter

@@ -152,23 +152,42 @@ TEST(ScatteringEquation, Pushes) {
   system.nuisances = {{"tilt", 0.02, true}};
   system.nuisance_columns = truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kRows, -1.0, 1.0));
   const ScatteringPoint at{2.0, 0.01, 1.0};
-  const auto move = [&](const DenseSystem& s, double log_scale) {
-    const ScatteringEquation equation(s, {0.02}, truth, at);
-    ScatteringPoint from = at;
-    from.scale = std::exp(log_scale);
-    return equation.step(truth, Eigen::MatrixXd::Zero(3, 3), from);
-  };
-  const ScatteringEquation::Step nominal = move(system, 0.0);
+  const ScatteringEquation equation(system, {0.02}, truth, at);
+  ASSERT_EQ(equation.projection().rows(), 2);  // a scale with a prior is a nuisance
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(2, 2);
+  const ScatteringEquation::Step nominal = equation.step(truth, none, at);
   ASSERT_EQ(nominal.pushes.cols(), 2);
-  DenseSystem tilted = system;
-  tilted.l += 0.02 * system.nuisance_columns;
-  EXPECT_LT((move(tilted, 0.0).move - nominal.pushes.col(0)).norm(),
+  DenseSystem pushed = system;
+  const ScatteringEquation same(pushed, {0.02}, truth, at);
+  pushed.l += 0.02 * system.nuisance_columns;
+  EXPECT_LT((same.step(truth, none, at).move - nominal.pushes.col(0)).norm(),
             1e-9 * nominal.pushes.col(0).norm());
-  // Standing at a scale one deviation off with shots that meet it, only the prior pulls.
-  DenseSystem brighter = system;
-  brighter.l *= std::exp(0.02);
-  EXPECT_LT((move(brighter, 0.02).move + nominal.pushes.col(1)).norm(),
-            0.05 * nominal.pushes.col(1).norm());
+  pushed.l = 1.02 * truth.l;
+  EXPECT_LT((same.step(truth, none, at).move - nominal.pushes.col(1)).norm(),
+            1e-9 * nominal.pushes.col(1).norm());
+  // The image says where in its prior the scale lies, as far as the medium does not answer for it.
+  EXPECT_NEAR(same.settled_log_scale(same.residual(truth, at, at)), 0.02, 0.002);
+  EXPECT_EQ(ScatteringEquation(system, {0.0}, truth, at).settled_log_scale(truth.l), 0.0);
+}
+
+// Weights that know how rows err together make the answer less uncertain, and leave it unbiased.
+TEST(ScatteringEquation, CorrelatedErrors) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  const DenseSystem system = system_of(truth.l, 1e-4);
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  Eigen::MatrixXd alike(kRows, 2);
+  alike << 0.02 * truth.l, 0.02 * truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kRows, -1, 1));
+  const auto std_of = [&](const ScatteringEquation& e) {
+    const Eigen::MatrixXd p = e.projection() * alike;
+    return std::sqrt(e.step(truth, p * p.transpose(), at).covariance(1, 1));
+  };
+  const ScatteringEquation blind(system, {0.0}, truth, at);
+  const ScatteringEquation knowing(system, {0.0}, truth, at, 1.0, alike);
+  EXPECT_LT(std_of(knowing), 0.3 * std_of(blind));
+  const ScatteringEquation::Step step = knowing.step(truth, Eigen::MatrixXd::Zero(2, 2), at);
+  EXPECT_LT(step.move.norm(), 1e-9);
+  EXPECT_THROW(ScatteringEquation(system, {0.0}, truth, at, 1.0, alike.topRows(3)),
+               std::invalid_argument);
 }
 
 // Scatter beyond the noise is a cause of its own, as correlated as the paths.
