@@ -1,13 +1,19 @@
 // --model transport: the medium whose image by volume Monte Carlo is the observed one.
 //
 // An estimating equation (core/scattering_equation.h) is solved by Newton steps that start from the
-// dipole's answer; every step draws new paths, twice as many as it closes in, until those of the
-// last step serve the root as well. Z and the weights are the dipole's at the place, which no
-// path's noise moves. A 20 mm cube under two LEDs, shots rendered with 10^6 paths a light and
-// channel, 30 s on one core a channel: 2.194 +- 0.006 / 0.00202 +- 0.00003 per mm for 2.19 / 0.002
-// and 0.4999 +- 0.0006 / 0.01003 +- 0.00002 for 0.5 / 0.01, the rendering's own noise not counted;
-// the dipole: 2.086 / 0.00014 and 0.473 / 0.0029. With Z of a pilot simulation's noisy derivatives,
-// the deviation of the first was four times as large.
+// dipole's answer; every step draws new paths, more as it closes in, until those of the last step
+// serve the root as well. Z is the dipole's, set right part by part by what earlier paths have
+// shown (core/part_light.h), and the weights know how the light of cells errs together. What shots
+// err by beyond their noise widens the answer as if it came from paths, and parts that are off as
+// wholes refuse it.
+//
+// Cube and pyramid under two LEDs (four shots, eta 1.3) rendered with 4 10^6 paths a light and
+// channel, exact scale, 60 s on two cores a channel, per mm: 2.199 +- 0.006 / 0.00211 +- 0.00004
+// for 2.19 / 0.002, 1.003 +- 0.002 / 0.00503 +- 0.00003 for 1.0 / 0.005 and 0.5004 +- 0.0009 /
+// 0.00999 +- 0.00004 for 0.5 / 0.01; the dipole's best: 2.19 / 0.0003, 0.96 / 0.0018, 0.46 /
+// 0.0031. With a scale known to 2 %: 2.186 +- 0.014 / 0.0021 +- 0.0002, 0.993 +- 0.006 / 0.0052 +-
+// 0.0002, 0.496 +- 0.002 / 0.0102 +- 0.0002. With the dipole's Z as it is and weights of
+// independent rows, the second of these had 2.7 times the deviation and the third 6 times.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -14,11 +12,12 @@
 #include "core/path_blocks.h"
 #include "core/scattering_equation.h"
 #include "tests/core/boxes.h"
+#include "tests/core/mcml.h"
 
 namespace scattermeter {
 namespace {
 
-constexpr double kBinMm = 0.2;
+using testing::kMcmlBinMm;
 
 // What leaves through the face at z = 0, by rings of a bin's width, and what perturbation needs.
 struct Rings {
@@ -26,7 +25,8 @@ struct Rings {
   explicit Rings(Eigen::Index bins)
       : weight(Eigen::VectorXd::Zero(bins)), weight_n(weight), weight_length(weight) {}
   void escape(const PathScore& s) {
-    const auto bin = static_cast<Eigen::Index>(std::hypot(s.point_mm.x(), s.point_mm.y()) / kBinMm);
+    const auto bin =
+        static_cast<Eigen::Index>(std::hypot(s.point_mm.x(), s.point_mm.y()) / kMcmlBinMm);
     if (s.point_mm.z() < -1e-9 || bin >= weight.size()) return;
     weight[bin] += s.weight;
     weight_n[bin] += s.weight * s.scatterings;
@@ -91,8 +91,8 @@ ScatteringImage dipole_rings(const ScatteringPoint& at, double eta, double enter
   ScatteringImage out;
   out.l = out.per_log_sigma_s = out.per_sigma_a = out.variance = Eigen::VectorXd::Zero(bins);
   for (Eigen::Index i = 0; i < bins; ++i) {
-    const double r = (static_cast<double>(i) + 0.5) * kBinMm;
-    const double area = entered * 2.0 * std::numbers::pi * r * kBinMm;
+    const double r = (static_cast<double>(i) + 0.5) * kMcmlBinMm;
+    const double area = entered * 2.0 * std::numbers::pi * r * kMcmlBinMm;
     const Dipole::Value v = dipole.with_derivatives(r);
     out.l[i] = area * v.r_per_mm2;
     out.per_log_sigma_s[i] = area * at.sigma_s_per_mm * v.d_sigma_s_prime;
@@ -104,27 +104,11 @@ ScatteringImage dipole_rings(const ScatteringPoint& at, double eta, double enter
 // Neither the paths nor the program are ours; MCML's own error is at most that of as many packets
 // of full weight. The search starts a third off in both.
 TEST(TransportShot, FindsMcmlsMedia) {
-  const char* shared = std::getenv("SCATTERMETER_SHARED");
-  const std::string folder =
-      std::string(shared != nullptr ? shared : SCATTERMETER_SHARED_DEFAULT) + "/data/reference/";
-  struct Case {
-    const char* name;
-    ScatteringMedium medium;
-    double specular;
-    double photons;
-  };
   const HalfSpace half_space;
-  for (const Case& c : {Case{"mcml_skin1_G_g00.csv", {0.88, 0.17, 0.0, 1.3}, 0.0170132, 1e6},
-                        Case{"mcml_skimmilk_G_g00.csv", {1.22, 0.0025, 0.0, 1.3}, 0.0170132, 2e5},
-                        Case{"mcml_marble_G_g00.csv", {2.62, 0.0041, 0.0, 1.5}, 0.04, 2e5}}) {
-    std::ifstream in(folder + c.name);
-    if (!in) GTEST_SKIP() << folder + c.name << " is not there; set SCATTERMETER_SHARED";
-    std::vector<double> power;
-    for (std::string line; std::getline(in, line);) {
-      double r = 0.0, value = 0.0;
-      if (std::sscanf(line.c_str(), "%lf,%lf", &r, &value) != 2) continue;
-      power.push_back(2.0 * std::numbers::pi * r * kBinMm * value);
-    }
+  for (const testing::McmlCase& c : testing::kMcmlCases) {
+    std::string path;
+    const std::vector<double> power = testing::mcml_ring_power(c, path);
+    if (power.empty()) GTEST_SKIP() << path << " is not there; set SCATTERMETER_SHARED";
     ASSERT_GT(power.size(), 50U);
     const auto bins = static_cast<Eigen::Index>(power.size());
     const double entered = 1.0 - c.specular;

@@ -1,9 +1,6 @@
 // The path tracer against what is known from elsewhere, with long runs.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -16,6 +13,7 @@
 #include "core/path_blocks.h"
 #include "tests/core/block_mean.h"
 #include "tests/core/boxes.h"
+#include "tests/core/mcml.h"
 
 namespace scattermeter {
 namespace {
@@ -94,28 +92,17 @@ TEST(TransportTruth, HalfSpaces) {
 // MCML's radial profiles, added up over rings. MCML's own error: at most that of as many packets of
 // full weight.
 TEST(TransportTruth, MeetsMcml) {
-  const char* shared = std::getenv("SCATTERMETER_SHARED");
-  const std::string folder =
-      std::string(shared != nullptr ? shared : SCATTERMETER_SHARED_DEFAULT) + "/data/reference/";
-  struct Case {
-    const char* name;
-    ScatteringMedium medium;
-    double specular;
-    double photons;
-  };
-  for (const Case& c : {Case{"mcml_skin1_G_g00.csv", {0.88, 0.17, 0.0, 1.3}, 0.0170132, 1e6},
-                        Case{"mcml_skimmilk_G_g00.csv", {1.22, 0.0025, 0.0, 1.3}, 0.0170132, 2e5},
-                        Case{"mcml_marble_G_g00.csv", {2.62, 0.0041, 0.0, 1.5}, 0.04, 2e5}}) {
-    std::ifstream in(folder + c.name);
-    if (!in) GTEST_SKIP() << folder + c.name << " is not there; set SCATTERMETER_SHARED";
+  for (const testing::McmlCase& c : testing::kMcmlCases) {
+    std::string path;
+    const std::vector<double> power = testing::mcml_ring_power(c, path);
+    if (power.empty()) GTEST_SKIP() << path << " is not there; set SCATTERMETER_SHARED";
     const std::vector<double> edges = {0.2, 0.6, 1.0, 2.0, 4.0, 8.0};
     std::vector<double> expected(edges.size(), 0.0);
-    for (std::string line; std::getline(in, line);) {
-      double r = 0.0, value = 0.0;
-      if (std::sscanf(line.c_str(), "%lf,%lf", &r, &value) != 2 || r > edges.back()) continue;
-      const auto ring =
-          static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), r) - edges.begin());
-      expected[ring] += 2.0 * std::numbers::pi * r * 0.2 * value;
+    for (std::size_t i = 0; i < power.size(); ++i) {
+      const double r = (static_cast<double>(i) + 0.5) * testing::kMcmlBinMm;
+      if (r > edges.back()) break;
+      expected[static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), r) -
+                                        edges.begin())] += power[i];
     }
     const RingMeans m = pencil({800, 800, 400}, c.medium, edges, 100, 4000);
     for (std::size_t i = 0; i < edges.size(); ++i) {
