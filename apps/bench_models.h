@@ -50,7 +50,7 @@ struct ModelsBenchOptions {
   int image_width_px = 968;
   std::uint64_t seed = 1;
   std::int64_t paths = 1'000'000;  // of the truth, for each light
-  double time_limit_s = 60;        // of transport
+  double time_limit_s = 50;        // of transport
   double scale_std = 0;            // relative, >= 0; told, and the error drawn from it
   bool noise = false;              // of the sensor; off: ideal samples. No rounding either way
   bool quiet = false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,7 +23,10 @@ enum class Model { kAuto, kDipole, kPaper, kTransport };
 struct MeasureOptions {
   Model model = Model::kDipole;
   std::optional<double> patch_size_mm;  // of every object; else the rig's, else chosen
-  double time_limit_s = 60;             // of transport: per material and channel
+  // Of transport: light paths of the last step for each light and view, at most. Where they run out
+  // before the time does, the digits are the same on any machine.
+  std::int64_t paths = 1'000'000'000;
+  double time_limit_s = 50;  // of transport: per material and channel
   bool quiet = false;
 };
 

@@ -12,7 +12,8 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
   struct Options {
     std::string shots, rig, out = "result", model = "auto";
     double patch_mm = 0.0;
-    double time_limit_s = 60.0;
+    double time_limit_s = 50.0;
+    std::int64_t paths = MeasureOptions{}.paths;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
@@ -44,6 +45,12 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
                    "the digits depend on the machine's speed")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command
+      ->add_option("--paths", options->paths,
+                   "of transport's last step, at most, for each light and view; where they run out "
+                   "first, the digits are the same on any machine")
+      ->check(CLI::Range(std::int64_t{300'000}, std::int64_t{1'000'000'000'000}))
+      ->capture_default_str();
   command->callback([options, &context] {
     context.chosen = [options, &context] {
       const Rig rig = read_rig(options->rig);
@@ -53,6 +60,7 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
                               : options->model == "dipole"    ? Model::kDipole
                                                               : Model::kAuto;
       measure_options.time_limit_s = options->time_limit_s;
+      measure_options.paths = options->paths;
       measure_options.quiet = context.quiet;
       if (options->patch_mm > 0.0) measure_options.patch_size_mm = options->patch_mm;
       const Measurement measurement = measure(rig, options->shots, measure_options);

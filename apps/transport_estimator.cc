@@ -177,8 +177,10 @@ class TransportFit {
       while (learned && near(r) && !fine(r)) {
         const double per_block_s = (seconds() - started_s) / r.blocks();
         const int affordable = static_cast<int>((options_.time_limit_s - seconds()) / per_block_s);
-        if (affordable < r.blocks() / 8 + 1) break;
-        simulation_.trace(draw, at, std::min(r.blocks(), affordable));
+        const int left = static_cast<int>(std::min<std::int64_t>(
+            options_.paths / PathOptions{}.paths_per_block - r.blocks(), r.blocks()));
+        if (left < 1 || affordable < r.blocks() / 8 + 1) break;
+        simulation_.trace(draw, at, std::min(left, affordable));
         r.take(draw);
       }
       // What a far place has shown is not what holds here.
