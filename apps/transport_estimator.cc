@@ -57,12 +57,22 @@ const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
       ->covariance;
 }
 
-// A step so short that what is not linear in it is small: a few hundredths squared, halved, of the
-// light. At first it has to be shorter, or paths would be spent on a place that proves too far.
+// A step so short that what is not linear in it, about half its square, is small against the
+// deviation that the answer would have in the end, or small in itself. At first it has to be
+// shorter, or paths would be spent on a place that proves too far.
 bool near(const TransportRound& r) {
-  constexpr double kNear = 0.02;
-  constexpr double kStillNear = 0.035;
-  return r.step().change < (r.blocks() > TransportRound::kLeastBlocks ? kStillNear : kNear);
+  constexpr double kShort = 0.02;
+  constexpr double kOfStd = 0.15;
+  const ScatteringEquation::Step& step = r.step();
+  const double more = r.blocks() > TransportRound::kLeastBlocks ? 1.7 : 1.0;
+  const Eigen::MatrixXd& paths = covariance_by(step, "Monte Carlo");
+  const double saved = 1.0 - std::min(1.0, r.blocks() / kFinalBlocks);
+  for (Eigen::Index k = 0; k < step.move.size(); ++k) {
+    const double change = std::abs(step.move[k]) * step.size[k] / more;
+    const double std = std::sqrt(step.covariance(k, k) - saved * paths(k, k)) * step.size[k];
+    if (change > kShort && 0.5 * change * change > kOfStd * std) return false;
+  }
+  return true;
 }
 
 // Monte Carlo is small against the rest, or against what anyone asks for.

@@ -82,6 +82,7 @@ ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
   out.move = move;
   out.inverse = inverse;
   out.change = largest;
+  out.size = relative_size_;
   constexpr double kMost = 0.4;
   if (largest > kMost) move *= kMost / largest;
   out.to = {at.sigma_s_per_mm * std::exp(move[0]), std::max(0.0, at.sigma_a_per_mm + move[1]),

@@ -53,6 +53,7 @@ class ScatteringEquation {
     // Largest relative change of the image that an unknown's move makes (of sigma_s: its own, where
     // that is larger), uncut.
     double change = 0;
+    Eigen::VectorXd size;     // of that change, relative, per unit of each unknown
     Eigen::VectorXd move;     // uncut, in the unknowns
     Eigen::MatrixXd inverse;  // from projection() * l to the move
     // What common causes of one deviation move: a column for every nuisance, and one for a scale
