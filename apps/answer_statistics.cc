@@ -16,8 +16,9 @@ double mean_of(const std::vector<double>& values) {
   return ratio(sum, static_cast<double>(values.size()));
 }
 
-// About the mean, n - 1.
-double std_of(const std::vector<double>& values) {
+}  // namespace
+
+double sampled_std(const std::vector<double>& values) {
   if (values.size() < 2) return kNone;
   const double mean = mean_of(values);
   double sum = 0.0;
@@ -25,10 +26,8 @@ double std_of(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
-}  // namespace
-
 double coefficient_of_variation(const std::vector<double>& values) {
-  return ratio(std_of(values), mean_of(values));
+  return ratio(sampled_std(values), mean_of(values));
 }
 
 double root_mean_square(const std::vector<double>& values) {
@@ -62,7 +61,7 @@ AnswerStatistics answer_statistics(double truth, const std::vector<DrawnAnswer>&
   const auto n = static_cast<double>(s.n);
   s.mean = mean_of(values);
   s.bias_relative = ratio(s.mean - truth, truth);
-  s.sampled_std = std_of(values);
+  s.sampled_std = sampled_std(values);
   s.bias_relative_std = ratio(s.sampled_std, truth * std::sqrt(n));
   s.predicted_std = root_mean_square(stds);
   s.std_ratio = ratio(s.sampled_std, s.predicted_std);

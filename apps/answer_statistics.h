@@ -32,6 +32,9 @@ struct AnswerStatistics {
 // NaN where n (or n - 1, or a denominator) is zero.
 AnswerStatistics answer_statistics(double truth, const std::vector<DrawnAnswer>& answers);
 
+// Of the values about their mean (n - 1); NaN for fewer than two.
+double sampled_std(const std::vector<double>& values);
+
 // Standard deviation over mean of the values; NaN for fewer than two.
 double coefficient_of_variation(const std::vector<double>& values);
 

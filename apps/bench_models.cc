@@ -12,6 +12,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/answer_statistics.h"
 #include "apps/bodies.h"
 #include "apps/bodies_rig.h"
 #include "apps/instrument.h"
@@ -109,13 +110,6 @@ void judge(const ChannelResult& result, ModelsBenchRow& row) {
 
 ChannelResult measured(Instrument& instrument, const Case& c, const SampleSource& source) {
   return instrument.measure(shots_from(c.told, all_shots(c.told), source)).results.at(c.channel);
-}
-
-double sampled_std(const std::vector<double>& values) {
-  double mean = 0.0, sum = 0.0;
-  for (double v : values) mean += v / static_cast<double>(values.size());
-  for (double v : values) sum += (v - mean) * (v - mean);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
 // Fills the truth's errors; they stay NaN where the dipole answers nothing to the truth's own

@@ -50,6 +50,14 @@ Json left_out_json(const ChannelResult& r) {
           {"at_an_edge", count(RowState::kEdge)}};
 }
 
+// An answer beside the one that is reported.
+Json short_answer(const Estimate& e) {
+  return {{"sigma_s_prime_per_mm", quantity(e.sigma_s_prime_per_mm, e.converged)},
+          {"sigma_a_per_mm", quantity(e.sigma_a_per_mm, e.converged)},
+          {"verdict", e.reasons.empty() ? "ok" : "refused"},
+          {"reasons", e.reasons}};
+}
+
 // Each shot alone, and whether they agree.
 Json singles_json(const ChannelResult& r) {
   Json j;
@@ -58,12 +66,9 @@ Json singles_json(const ChannelResult& r) {
   j["p_value"] = number(r.agreement.p_value);
   j["shots"] = Json::array();
   for (const ShotResult& s : r.singles) {
-    const Estimate& e = s.estimate;
-    j["shots"].push_back({{"shot", s.file},
-                          {"sigma_s_prime_per_mm", quantity(e.sigma_s_prime_per_mm, e.converged)},
-                          {"sigma_a_per_mm", quantity(e.sigma_a_per_mm, e.converged)},
-                          {"verdict", e.reasons.empty() ? "ok" : "refused"},
-                          {"reasons", e.reasons}});
+    Json shot = {{"shot", s.file}};
+    shot.update(short_answer(s.estimate));
+    j["shots"].push_back(shot);
   }
   return j;
 }
@@ -111,16 +116,12 @@ Json channel_json(const ChannelResult& r) {
   j["shots"] = r.shots;
   if (!r.singles.empty()) j["agreement"] = singles_json(r);
   if (r.dipole) {
-    const Estimate& d = *r.dipole;
     const std::optional<DipoleDistance> far = dipole_distance(r);
     if (!r.why_transport.empty()) j["why_transport"] = r.why_transport;
-    j["dipole"] = {
-        {"sigma_s_prime_per_mm", quantity(d.sigma_s_prime_per_mm, d.converged)},
-        {"sigma_a_per_mm", quantity(d.sigma_a_per_mm, d.converged)},
-        {"verdict", d.reasons.empty() ? "ok" : "refused"},
-        {"reasons", d.reasons},
-        {"sigma_s_prime_off_relative", far ? number(far->sigma_s_prime_relative) : Json(nullptr)},
-        {"sigma_a_off_per_mm", far ? number(far->sigma_a_per_mm) : Json(nullptr)}};
+    Json& dipole = j["dipole"] = short_answer(*r.dipole);
+    dipole["sigma_s_prime_off_relative"] =
+        far ? number(far->sigma_s_prime_relative) : Json(nullptr);
+    dipole["sigma_a_off_per_mm"] = far ? number(far->sigma_a_per_mm) : Json(nullptr);
   }
   if (r.recovered) j["reflectance"] = reflectance_json(r);
   return j;

@@ -71,29 +71,25 @@ std::string result_table(const Measurement& m) {
                    {"chi2/n"},
                    {"model", Align::kLeft},
                    {"verdict", Align::kLeft}});
-  std::string last;
-  for (const ChannelResult& r : m.results) {
-    const Estimate& e = r.estimate;
+  const auto add = [&](const std::string& material, const std::string& channel, const Estimate& e,
+                       const std::string& model, const std::string& verdict) {
     const bool known = e.converged;
-    table.add_row({r.material == last ? "" : r.material, std::string(1, r.channel),
-                   with_deviation(e.sigma_s_prime_per_mm, known),
+    table.add_row({material, channel, with_deviation(e.sigma_s_prime_per_mm, known),
                    with_deviation(e.sigma_a_per_mm, known),
                    known ? fmt::format("{:.2f} %", 100.0 * e.rms_relative) : "-",
-                   known ? fmt::format("{:.2f}", e.reduced_chi2) : "-", model_name(r.model),
-                   r.refused() ? "refused" : "ok"});
+                   known ? fmt::format("{:.2f}", e.reduced_chi2) : "-", model, verdict});
+  };
+  std::string last;
+  for (const ChannelResult& r : m.results) {
+    add(r.material == last ? "" : r.material, std::string(1, r.channel), r.estimate,
+        model_name(r.model), r.refused() ? "refused" : "ok");
     last = r.material;
     if (!r.dipole) continue;
-    const Estimate& d = *r.dipole;
     const std::optional<DipoleDistance> far = dipole_distance(r);
-    const std::string off =
+    add("", "", *r.dipole, "(dipole)",
         far ? fmt::format("{:+.2g} %, {:+.1g} /mm", 100.0 * far->sigma_s_prime_relative,
                           far->sigma_a_per_mm)
-            : "";
-    table.add_row({"", "", with_deviation(d.sigma_s_prime_per_mm, d.converged),
-                   with_deviation(d.sigma_a_per_mm, d.converged),
-                   d.converged ? fmt::format("{:.2f} %", 100.0 * d.rms_relative) : "-",
-                   d.converged ? fmt::format("{:.2f}", d.reduced_chi2) : "-", "(dipole)",
-                   off.empty() ? "refused" : off});
+            : "refused");
   }
   std::string out = table.text() + left_out(m) + agreement(m);
   for (const ChannelResult& r : m.results) {

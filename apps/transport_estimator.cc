@@ -30,6 +30,7 @@
 #include "apps/rig_probes.h"
 #include "apps/task_simulation.h"
 #include "apps/transport_round.h"
+#include "apps/transport_verdict.h"
 #include "core/dipole_curve.h"
 #include "core/part_light.h"
 #include "core/residual.h"
@@ -38,96 +39,12 @@
 namespace scattermeter::apps {
 namespace {
 
-// Of the time for all, what rows err by with this many blocks.
-constexpr double kFinalBlocks = 512.0;
 constexpr int kFirstBlocks = 8;
 // Paths that the pilot must have followed before a round may be the last.
 constexpr double kLearnedBlocks = 32.0;
-// A misfit so improbable and so large that the answer is refused.
-constexpr double kMisfitPValue = 1e-6;
-constexpr double kMisfit = 0.003;
 // Rows farther off than this many robust deviations are dust and scratches. Renderings by Monte
 // Carlo have longer tails than the noise of a camera.
 constexpr double kOutlierStd = 8.0;
-
-const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
-                                     const std::string& cause) {
-  return std::find_if(step.causes.begin(), step.causes.end(),
-                      [&](const auto& c) { return c.name == cause; })
-      ->covariance;
-}
-
-// A step so short that what is not linear in it, about half its square, is small against the
-// deviation that the answer would have in the end, or small in itself. At first it has to be
-// shorter, or paths would be spent on a place that proves too far.
-bool near(const TransportRound& r) {
-  constexpr double kShort = 0.02;
-  constexpr double kOfStd = 0.15;
-  const ScatteringEquation::Step& step = r.step();
-  const double more = r.blocks() > TransportRound::kLeastBlocks ? 1.7 : 1.0;
-  const Eigen::MatrixXd& paths = covariance_by(step, "Monte Carlo");
-  const double saved = 1.0 - std::min(1.0, r.blocks() / kFinalBlocks);
-  for (Eigen::Index k = 0; k < step.move.size(); ++k) {
-    const double change = std::abs(step.move[k]) * step.size[k] / more;
-    const double std = std::sqrt(step.covariance(k, k) - saved * paths(k, k)) * step.size[k];
-    if (change > kShort && 0.5 * change * change > kOfStd * std) return false;
-  }
-  return true;
-}
-
-// Monte Carlo is small against the rest, or against what anyone asks for.
-bool fine(const TransportRound& r) {
-  constexpr double kOfRest = 0.1;  // of the variance
-  constexpr double kFloor[2] = {1e-3, 5e-3};
-  const double unit[2] = {1.0, std::max(r.at().sigma_a_per_mm, 1e-3)};
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const double own = covariance_by(r.step(), "Monte Carlo")(k, k);
-    const double rest = r.step().covariance(k, k) - own;
-    const double floor = kFloor[k] * unit[k];
-    if (own > kOfRest * rest && own > floor * floor) return false;
-  }
-  return r.blocks() >= TransportRound::kLeastBlocks;
-}
-
-void tell(const ScatteringEquation::Step& step, Estimate& e) {
-  const double s = step.to.sigma_s_per_mm;
-  const Eigen::MatrixXd& c = step.covariance;
-  e.converged = true;
-  e.sigma_s_prime_per_mm = normal_quantity(s, s * std::sqrt(c(0, 0)));
-  e.sigma_a_per_mm = normal_quantity(step.to.sigma_a_per_mm, std::sqrt(c(1, 1)));
-  e.correlation = c(0, 1) / std::sqrt(c(0, 0) * c(1, 1));
-  e.budget.clear();
-  for (const auto& cause : step.causes) {
-    e.budget.push_back(
-        {cause.name, s * std::sqrt(cause.covariance(0, 0)), std::sqrt(cause.covariance(1, 1))});
-  }
-  e.scale = normal_quantity(step.to.scale, c.rows() > 2 ? std::sqrt(c(2, 2)) * step.to.scale : 0.0);
-}
-
-void judge(const TransportRound& r, Estimate& e) {
-  if (r.blocks() < TransportRound::kLeastBlocks) {
-    e.reasons.push_back(fmt::format(
-        "the time was too short: {} blocks of paths for each light, at least {} are needed",
-        r.blocks(), TransportRound::kLeastBlocks));
-  }
-  const LackOfFit misfit = r.misfit();
-  e.misfit_relative = misfit.rms;
-  e.misfit_p_value = misfit.p_value;
-  if (misfit.p_value < kMisfitPValue && misfit.rms > kMisfit) {
-    e.reasons.push_back(fmt::format(
-        "transport does not explain the shots: parts of the image are {:.2g} % off (scale, light, "
-        "pose, shape or eta are not what the rig says)",
-        100.0 * misfit.rms));
-  }
-  constexpr double kUndetermined = 0.5;
-  const double relative = e.sigma_s_prime_per_mm.std / e.sigma_s_prime_per_mm.value;
-  if (!std::isfinite(relative) || relative > kUndetermined) {
-    e.reasons.push_back("these shots do not determine sigma_s'");
-  }
-  if (!std::isfinite(e.sigma_a_per_mm.std)) {
-    e.reasons.push_back("these shots set no upper limit to sigma_a");
-  }
-}
 
 // A material in a channel, on the way to its medium.
 class TransportFit {
@@ -176,8 +93,8 @@ class TransportFit {
       // On the way, a scale known to a deviation is taken as exact: the search is steadier.
       TransportRound r({system_, parts_, simulation_},
                        learned || free_scale ? scale_ : ScalePrior{}, at, pilot(last.image, at),
-                       last.blocks / kFinalBlocks + last.scatter - 1.0,
-                       (1.0 / kFinalBlocks + (last.scatter - 1.0) / last.blocks) *
+                       last.blocks / kFinalPathBlocks + last.scatter - 1.0,
+                       (1.0 / kFinalPathBlocks + (last.scatter - 1.0) / last.blocks) *
                            part_light_.cells_alike(parts_));
       const double started_s = seconds();
       TaskSimulation::Draw draw = simulation_.draw(r.projection());

@@ -82,8 +82,8 @@ void TransportRound::take(const TaskSimulation::Draw& draw) {
                      at_.scale * at_.scale * image_.variance, joint_.row_variance().cwiseInverse()),
       scatter_of_cells(rest));
   scatter_ = scatter_within_;
-  const LackOfFit parts = misfit();
-  if (parts.p_value < kWideningPValue) scatter_ *= std::max(1.0, parts.chi2 / parts.dof);
+  misfit_ = misfit_of(rest);
+  if (misfit_.p_value < kWideningPValue) scatter_ *= std::max(1.0, misfit_.chi2 / misfit_.dof);
   step_ = joint_.step(image_, own, at_, scatter_);
 }
 
@@ -146,7 +146,7 @@ ShotAgreement TransportRound::agreement(const std::vector<ScatteringEquation::St
   return agreement_of(answers, all);
 }
 
-LackOfFit TransportRound::misfit() const {
+LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
   if (blocks_ < kLeastBlocks) return {};
   const Eigen::MatrixXd light = shots_.parts.parts() * shots_.parts.cells();
   const Eigen::Index n = light.rows();
@@ -171,7 +171,7 @@ LackOfFit TransportRound::misfit() const {
                                      [](const Nuisance& v) { return !std::isfinite(v.std); });
   const int fitted = static_cast<int>(j.cols() + unbound);
   if (n <= fitted) return {};
-  return lack_of_fit(light * residual(), noise + paths, free, fitted);
+  return lack_of_fit(light * rest, noise + paths, free, fitted);
 }
 
 }  // namespace scattermeter::apps

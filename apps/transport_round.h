@@ -70,7 +70,7 @@ class TransportRound {
   ShotAgreement agreement(const std::vector<ScatteringEquation::Step>& steps) const;
   // Of the light of the shots' parts, with free coefficients. Nothing (dof 0) from fewer than
   // kLeastBlocks.
-  LackOfFit misfit() const;
+  const LackOfFit& misfit() const { return misfit_; }
 
  private:
   struct Single {
@@ -81,6 +81,7 @@ class TransportRound {
   };
   Eigen::Index unknowns() const { return joint_.projection().rows(); }
   double scatter_of_cells(const Eigen::VectorXd& rest) const;
+  LackOfFit misfit_of(const Eigen::VectorXd& rest) const;
 
   TransportShots shots_;
   ScatteringPoint at_;
@@ -92,6 +93,7 @@ class TransportRound {
   Eigen::MatrixXd covariance_;  // of projection() * image
   double scatter_within_ = 1;
   double scatter_ = 1;
+  LackOfFit misfit_;
   ScatteringEquation::Step step_;
   int blocks_ = 0;
 };

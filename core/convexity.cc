@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
+
+#include "core/disjoint_sets.h"
 
 namespace scattermeter {
 namespace {
@@ -35,16 +36,7 @@ bool is_convex(const TriangleMesh& repeated) {
   }
   std::sort(sides.begin(), sides.end(),
             [](const Side& a, const Side& b) { return a.edge < b.edge; });
-  std::vector<int> parent(mesh.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int f) {
-    while (parent[static_cast<std::size_t>(f)] != f) {
-      f = parent[static_cast<std::size_t>(f)] =
-          parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(f)])];
-    }
-    return f;
-  };
-  std::size_t pieces = mesh.triangles.size();
+  DisjointSets pieces(mesh.triangles.size());
   for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
     const Side& a = sides[i];
     const Side& b = sides[i + 1];
@@ -52,13 +44,9 @@ bool is_convex(const TriangleMesh& repeated) {
     const Eigen::Vector3d up = mesh.vertices_mm[static_cast<std::size_t>(b.apex)] -
                                mesh.vertices_mm[static_cast<std::size_t>(a.edge.first)];
     if (normal.dot(up) > rise_mm) return false;
-    const int ra = root(a.facet);
-    const int rb = root(b.facet);
-    if (ra == rb) continue;
-    parent[static_cast<std::size_t>(ra)] = rb;
-    --pieces;
+    pieces.join(a.facet, b.facet);
   }
-  return pieces == 1;
+  return pieces.sets() == 1;
 }
 
 }  // namespace scattermeter

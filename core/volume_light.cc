@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include <Eigen/SparseCholesky>
 
+#include "core/disjoint_sets.h"
 #include "core/patch_scores.h"
 
 namespace scattermeter {
@@ -112,12 +112,7 @@ VolumeLight volume_radiosity(const SurfaceField& field, const PatchMesh& patches
 }
 
 std::vector<int> smooth_parts(const TriangleMesh& mesh) {
-  std::vector<int> parent(mesh.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int f) {
-    while (parent[static_cast<std::size_t>(f)] != f) f = parent[static_cast<std::size_t>(f)];
-    return f;
-  };
+  DisjointSets parts(mesh.triangles.size());
   std::map<std::pair<int, int>, int> facet_at;
   for (int f = 0; f < static_cast<int>(mesh.triangles.size()); ++f) {
     const auto& t = mesh.triangles[static_cast<std::size_t>(f)];
@@ -127,15 +122,14 @@ std::vector<int> smooth_parts(const TriangleMesh& mesh) {
       const Eigen::Vector3d a = area_vector_mm2(mesh, f);
       const Eigen::Vector3d b = area_vector_mm2(mesh, it->second);
       if (a.dot(b) < kSmoothCosine * a.norm() * b.norm()) continue;
-      const int low = std::min(root(f), root(it->second));
-      const int high = std::max(root(f), root(it->second));
-      parent[static_cast<std::size_t>(high)] = low;
+      parts.join(f, it->second);
     }
   }
-  for (int f = 0; f < static_cast<int>(parent.size()); ++f) {
-    parent[static_cast<std::size_t>(f)] = root(f);
+  std::vector<int> part_of_facet;
+  for (int f = 0; f < static_cast<int>(mesh.triangles.size()); ++f) {
+    part_of_facet.push_back(parts.set_of(f));
   }
-  return parent;
+  return part_of_facet;
 }
 
 double volume_patch_size_mm(double mean_free_path_mm, double object_size_mm) {

@@ -66,13 +66,34 @@ Eigen::Vector3d drawn_from(const Cone& cone, RandomStream& random) {
                                   (std::cos(around) * u + std::sin(around) * cone.axis.cross(u));
 }
 
+// What escapes and what is seen, by bins.
+template <std::size_t kBins>
+struct Bins {
+  std::array<testing::BlockMean, kBins> escaped, seen;
+  void add(const std::array<double, kBins>& out, const std::array<double, kBins>& in) {
+    for (std::size_t i = 0; i < kBins; ++i) {
+      escaped[i].add(out[i]);
+      seen[i].add(in[i]);
+    }
+  }
+  // And their errors are small, relative to what is seen: in the first bin, in the others.
+  void expect_alike(double first_error, double other_error) const {
+    for (std::size_t i = 0; i < kBins; ++i) {
+      const double error = std::hypot(escaped[i].std_error(), seen[i].std_error());
+      EXPECT_LT(std::abs(seen[i].mean() - escaped[i].mean()), testing::kSigmas * error)
+          << "bin " << i << ": " << seen[i].mean() << " seen, " << escaped[i].mean() << " escaped";
+      EXPECT_LT(error, (i == 0 ? first_error : other_error) * seen[i].mean()) << "bin " << i;
+    }
+  }
+};
+
 TEST(CameraConnectionCone, SeesWhatEscapes) {
   const RayScene scene(testing::make_box({0, 0, 0}, {4, 4, 3}));
   const PathBoundary boundary(scene);
   const ScatteringMedium medium{1.0, 0.05, 0.3, 1.3};
   const auto source = beam_entry({{0.5, 0.5, 3}, {3, 0, 0}, {0, 3, 0}, {0, 0, -1}});
   const Cone cone;
-  std::array<testing::BlockMean, ConeSums::kBins> escaped, seen;
+  Bins<ConeSums::kBins> bins;
   RandomStream random(77, 0);
   for (int block = 0; block < 800; ++block) {
     const Eigen::Vector3d toward = drawn_from(cone, random);
@@ -82,19 +103,9 @@ TEST(CameraConnectionCone, SeesWhatEscapes) {
         [&] {
           return ConeSums{&scene.mesh(), cone, 1.3, {}, {}};
         },
-        [&](const ConeSums& s, const PathAudit&) {
-          for (std::size_t i = 0; i < s.seen.size(); ++i) {
-            escaped[i].add(s.escaped[i]);
-            seen[i].add(s.seen[i]);
-          }
-        });
+        [&](const ConeSums& s, const PathAudit&) { bins.add(s.escaped, s.seen); });
   }
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const double error = std::hypot(escaped[i].std_error(), seen[i].std_error());
-    EXPECT_LT(std::abs(seen[i].mean() - escaped[i].mean()), testing::kSigmas * error)
-        << "bin " << i;
-    EXPECT_LT(error, 0.012 * seen[i].mean());
-  }
+  bins.expect_alike(0.012, 0.012);
 }
 
 // The same for bodies of many facets, as power per solid angle toward the cone (which no facet seen
@@ -139,7 +150,7 @@ Rest expect_power_that_escapes(const TriangleMesh& mesh, const ScatteringMedium&
   led.position_mm = {30, -60, 80};
   led.axis = -led.position_mm.normalized();
   const auto source = led_entry(scene, led, medium.eta_int_over_ext);
-  std::array<testing::BlockMean, ConePower::kBins> escaped, seen;
+  Bins<ConePower::kBins> bins;
   Rest rest;
   RandomStream random(78, 0);
   for (int block = 0; block < blocks; ++block) {
@@ -152,18 +163,10 @@ Rest expect_power_that_escapes(const TriangleMesh& mesh, const ScatteringMedium&
           rest.all.add(s.all);
           rest.escaped.add(s.rest);
           rest.seen.add(s.rest_seen);
-          for (std::size_t i = 0; i < s.seen.size(); ++i) {
-            escaped[i].add(s.escaped[i]);
-            seen[i].add(s.seen[i]);
-          }
+          bins.add(s.escaped, s.seen);
         });
   }
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const double error = std::hypot(escaped[i].std_error(), seen[i].std_error());
-    EXPECT_LT(std::abs(seen[i].mean() - escaped[i].mean()), testing::kSigmas * error)
-        << "bin " << i << ": " << seen[i].mean() << " seen, " << escaped[i].mean() << " escaped";
-    EXPECT_LT(error, (i == 0 ? 0.06 : 0.02) * seen[i].mean()) << "bin " << i;
-  }
+  bins.expect_alike(0.06, 0.02);
   return rest;
 }
 
