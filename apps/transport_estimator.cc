@@ -219,7 +219,7 @@ class TransportFit {
   void report(const TransportRound& r, ChannelResult& result) const {
     Estimate& e = result.estimate;
     e.reasons.clear();
-    tell(r.step(), e);
+    tell(doubted(r), e);
     const Eigen::VectorXd rest = r.residual();
     if (std::isfinite(scale_.relative_std)) {
       const double scale = std::exp(r.equation().settled_log_scale(rest));

@@ -57,13 +57,16 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
 Eigen::MatrixXd TransportRound::projection() const {
   const Eigen::Index n_cells = shots_.parts.n_cells();
   const Eigen::Index answers = unknowns() * (1 + static_cast<Eigen::Index>(singles_.size()));
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(answers + n_cells, shots_.system.l.size());
+  const Eigen::RowVectorXd& scale = joint_.scale_form();
+  Eigen::MatrixXd all =
+      Eigen::MatrixXd::Zero(answers + (scale.size() > 0 ? 1 : 0) + n_cells, shots_.system.l.size());
   all.topRows(unknowns()) = joint_.projection();
   for (std::size_t i = 0; i < singles_.size(); ++i) {
     const Eigen::MatrixXd& own = singles_[i].equation->projection();
     all.block(static_cast<Eigen::Index>(i + 1) * unknowns(), singles_[i].first, unknowns(),
               own.cols()) = own;
   }
+  if (scale.size() > 0) all.row(answers) = scale;
   all.bottomRows(n_cells) = shots_.parts.cells();
   return all;
 }
@@ -85,6 +88,12 @@ void TransportRound::take(const TaskSimulation::Draw& draw) {
   misfit_ = misfit_of(rest);
   if (misfit_.p_value < kWideningPValue) scatter_ *= std::max(1.0, misfit_.chi2 / misfit_.dof);
   step_ = joint_.step(image_, own, at_, scatter_);
+}
+
+ScatteringEquation::ScaleDoubt TransportRound::scale_doubt() const {
+  if (joint_.scale_form().size() == 0) return {};
+  const Eigen::Index row = covariance_.rows() - shots_.parts.n_cells() - 1;
+  return joint_.scale_doubt(residual(), at_.scale * at_.scale * covariance_(row, row), scatter_);
 }
 
 Eigen::MatrixXd TransportRound::cell_covariance() const {

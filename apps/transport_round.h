@@ -40,7 +40,8 @@ class TransportRound {
   TransportRound(const TransportRound&) = delete;
   TransportRound& operator=(const TransportRound&) = delete;
 
-  // Of the joint answer, of each shot's own, and of the light of the cells.
+  // Of the joint answer, of each shot's own, of the scale (where it is stated), and of the light of
+  // the cells.
   Eigen::MatrixXd projection() const;
   // A draw for that projection, traced at this place. Everything below is from the last one.
   void take(const TaskSimulation::Draw& draw);
@@ -59,6 +60,8 @@ class TransportRound {
   // all (parts that are as improbable as 1 in 100 widen it by Birge's ratio).
   double scatter_within() const { return scatter_within_; }
   double scatter() const { return scatter_; }
+  // What the image has against the stated scale.
+  ScatteringEquation::ScaleDoubt scale_doubt() const;
 
   // Shots with an answer of their own (indices), and the steps to it; none for a single shot.
   std::vector<std::size_t> shots() const;

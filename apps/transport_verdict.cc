@@ -12,6 +12,12 @@ namespace {
 // A misfit so improbable and so large that the answer is refused.
 constexpr double kMisfitPValue = 1e-6;
 constexpr double kMisfit = 0.003;
+// The same of a stated scale, one direction alone: three deviations widen the answer by the offset,
+// 4.4 and a per cent refuse it.
+constexpr double kDoubtedPValue = 3e-3;
+constexpr double kRefusedScalePValue = 1e-5;
+constexpr double kRefusedScale = 0.01;
+
 const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
                                      const std::string& cause) {
   return std::find_if(step.causes.begin(), step.causes.end(),
@@ -64,6 +70,13 @@ void tell(const ScatteringEquation::Step& step, Estimate& e) {
   e.scale = normal_quantity(step.to.scale, c.rows() > 2 ? std::sqrt(c(2, 2)) * step.to.scale : 0.0);
 }
 
+ScatteringEquation::Step doubted(const TransportRound& r) {
+  ScatteringEquation::Step step = r.step();
+  const ScatteringEquation::ScaleDoubt scale = r.scale_doubt();
+  if (scale.p_value < kDoubtedPValue) r.equation().widen_by_scale(scale.offset, step);
+  return step;
+}
+
 void judge(const TransportRound& r, Estimate& e) {
   if (r.blocks() < TransportRound::kLeastBlocks) {
     e.reasons.push_back(fmt::format(
@@ -78,6 +91,14 @@ void judge(const TransportRound& r, Estimate& e) {
         "transport does not explain the shots: parts of the image are {:.2g} % off (scale, light, "
         "pose, shape or eta are not what the rig says)",
         100.0 * misfit.rms));
+  }
+  const ScatteringEquation::ScaleDoubt scale = r.scale_doubt();
+  if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {
+    e.reasons.push_back(fmt::format(
+        "the shots contradict the scale that the rig states: they would have it at least "
+        "{:.2g} +- {:.1g} % {} (or light, pose, shape or eta are not what the rig says)",
+        100.0 * std::abs(std::expm1(scale.offset)), 100.0 * scale.std,
+        scale.offset > 0.0 ? "larger" : "smaller"));
   }
   constexpr double kUndetermined = 0.5;
   const double relative = e.sigma_s_prime_per_mm.std / e.sigma_s_prime_per_mm.value;

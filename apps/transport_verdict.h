@@ -20,6 +20,9 @@ bool fine(const TransportRound& round);
 // Values, deviations, budget and scale of a step's end.
 void tell(const ScatteringEquation::Step& step, Estimate& estimate);
 
+// The joint step, wider where the image contradicts the stated scale.
+ScatteringEquation::Step doubted(const TransportRound& round);
+
 // Adds the misfit, and the reasons for which the answer must not be trusted.
 void judge(const TransportRound& round, Estimate& estimate);
 

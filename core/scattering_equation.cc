@@ -8,6 +8,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "core/chi_square.h"
+
 namespace scattermeter {
 
 Eigen::MatrixXd ScatteringEquation::jacobian(const ScatteringImage& m, const ScatteringPoint& at,
@@ -59,6 +61,14 @@ ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePri
   for (Eigen::Index k = 0; k < z.cols(); ++k) {
     projection_.row(k) = solve_covariance(z.col(k)).transpose();
   }
+  per_log_scale_ = at.scale * pilot.l;
+  if (z.cols() > 2) return;
+  const Eigen::RowVectorXd direct = solve_covariance(per_log_scale_).transpose();
+  const Eigen::RowVectorXd form = direct - (projection_ * per_log_scale_).transpose() *
+                                               (projection_ * z).inverse() * projection_;
+  const double information = form.dot(per_log_scale_);
+  constexpr double kRounding = 1e-9;
+  if (information > kRounding * direct.dot(per_log_scale_)) scale_form_ = form / information;
 }
 
 Eigen::VectorXd ScatteringEquation::solve_covariance(const Eigen::VectorXd& rows) const {
@@ -111,6 +121,28 @@ Eigen::VectorXd ScatteringEquation::residual(const ScatteringImage& m, const Sca
   return system_.l - to.scale * m.l -
          at.scale * (std::log(to.sigma_s_per_mm / at.sigma_s_per_mm) * m.per_log_sigma_s +
                      (to.sigma_a_per_mm - at.sigma_a_per_mm) * m.per_sigma_a);
+}
+
+ScatteringEquation::ScaleDoubt ScatteringEquation::scale_doubt(const Eigen::VectorXd& residual,
+                                                               double form_variance,
+                                                               double scatter) const {
+  if (scale_form_.size() == 0) return {};
+  double variance = scale_form_.cwiseAbs2().dot(system_.std_l.cwiseAbs2()) +
+                    std::max(1.0, scatter) * form_variance;
+  variance += (scale_form_ * nuisances_).squaredNorm();
+  ScaleDoubt out;
+  out.offset = scale_form_.dot(residual);
+  out.std = std::sqrt(variance);
+  const double chi2 = out.offset * out.offset / variance;
+  if (std::isfinite(chi2)) out.p_value = chi_square_tail(chi2, 1.0);
+  return out;
+}
+
+void ScatteringEquation::widen_by_scale(double offset, Step& step) const {
+  const Eigen::VectorXd push = offset * (step.inverse * (projection_ * per_log_scale_));
+  const Eigen::MatrixXd covariance = push * push.transpose();
+  step.causes.push_back({"doubted scale", covariance});
+  step.covariance += covariance;
 }
 
 double ScatteringEquation::settled_log_scale(const Eigen::VectorXd& residual) const {

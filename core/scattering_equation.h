@@ -76,6 +76,21 @@ class ScatteringEquation {
   // Columns times their standard deviations, last that of a scale with a prior; free ones at a size
   // far beyond what the rows leave open.
   const Eigen::MatrixXd& nuisances() const { return nuisances_; }
+  // Row vector that reads, off measured less predicted l, how far the image wants log scale from
+  // what is stated: 1 for scale * pilot.l, 0 for what the unknowns can do, of the least variance.
+  // Empty where the scale is free, or where the unknowns make up for it.
+  const Eigen::RowVectorXd& scale_form() const { return scale_form_; }
+  struct ScaleDoubt {
+    double offset = 0;   // of log scale, wanted less stated
+    double std = 0;      // of that where the statement is true, prior included
+    double p_value = 1;  // of at least this much
+  };
+  // form_variance: of scale_form() times the predicted l, by its paths. Nuisances take part within
+  // their priors; light that is even over the object leaves nothing to tell by: p is then 1.
+  ScaleDoubt scale_doubt(const Eigen::VectorXd& residual, double form_variance,
+                         double scatter) const;
+  // What a log scale off by `offset`, sign unknown, adds to a step.
+  void widen_by_scale(double offset, Step& step) const;
   // The most probable log of a scale with a prior; else 0.
   double settled_log_scale(const Eigen::VectorXd& residual) const;
   // Derivatives of scale * m by the unknowns, rows x unknowns.
@@ -93,6 +108,8 @@ class ScatteringEquation {
   Eigen::MatrixXd capacitance_;      // of Woodbury's identity, inverted
   Eigen::MatrixXd projection_;
   Eigen::VectorXd relative_size_;  // of the image's change with each unknown
+  Eigen::VectorXd per_log_scale_;  // scale * pilot.l
+  Eigen::RowVectorXd scale_form_;
 };
 
 }  // namespace scattermeter

@@ -1,6 +1,7 @@
 #include "core/scattering_equation.h"
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -204,6 +205,80 @@ TEST(ScatteringEquation, ScatterWidens) {
                 .norm(),
             1e-12 * wide.covariance.norm());
   EXPECT_EQ(wide.causes.size(), plain.causes.size() + 1);
+}
+
+// A scale that is stated wrongly shows, by as much as it is wrong, where the medium cannot make up
+// for it; a true one does not, more often than its p-value says.
+TEST(ScatteringEquation, DoubtsAScale) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  const ScatteringImage pilot = image_of(2.05, 0.0095);
+  constexpr double kNoise = 2e-3;
+  constexpr double kPaths = 1e-3;
+  constexpr double kPrior = 0.02;
+  for (const double prior : {0.0, kPrior}) {
+    for (const double off : {0.0, 0.05}) {
+      constexpr int kDraws = 1000;
+      double sum = 0.0, square = 0.0, std = 0.0;
+      int doubted = 0;
+      for (int i = 0; i < kDraws; ++i) {
+        const double drawn = off + prior * normal(random);
+        DenseSystem system = system_of(std::exp(drawn) * truth.l, kNoise);
+        ScatteringImage m = truth;
+        for (Eigen::Index j = 0; j < kRows; ++j) {
+          system.l[j] += kNoise * normal(random);
+          m.l[j] += kPaths * normal(random);
+        }
+        const ScatteringEquation equation(system, {prior}, pilot, at);
+        const Eigen::RowVectorXd& form = equation.scale_form();
+        ASSERT_EQ(form.size(), kRows);
+        EXPECT_NEAR(form.dot(pilot.l), 1.0, 1e-9);
+        EXPECT_NEAR(form.dot(pilot.per_log_sigma_s), 0.0, 1e-8);
+        EXPECT_NEAR(form.dot(pilot.per_sigma_a), 0.0, 1e-6);
+        const ScatteringEquation::Step step = equation.step(m, Eigen::MatrixXd::Zero(2, 2), at);
+        const ScatteringEquation::ScaleDoubt doubt = equation.scale_doubt(
+            equation.residual(m, at, step.to), kPaths * kPaths * form.squaredNorm(), 1.0);
+        sum += doubt.offset / kDraws;
+        square += (doubt.offset - off) * (doubt.offset - off) / kDraws;
+        std = doubt.std;
+        doubted += doubt.p_value < 0.01 ? 1 : 0;
+      }
+      // 1000 draws: 2.2 % of a deviation.
+      EXPECT_NEAR(std::sqrt(square) / std, 1.0, 0.1) << prior << " " << off;
+      EXPECT_NEAR(sum, off, 4.0 * std / std::sqrt(kDraws) + 0.02 * off) << prior << " " << off;
+      if (off == 0.0) {
+        EXPECT_LE(doubted, 25) << prior;  // of 1000, 10 expected
+      } else if (prior == 0.0) {
+        EXPECT_GE(doubted, 900) << std;
+      }
+    }
+  }
+  // Free, there is nothing to doubt.
+  const ScatteringEquation free(system_of(truth.l, kNoise),
+                                {std::numeric_limits<double>::infinity()}, pilot, at);
+  EXPECT_EQ(free.scale_form().size(), 0);
+  EXPECT_EQ(free.scale_doubt(truth.l, 0.0, 1.0).p_value, 1.0);
+}
+
+// The scale's place in the step: where it is doubted, the answer is as far out as it would move.
+TEST(ScatteringEquation, DoubtedScaleWidens) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const DenseSystem system = system_of(truth.l, 1e-3);
+  const ScatteringEquation equation(system, {0.0}, truth, at);
+  ScatteringEquation::Step step = equation.step(truth, Eigen::MatrixXd::Zero(2, 2), at);
+  const Eigen::MatrixXd before = step.covariance;
+  equation.widen_by_scale(0.05, step);
+  const DenseSystem brighter = system_of(1.05 * truth.l, 1e-3);
+  const ScatteringEquation other(brighter, {0.0}, truth, at);
+  const Eigen::VectorXd moved = other.step(truth, Eigen::MatrixXd::Zero(2, 2), at).move;
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    EXPECT_NEAR(step.covariance(k, k), before(k, k) + moved[k] * moved[k],
+                1e-6 * step.covariance(k, k));
+  }
+  EXPECT_EQ(step.causes.back().name, "doubted scale");
 }
 
 }  // namespace
