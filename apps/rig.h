@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include "apps/rig_calibration.h"
 #include "calib/camera_model.h"
 #include "calib/charuco_board.h"
 #include "calib/pose.h"
@@ -116,6 +117,7 @@ struct Rig {
   std::vector<RigObject> objects;
   std::vector<RigLight> lights;
   std::vector<RigShot> shots;
+  RigCalibration calibration;
   // simulate only.
   std::map<std::string, std::array<Medium, 3>>
       truth_materials;  // eta is the object's, not set here

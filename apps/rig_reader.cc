@@ -217,7 +217,8 @@ void read_truth(const YamlField& field, Rig& rig) {
 
 Rig read_rig(const std::string& path) {
   const YamlField top = YamlField::load(path);
-  top.only({"scattermeter_rig", "camera", "pose", "objects", "lights", "shots", "truth"});
+  top.only(
+      {"scattermeter_rig", "camera", "pose", "objects", "lights", "shots", "calibration", "truth"});
   const YamlField version = top.at("scattermeter_rig");
   if (version.number() != 1.0) version.fail("this program reads rigs of version 1");
   Rig rig;
@@ -239,6 +240,7 @@ Rig read_rig(const std::string& path) {
     }
   }
   if (rig.shots.empty()) shots.fail("expected at least one shot");
+  if (const auto f = top.find("calibration")) rig.calibration = read_calibration(*f, path);
   if (const auto truth = top.find("truth")) read_truth(*truth, rig);
   return rig;
 }

@@ -10,7 +10,7 @@ namespace scattermeter::apps {
 
 void add_simulate_command(CLI::App& app, CommandContext& context) {
   struct Options {
-    std::string rig, out, transport = "dipole", noise = "on";
+    std::string rig, out, transport = "dipole", noise = "on", what = "all";
     SimulateOptions simulate;
   };
   const auto options = std::make_shared<Options>();
@@ -36,9 +36,16 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
   command->add_option("--noise", options->noise, "on: photon and read noise; off: rounding only")
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str();
+  command
+      ->add_option("--what", options->what,
+                   "scene: the shots of the objects; calibration: those of the rig's calibration")
+      ->check(CLI::IsMember({"all", "scene", "calibration"}))
+      ->capture_default_str();
   command->callback([options, &context] {
     context.chosen = [options, &context] {
       options->simulate.noise = options->noise == "on";
+      options->simulate.scene = options->what != "calibration";
+      options->simulate.calibration = options->what != "scene";
       options->simulate.quiet = context.quiet;
       options->simulate.transport.volume = options->transport == "volume";
       const SimulatedShots made = simulate(read_rig(options->rig), options->out, options->simulate);

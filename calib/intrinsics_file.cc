@@ -1,49 +1,18 @@
-// read_intrinsics(): the only place that knows OpenCV's FileStorage.
+// read_intrinsics().
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <sstream>
 #include <utility>
 
-#include <opencv2/core.hpp>
-
 #include "calib/camera_model.h"
 #include "calib/opencv_quiet.h"
+#include "calib/opencv_storage.h"
 #include "core/input_error.h"
 
 namespace scattermeter::calib {
 namespace {
 
 using Names = std::initializer_list<const char*>;
-
-// The file's text. cv::FileStorage would log to stderr when it cannot open a file.
-std::string read_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path, "cannot open the intrinsics file");
-  try {
-    // A folder opens, and throws on the first read.
-    std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    if (!in.bad()) return text;
-  } catch (const std::ios_base::failure&) {
-  }
-  throw InputError(path, "cannot read the intrinsics file");
-}
-
-cv::FileStorage parse(const std::string& path, const std::string& text) {
-  const char* expected = "expected YAML (%YAML), XML or JSON as OpenCV's FileStorage writes it";
-  // It takes a text by its first characters and asserts on an empty one.
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw InputError(path, std::string(expected) + ", got an empty file");
-  }
-  try {
-    cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-    if (storage.isOpened() && storage.root().isMap()) return storage;
-  } catch (const cv::Exception& error) {
-    throw InputError(path, std::string(expected) + ", got: " + error.err);
-  }
-  throw InputError(path, expected);
-}
 
 // The first of `names` that is there.
 std::optional<std::pair<std::string, cv::FileNode>> find(const cv::FileStorage& storage,
@@ -61,29 +30,13 @@ std::string list(Names names) {
   return out;
 }
 
-// A matrix of one channel as doubles.
-cv::Mat read_matrix(const std::string& where, const cv::FileNode& node) {
-  cv::Mat matrix;
-  try {
-    if (!node.isMap()) throw InputError(where, "expected an opencv-matrix");
-    node >> matrix;
-    if (matrix.dims > 2 || matrix.channels() != 1) {
-      throw InputError(where, "expected an opencv-matrix of one channel");
-    }
-    matrix.convertTo(matrix, CV_64F);
-  } catch (const cv::Exception& error) {
-    throw InputError(where, "cannot be read as an opencv-matrix: " + error.err);
-  }
-  return matrix;
-}
-
 void read_camera_matrix(const std::string& path, const cv::FileStorage& storage,
                         CameraIntrinsics* intrinsics) {
   const Names names = {"camera_matrix", "cameraMatrix", "K"};
   const auto found = find(storage, names);
   if (!found) throw InputError(path, "has no " + list(names));
   const std::string where = path + ": " + found->first;
-  const cv::Mat k = read_matrix(where, found->second);
+  const cv::Mat k = read_storage_matrix(where, found->second);
   std::ostringstream out;
   if (k.rows != 3 || k.cols != 3) {
     out << "expected a 3 x 3 matrix, got " << k.rows << " x " << k.cols;
@@ -109,7 +62,7 @@ void read_distortion(const std::string& path, const cv::FileStorage& storage,
   const auto found = find(storage, {"distortion_coefficients", "distCoeffs", "D"});
   if (!found) return;
   const std::string where = path + ": " + found->first;
-  const cv::Mat d = read_matrix(where, found->second);
+  const cv::Mat d = read_storage_matrix(where, found->second);
   std::ostringstream out;
   if (!d.empty() && d.rows != 1 && d.cols != 1) {
     out << "expected one row or one column, got " << d.rows << " x " << d.cols;
@@ -170,10 +123,9 @@ void read_image_size(const std::string& path, const cv::FileStorage& storage,
 
 CameraIntrinsics read_intrinsics(const std::string& path) {
   const OpencvQuiet quiet;
-  const std::string text = read_text(path);
   CameraIntrinsics intrinsics;
   try {
-    const cv::FileStorage storage = parse(path, text);
+    const cv::FileStorage storage = open_storage(path);
     read_camera_matrix(path, storage, &intrinsics);
     read_distortion(path, storage, &intrinsics);
     read_image_size(path, storage, &intrinsics);

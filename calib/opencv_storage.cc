@@ -1,0 +1,60 @@
+#include "calib/opencv_storage.h"
+
+#include <fstream>
+#include <iterator>
+
+#include "core/input_error.h"
+
+namespace scattermeter::calib {
+namespace {
+
+// The file's text. cv::FileStorage would log to stderr when it cannot open a file.
+std::string storage_text(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path, "cannot open the intrinsics file");
+  try {
+    // A folder opens, and throws on the first read.
+    std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    if (!in.bad()) return text;
+  } catch (const std::ios_base::failure&) {
+  }
+  throw InputError(path, "cannot read the intrinsics file");
+}
+
+cv::FileStorage parse_storage(const std::string& path, const std::string& text) {
+  const char* expected = "expected YAML (%YAML), XML or JSON as OpenCV's FileStorage writes it";
+  // It takes a text by its first characters and asserts on an empty one.
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw InputError(path, std::string(expected) + ", got an empty file");
+  }
+  try {
+    cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    if (storage.isOpened() && storage.root().isMap()) return storage;
+  } catch (const cv::Exception& error) {
+    throw InputError(path, std::string(expected) + ", got: " + error.err);
+  }
+  throw InputError(path, expected);
+}
+
+}  // namespace
+
+cv::FileStorage open_storage(const std::string& path) {
+  return parse_storage(path, storage_text(path));
+}
+
+cv::Mat read_storage_matrix(const std::string& where, const cv::FileNode& node) {
+  cv::Mat matrix;
+  try {
+    if (!node.isMap()) throw InputError(where, "expected an opencv-matrix");
+    node >> matrix;
+    if (matrix.dims > 2 || matrix.channels() != 1) {
+      throw InputError(where, "expected an opencv-matrix of one channel");
+    }
+    matrix.convertTo(matrix, CV_64F);
+  } catch (const cv::Exception& error) {
+    throw InputError(where, "cannot be read as an opencv-matrix: " + error.err);
+  }
+  return matrix;
+}
+
+}  // namespace scattermeter::calib
