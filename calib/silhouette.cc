@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -11,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "calib/edge_scatter.h"
 #include "calib/edge_strip.h"
 #include "calib/lens.h"
 #include "core/chi_square.h"
@@ -21,6 +20,7 @@ namespace {
 using namespace edge_parameter;
 
 constexpr int kCoarseWidth = 260;  // cells, at most, in the width at the first level
+constexpr double kPiecesPerWidth = 150.0;
 constexpr double kBesideCells = 1.5;
 constexpr double kMinContrast = 0.25;  // mean of (in - out) / (in + out); 0 by chance, 1 at best
 constexpr double kOutlier = 6.0;
@@ -144,47 +144,6 @@ std::size_t line_count(const std::vector<EdgePoint>& points) {
   return lines.size();
 }
 
-// Extra deviation of each piece with which the squares about each line's own straight line (in each
-// shot) are what they should be; what they then are.
-double piece_scatter_px(const std::vector<EdgePoint>& points, const std::vector<double>& residual,
-                        double* squares, double* freedom) {
-  std::map<std::pair<int, int>, std::vector<std::size_t>> lines;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    lines[{points[i].body_idx, points[i].line_idx}].push_back(i);
-  }
-  *freedom = 0;
-  const auto sum = [&](double s) {
-    double total = 0;
-    *freedom = 0;
-    for (const auto& [key, which] : lines) {
-      const auto n = static_cast<Eigen::Index>(which.size());
-      Eigen::MatrixXd a(n, 2);
-      Eigen::VectorXd b(n);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const EdgePoint& p = points[which[static_cast<std::size_t>(i)]];
-        const double w = 1 / std::hypot(p.std_px, s);
-        const Eigen::Vector2d along(-p.outward.y(), p.outward.x());
-        a.row(i) << w, w * along.dot(p.measured_px - points[which[0]].measured_px) * 0.01;
-        b[i] = w * residual[which[static_cast<std::size_t>(i)]];
-      }
-      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
-      total += (b - a * qr.solve(b)).squaredNorm();
-      *freedom += static_cast<double>(n - qr.rank());
-    }
-    return total;
-  };
-  double low = 0;
-  double high = 30;
-  *squares = sum(0);
-  if (*squares <= *freedom) return 0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (sum(middle) > *freedom ? low : high) = middle;
-  }
-  *squares = sum(high);
-  return high;
-}
-
 double robust_deviation(std::vector<double> residual) {
   for (double& r : residual) r = std::abs(r);
   const auto middle = residual.begin() + static_cast<std::ptrdiff_t>(residual.size() / 2);
@@ -264,6 +223,7 @@ Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntri
       o.factor = factor;
       o.search_px = search;
       o.half_width_px = half_width;
+      o.piece_px = std::max(o.piece_px, intrinsics.width_px / factor / kPiecesPerWidth);
       points = edge_points(shots, intrinsics, pose, o);
       if (points.size() < kMinPieces || line_count(points) < kMinLines) return false;
       EdgeFitOptions fit;
@@ -302,36 +262,12 @@ Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntri
     return failed(SilhouetteStatus::kTooFewPieces, too_few);
   }
   fit.robust = false;
-  double squares = 0;
-  double freedom = 0;
-  fit.piece_std_px = piece_scatter_px(
-      kept,
-      f.residual_px.size() == kept.size()
-          ? f.residual_px
-          : edge_residuals_px(kept, intrinsics, pose, Eigen::VectorXd::Zero(edge_parameters(kept))),
-      &squares, &freedom);
-  // About the pose, two numbers a line (place, direction) less six: lines' own scatter.
-  const double expected =
-      squares + std::max(1.0, 2.0 * static_cast<double>(line_count(kept)) - 6.0);
-  const auto chi2 = [&](double line_std) {
-    fit.line_std_px = line_std;
-    f = fit_pose(kept, intrinsics, pose, fit);
-    return f.chi2;
-  };
-  double low = options.line_std_px;
-  if (chi2(low) > expected) {
-    double high = std::max(0.01, 2 * low);
-    while (high < 30 && chi2(high) > expected) {
-      low = high;
-      high *= 2;
-    }
-    for (int i = 0; i < 12; ++i) {
-      const double middle = 0.5 * (low + high);
-      (chi2(middle) > expected ? low : high) = middle;
-    }
-    low = high;
-  }
-  chi2(low);
+  fit.free = pose_parameters();
+  fit.prior = loose_prior(edge_parameters(kept), pose.translation_mm.norm());
+  const EdgeScatter scatter = edge_scatter(kept, intrinsics, pose, fit, options.line_std_px);
+  fit.line_std_px = scatter.line_std_px;
+  fit.piece_std_px = scatter.piece_std_px;
+  f = fit_edges(kept, intrinsics, pose, fit);
   const double worst_rad = std::sqrt(f.covariance.block<3, 3>(0, 0).trace());
   const double worst_mm = std::sqrt(f.covariance.block<3, 3>(3, 3).trace());
   if (!f.converged || !(worst_rad < 0.05) || !(worst_mm < 0.05 * pose.translation_mm.norm())) {
@@ -339,8 +275,8 @@ Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntri
                   "the edges that are found do not tell the pose: more of the outline must be lit");
   }
   out.status = SilhouetteStatus::kOk;
-  out.line_std_px = low;
-  out.piece_std_px = fit.piece_std_px;
+  out.line_std_px = scatter.line_std_px;
+  out.piece_std_px = scatter.piece_std_px;
   out.camera_from_world = f.camera_from_world;
   out.points = std::move(kept);
   const std::vector<double> given =
