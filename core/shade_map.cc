@@ -12,6 +12,8 @@ namespace scattermeter {
 namespace {
 
 constexpr std::int32_t kBackground = -1;
+// Of the lattice (i, kStep i mod 64) / 64: its shortest vector is 7.6 / 64 long, of 8.6 possible.
+constexpr int kStep = 19;
 
 }  // namespace
 
@@ -67,7 +69,7 @@ ShadeMap::ShadeMap(const RayGrid& rays, const RayScene& scene, const PatchMesh& 
       mixed.push_back({x, y});
     }
   }
-  blocks_.resize(mixed.size() * kSide * kSide);
+  blocks_.resize(mixed.size() * kPoints);
   tbb::parallel_for(std::size_t{0}, mixed.size(), [&](std::size_t b) {
     const auto [x, y] = mixed[b];
     // Directions inside the pixel by the differences to its neighbours (exact without distortion).
@@ -76,13 +78,11 @@ ShadeMap::ShadeMap(const RayGrid& rays, const RayScene& scene, const PatchMesh& 
     const Eigen::Vector3d d = direction(x, y);
     const Eigen::Vector3d per_x = (direction(xn, y) - d) * (xn - x);
     const Eigen::Vector3d per_y = (direction(x, yn) - d) * (yn - y);
-    for (int i = 0; i < kSide * kSide; ++i) {
-      const int row = i / kSide;
-      const int column = i % kSide;
-      const double fx = (column + 0.5) / kSide - 0.5;
-      const double fy = (row + 0.5) / kSide - 0.5;
+    for (int i = 0; i < kPoints; ++i) {
+      const double fx = (i + 0.5) / kPoints - 0.5;
+      const double fy = (kStep * i % kPoints + 0.5) / kPoints - 0.5;
       std::int32_t unused = 0;
-      blocks_[b * kSide * kSide + static_cast<std::size_t>(i)] =
+      blocks_[b * kPoints + static_cast<std::size_t>(i)] =
           trace(scene, patches, rays.origin_in_world_mm, d + fx * per_x + fy * per_y,
                 eta_int_over_ext, &unused);
     }
@@ -93,8 +93,8 @@ const ShadeMap::Point* ShadeMap::begin(int x, int y, int* count) const {
   const std::size_t i =
       static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   const std::int32_t block = block_of_pixel_[i];
-  *count = block < 0 ? 1 : kSide * kSide;
-  return block < 0 ? &centers_[i] : &blocks_[static_cast<std::size_t>(block) * kSide * kSide];
+  *count = block < 0 ? 1 : kPoints;
+  return block < 0 ? &centers_[i] : &blocks_[static_cast<std::size_t>(block) * kPoints];
 }
 
 double ShadeMap::coverage(int x, int y) const {
