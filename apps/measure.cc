@@ -28,6 +28,10 @@ void list_inputs(const Rig& rig, const ObjectScenes& scenes, const std::vector<s
           std::find(files.begin(), files.end(), light.environment->image_path) == files.end()) {
         files.push_back(light.environment->image_path);
       }
+      if (!light.calibration_path.empty() &&
+          std::find(files.begin(), files.end(), light.calibration_path) == files.end()) {
+        files.push_back(light.calibration_path);
+      }
     }
   }
   files.insert(files.end(), paths.begin(), paths.end());

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kExponentStep = 0.02;
 constexpr double kEtaStep = 0.01;
+constexpr double kTurnRad = 0.01;
 
 // R on the knots, one column a medium, times its scale.
 Eigen::MatrixXd curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
@@ -72,15 +73,22 @@ ChangedWeights changed_weights(const SeenObject& seen, const RigLight& rig_light
   // A hundredth of the distance: shadow edges then move by several of the parts that patches are
   // cut into, and the next order is still a hundredth of the first.
   out.move_mm = 0.01 * (led.position_mm - object.box.center_mm()).norm();
-  for (int i = 0; i < 3 && rig_light.position_std_mm > 0.0; ++i) {
+  const bool is_calibrated = rig_light.calibrated.has_value();
+  for (int i = 0; i < 3 && (is_calibrated || rig_light.position_std_mm > 0.0); ++i) {
     Led moved = led;
     moved.position_mm[i] += out.move_mm;
     out.moved[static_cast<std::size_t>(i)] = weights(seen.sites, moved, eta);
   }
-  if (rig_light.exponent_std > 0.0) {
+  if (is_calibrated || rig_light.exponent_std > 0.0) {
     Led other = led;
     other.exponent += kExponentStep;
     out.other_exponent = weights(seen.sites, other, eta);
+  }
+  out.turn_rad = kTurnRad;
+  for (std::size_t t = 0; t < 2 && is_calibrated; ++t) {
+    Led other = led;
+    other.axis = (led.axis + kTurnRad * rig_light.calibrated->tangents[t]).normalized();
+    out.turned[t] = weights(seen.sites, other, eta);
   }
   if (object.rig->eta_std > 0.0) out.other_eta = weights(seen.sites, led, eta + kEtaStep);
   std::array<std::vector<ExitSite>, 2> shifted = {seen.sites, seen.sites};
@@ -107,6 +115,7 @@ LightSensitivity sensitivity(const SeenObject& seen, const ChangedWeights& weigh
   };
   for (std::size_t i = 0; i < 3; ++i) out.per_mm[i] = change(weights.moved[i], weights.move_mm);
   out.per_exponent = change(weights.other_exponent, kExponentStep);
+  for (std::size_t t = 0; t < 2; ++t) out.per_rad[t] = change(weights.turned[t], weights.turn_rad);
   for (std::size_t t = 0; t < 2; ++t) {
     out.per_tangent_mm[t] = change(weights.shifted[t], weights.shift_mm);
   }
@@ -153,7 +162,63 @@ struct RowContext {
   const OpenedShot& shot;
   std::size_t row;
   Eigen::Matrix<double, 6, 6> pose_root;  // pose covariance = root root^T
+  const std::map<std::string, Eigen::Matrix<double, 7, 7>>& led_root;  // of calibrated LEDs
 };
+
+// The rows of an LED's covariance that one channel sees.
+constexpr Eigen::Index kSeen = 7;
+using SeenVector = Eigen::Matrix<double, kSeen, 1>;
+using SeenMatrix = Eigen::Matrix<double, kSeen, kSeen>;
+
+std::array<Eigen::Index, kSeen> seen_by(std::size_t channel) {
+  return {0, 1, 2, 3, 4, 5, calib::kLedLogIntensity + static_cast<Eigen::Index>(channel)};
+}
+
+// A square root of a covariance: covariance = root root^T. Cholesky with pivoting holds for one
+// that is singular, too.
+template <typename Matrix>
+Matrix root_of(const Matrix& covariance) {
+  const Eigen::LDLT<Matrix> ldlt(covariance);
+  Matrix root = ldlt.matrixL();
+  root = ldlt.transpositionsP().transpose() * root;
+  return (root * ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal()).eval();
+}
+
+// Of what a calibrated LED does not share with others.
+SeenMatrix own_root(const calib::LedUncertainty& u, std::size_t channel) {
+  const auto seen = seen_by(channel);
+  const calib::LedMatrix own = u.covariance - u.common * u.common.transpose();
+  return root_of<SeenMatrix>(own(seen, seen));
+}
+
+// Columns are combinations of the parameters, so that what the calibration could not tell apart
+// stays together (distance and power, say).
+void add_calibrated(const RowContext& c, const RigLight& light, std::size_t channel,
+                    double intensity, const TaskSensitivity& task, Columns& columns,
+                    Entries& entries) {
+  const auto row = static_cast<Eigen::Index>(c.row);
+  const LightSensitivity& s = *task.sensitivity;
+  SeenVector by;
+  for (std::size_t i = 0; i < 3; ++i) {
+    by[static_cast<Eigen::Index>(i)] = s.per_mm[i](row, task.medium);
+  }
+  for (std::size_t t = 0; t < 2; ++t) {
+    by[calib::kLedAxis + static_cast<Eigen::Index>(t)] = s.per_rad[t](row, task.medium);
+  }
+  by[calib::kLedExponent] = s.per_exponent(row, task.medium);
+  by[calib::kLedLogIntensity] = s.l(row, task.medium);
+  const SeenVector change = intensity * (c.led_root.at(light.name).transpose() * by);
+  const auto add = [&](const std::string& name, double value) {
+    entries.emplace_back(columns.at(name, "LED calibration", 1.0), value);
+  };
+  for (Eigen::Index k = 0; k < kSeen; ++k) {
+    add(light.name + ".calibration" + std::to_string(k), change[k]);
+  }
+  const calib::LedVector& common = light.calibrated->common;
+  if (!common.isZero(0.0)) {
+    add("white plane", intensity * SeenVector(common(seen_by(channel))).dot(by));
+  }
+}
 
 void add_light(const RowContext& c, const RigLight& light, double intensity,
                const TaskSensitivity& task, Columns& columns, Entries& entries) {
@@ -211,7 +276,11 @@ Entries row_entries(const RowContext& c, std::size_t channel,
                            task.sensitivity->l(static_cast<Eigen::Index>(c.row), task.medium));
     }
     if (light.is_ambient) continue;
-    add_light(c, light, intensity, task, columns, entries);
+    if (light.calibrated) {
+      add_calibrated(c, light, channel, intensity, task, columns, entries);
+    } else {
+      add_light(c, light, intensity, task, columns, entries);
+    }
     add_pose(c, intensity, task, columns, entries);
     if (eta_std > 0.0) {
       entries.emplace_back(
@@ -229,17 +298,18 @@ void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
                    const std::map<LightKey, TaskSensitivity>& sensitivities, DenseSystem& system) {
   Columns columns;
   std::vector<Entries> entries;
+  std::map<std::string, SeenMatrix> led_root;
+  for (const RigLight& light : rig.lights) {
+    if (light.calibrated) led_root[light.name] = own_root(*light.calibrated, channel);
+  }
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const OpenedShot* shot = shots[i];
-    // Cholesky with pivoting holds for a covariance that is singular, too.
-    const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> ldlt(shot->pose.covariance);
-    Eigen::Matrix<double, 6, 6> root = ldlt.matrixL();
-    root = ldlt.transpositionsP().transpose() * root;
-    root = (root * ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal()).eval();
+    const auto root = root_of<Eigen::Matrix<double, 6, 6>>(shot->pose.covariance);
     const ChannelObservation& o = rows[i];
     for (std::size_t j = 0; j < o.l.size(); ++j) {
       if (o.state[j] != RowState::kUsed) continue;
-      entries.push_back(row_entries({rig, *shot, j, root}, channel, sensitivities, columns));
+      entries.push_back(
+          row_entries({rig, *shot, j, root, led_root}, channel, sensitivities, columns));
     }
   }
   system.nuisances = columns.list();

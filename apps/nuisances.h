@@ -26,10 +26,11 @@ struct LitMedium {
 // Change of l (per unit of the light's power) on the rows of a view for each medium: rows x media.
 // Empty where the rig knows the quantity exactly.
 struct LightSensitivity {
-  Eigen::MatrixXd l;                              // nominal
-  std::array<Eigen::MatrixXd, 3> per_mm;          // by the LED's position, world x, y, z
-  Eigen::MatrixXd per_exponent;                   // by the lobe's exponent; of an LED only, too
-  Eigen::MatrixXd per_eta;                        // by eta, of l - observed l: both depend on it
+  Eigen::MatrixXd l;                       // nominal
+  std::array<Eigen::MatrixXd, 3> per_mm;   // by the LED's position, world x, y, z
+  Eigen::MatrixXd per_exponent;            // by the lobe's exponent; of an LED only, too
+  std::array<Eigen::MatrixXd, 2> per_rad;  // by turning the axis towards the calibration's tangents
+  Eigen::MatrixXd per_eta;                 // by eta, of l - observed l: both depend on it
   std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by moving the sites along two tangents
 };
 
@@ -41,6 +42,8 @@ struct ChangedWeights {
   std::array<WeightMatrix, 3> moved;  // the LED, by move_mm along world x, y, z
   double move_mm = 0;
   WeightMatrix other_exponent;
+  std::array<WeightMatrix, 2> turned;  // the axis, by turn_rad along the calibration's tangents
+  double turn_rad = 0;
   WeightMatrix other_eta;
   std::array<WeightMatrix, 2> shifted;  // the sites, by shift_mm along two tangents
   double shift_mm = 0;
@@ -66,8 +69,10 @@ struct TaskSensitivity {
 };
 
 // Fills the system's nuisances and their columns for the used rows of the shots (`rows`: one
-// observation a shot), in the order of stack(): place, exponent and power of every LED in use,
-// power of every environment, pose (six independent combinations of each pose's covariance), eta;
+// observation a shot), in the order of stack(): place, exponent and power of every LED in use, or,
+// where a calibration gives their covariance, seven independent combinations of them and the axis
+// ("LED calibration"), and one common to all LEDs that were calibrated with a white plane; power of
+// every environment, pose (six independent combinations of each pose's covariance), eta;
 // those with a standard deviation of 0 are left out.
 void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
                    const std::vector<ChannelObservation>& rows, std::size_t channel,

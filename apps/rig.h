@@ -15,6 +15,7 @@
 #include "apps/rig_calibration.h"
 #include "calib/camera_model.h"
 #include "calib/charuco_board.h"
+#include "calib/led_uncertainty.h"
 #include "calib/pose.h"
 #include "capture/noise_model.h"
 #include "capture/raw_frame.h"
@@ -84,6 +85,9 @@ struct RigLight {
   bool is_ambient = false;
   Eigen::Array3d ambient_std_W_per_mm2_sr = Eigen::Array3d::Zero();  // infinite: free
   double power_relative_std = 0;  // common to the three channels of one fit
+  // Of an LED from a file of `calibrate led`: in place of the three deviations above.
+  std::optional<calib::LedUncertainty> calibrated;
+  std::string calibration_path;  // "": none
   int line = 0;
 
   // Whether each colour falls on the object in its own way.

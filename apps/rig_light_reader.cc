@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "apps/led_calibration_file.h"
 #include "apps/rig_fields.h"
 #include "core/environment.h"
 
@@ -17,9 +18,20 @@ Eigen::Array3d some_light(const YamlField& field) {
   return {rgb[0], rgb[1], rgb[2]};
 }
 
-void read_led(const YamlField& field, RigLight& light) {
-  field.only({"type", "position_mm", "axis", "exponent", "radius_mm", "intensity_W_per_sr",
-              "position_std_mm", "exponent_std", "intensity_relative_std"});
+void read_led(const YamlField& field, const std::string& rig_path, RigLight& light) {
+  field.only({"type", "calibration", "position_mm", "axis", "exponent", "radius_mm",
+              "intensity_W_per_sr", "position_std_mm", "exponent_std", "intensity_relative_std"});
+  if (const auto calibration = field.find("calibration")) {
+    for (const auto& [key, value] : field.entries()) {
+      if (key == "type" || key == "calibration") continue;
+      value.fail("is given twice: here and by the calibration");
+    }
+    light.calibration_path = beside(rig_path, calibration->text());
+    const CalibratedLed calibrated = read_led_calibration_file(light.calibration_path);
+    light.led = calibrated.led;
+    light.calibrated = calibrated.uncertainty;
+    return;
+  }
   light.led.position_mm = field.at("position_mm").vector3();
   light.led.axis = unit_vector(field.at("axis"));
   if (const auto f = field.find("exponent")) light.led.exponent = f->number(0.0, 1000.0);
@@ -96,7 +108,7 @@ RigLight read_light(const std::string& name, const YamlField& field, const std::
   if (type.text() == "environment") {
     light.environment = read_environment(field, rig_path, light);
   } else if (type.text() == "led") {
-    read_led(field, light);
+    read_led(field, rig_path, light);
   } else if (type.text() == "ambient") {
     light.is_ambient = true;
     light.environment = read_ambient(field, light);

@@ -17,6 +17,17 @@ namespace {
 
 constexpr double kSmoothPatches = 60.0;  // across an object, for the light of an environment
 
+const std::array<Medium, 3>& truth_of(const Rig& rig, const RigShot& shot) {
+  const auto it = rig.truth_materials.find(shot.material);
+  if (it == rig.truth_materials.end()) {
+    throw InputError(rig.at(shot.line) + ": truth.materials." + shot.material,
+                     "is missing: simulate needs the truth of every material in shots");
+  }
+  return it->second;
+}
+
+}  // namespace
+
 CameraView true_view(const Rig& rig) {
   if (rig.truth_pose) {
     const RigTruthPose& t = *rig.truth_pose;
@@ -30,17 +41,6 @@ CameraView true_view(const Rig& rig) {
   }
   return {rig.camera.intrinsics, pose_from_points(rig).camera_from_world};
 }
-
-const std::array<Medium, 3>& truth_of(const Rig& rig, const RigShot& shot) {
-  const auto it = rig.truth_materials.find(shot.material);
-  if (it == rig.truth_materials.end()) {
-    throw InputError(rig.at(shot.line) + ": truth.materials." + shot.material,
-                     "is missing: simulate needs the truth of every material in shots");
-  }
-  return it->second;
-}
-
-}  // namespace
 
 ShotRenderer::ShotRenderer(const Rig& rig, const ObjectScenes& scenes,
                            const RenderTransport& transport)

@@ -41,6 +41,10 @@ struct RenderTransport {
   std::uint64_t seed = 1;          // Monte Carlo
 };
 
+// The camera that takes a simulated rig's shots: at truth.pose, else where the pose points put it.
+// Throws InputError where the rig has neither.
+CameraView true_view(const Rig& rig);
+
 // Renders shots one by one; patches, pixels and light of an object are shared by
 // its shots. Rig and scenes must outlive it. Not for several threads at once (it uses all of them).
 class ShotRenderer {

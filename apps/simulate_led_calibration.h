@@ -12,6 +12,6 @@ namespace scattermeter::apps {
 // Writes the shots into `out_folder` (which exists); the paths of the files. None where the rig has
 // no calibration.led. Throws InputError for bad input.
 std::vector<std::string> simulate_led_calibration(const Rig& rig, const std::string& out_folder,
-                                                   const SimulateOptions& options);
+                                                  const SimulateOptions& options);
 
 }  // namespace scattermeter::apps

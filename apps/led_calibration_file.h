@@ -1,0 +1,26 @@
+// The file that `calibrate led` writes and a rig's light names as its calibration.
+#pragma once
+
+#include <string>
+
+#include "apps/led_calibration.h"
+#include "calib/led_uncertainty.h"
+#include "core/led.h"
+
+namespace scattermeter::apps {
+
+// YAML: the LED (position_mm, axis, exponent, radius_mm, intensity_W_per_sr and the responsivity
+// they count for), axis_tangents, covariance (9 x 9, order of calib/led_uncertainty.h), its part
+// common to LEDs of the same plane, residuals of every highlight and cell. Precondition: the fit is
+// ok. std::invalid_argument otherwise.
+std::string led_calibration_yaml(const LedCalibration& calibration);
+
+struct CalibratedLed {
+  Led led;
+  calib::LedUncertainty uncertainty;
+};
+
+// Throws InputError with file, line, field and value.
+CalibratedLed read_led_calibration_file(const std::string& path);
+
+}  // namespace scattermeter::apps

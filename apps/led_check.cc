@@ -1,0 +1,131 @@
+#include "apps/led_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <fmt/core.h>
+
+#include "calib/led_fit.h"
+#include "calib/led_solver.h"
+#include "calib/led_start.h"
+#include "calib/lens.h"
+
+namespace scattermeter::apps {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+void hold_highlights(const Led& led, const LedShots& shots, LedCheck& check) {
+  const calib::Lens lens(shots.scene.intrinsics);
+  double sum = 0.0;
+  for (const calib::SeenHighlight& h : shots.scene.highlights) {
+    const Eigen::Vector2d r = calib::highlight_px(lens, shots.scene.views[h.view].camera_from_world,
+                                                  shots.scene.spheres[h.sphere], led) -
+                              h.image_px;
+    check.highlights_px.push_back(h.image_px);
+    check.highlight_residuals_px.push_back(r);
+    sum += r.squaredNorm();
+    // A highlight that should not be there at all has no distance: the worst of all.
+    check.highlight_worst_px = r.allFinite() ? std::max(check.highlight_worst_px, r.norm()) : kNone;
+  }
+  const double n = static_cast<double>(shots.scene.highlights.size());
+  check.highlight_rms_px = n > 0.0 ? std::sqrt(sum / n) : kNone;
+  if (n == 0.0) check.highlight_worst_px = kNone;
+}
+
+void hold_planes(const Led& led, const LedShots& shots, LedCheck& check) {
+  const std::vector<calib::ShadedCell>& cells = shots.scene.cells;
+  std::vector<double> ratio;
+  std::array<std::vector<double>, 3> of_channel;
+  for (const calib::ShadedCell& cell : cells) {
+    const double predicted = calib::cell_radiance(shots.scene, cell, led);
+    ratio.push_back(predicted > 0.0 ? cell.radiance_W_per_mm2_sr / predicted : kNone);
+    if (std::isfinite(ratio.back())) {
+      of_channel[static_cast<std::size_t>(cell.channel)].push_back(ratio.back());
+    }
+  }
+  check.power_change_percent.setConstant(kNone);
+  Eigen::Array3d median = Eigen::Array3d::Constant(kNone);
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::vector<double>& values = of_channel[c];
+    if (values.empty()) continue;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    median[static_cast<Eigen::Index>(c)] = *middle;
+    check.power_change_percent[static_cast<Eigen::Index>(c)] = 100.0 * (*middle - 1.0);
+  }
+  double sum = 0.0, n = 0.0;
+  for (const LedPlaneGrid& grid : shots.grids) {
+    LedPlaneMap map{grid.file, grid.columns, grid.rows, {}};
+    const auto size = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
+    std::vector<double> total(size, 0.0), count(size, 0.0);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const calib::ShadedCell& cell = cells[i];
+      if (cell.view != grid.view || cell.plane != grid.plane || !std::isfinite(ratio[i])) continue;
+      const double percent = 100.0 * (ratio[i] / median[cell.channel] - 1.0);
+      const auto at = static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(grid.columns) +
+                      static_cast<std::size_t>(cell.column);
+      total[at] += percent;
+      count[at] += 1.0;
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      map.percent.push_back(count[i] > 0.0 ? total[i] / count[i] : kNone);
+      if (!(count[i] > 0.0)) continue;
+      sum += map.percent.back() * map.percent.back();
+      n += 1.0;
+      check.plane_worst_percent = std::max(check.plane_worst_percent, std::abs(map.percent.back()));
+    }
+    check.maps.push_back(std::move(map));
+  }
+  check.plane_rms_percent = n > 0.0 ? std::sqrt(sum / n) : kNone;
+  if (n == 0.0) check.plane_worst_percent = kNone;
+}
+
+// Of the place in the rig.
+Eigen::Matrix3d told_covariance(const RigLight& light) {
+  if (light.calibrated) return light.calibrated->covariance.topLeftCorner<3, 3>();
+  return light.position_std_mm * light.position_std_mm * Eigen::Matrix3d::Identity();
+}
+
+}  // namespace
+
+LedCheck check_led(const Rig& rig, const std::string& light, const LedFrames& frames) {
+  LedCheck check;
+  check.light = light;
+  const LedShots shots = read_led_shots(rig, light, frames);
+  check.notes = shots.notes;
+  check.highlight_names = shots.highlight_names;
+  const RigLight& told = rig.light(light);
+  hold_highlights(told.led, shots, check);
+  hold_planes(told.led, shots, check);
+  const calib::LedFit fit = calib::fit_led(shots.scene, told.led);
+  if (fit.status != calib::LedStatus::kOk) {
+    check.problem = fit.message;
+    check.displacement_mm.setConstant(kNone);
+    check.displacement_covariance_mm2.setConstant(kNone);
+    check.displacement_length_mm = check.displacement_std_mm = check.displacement_stds = kNone;
+    check.exponent_change = check.axis_change_rad = kNone;
+    check.text = light + ": the shots do not tell where it stands: " + fit.message;
+    return check;
+  }
+  check.displacement_mm = fit.led.position_mm - told.led.position_mm;
+  check.displacement_covariance_mm2 =
+      fit.uncertainty.covariance.topLeftCorner<3, 3>() + told_covariance(told);
+  check.displacement_length_mm = check.displacement_mm.norm();
+  const Eigen::Vector3d along = check.displacement_length_mm > 0.0
+                                    ? check.displacement_mm.normalized().eval()
+                                    : Eigen::Vector3d::UnitZ().eval();
+  check.displacement_std_mm = std::sqrt(along.dot(check.displacement_covariance_mm2 * along));
+  check.displacement_stds = std::sqrt(check.displacement_mm.dot(
+      check.displacement_covariance_mm2.ldlt().solve(check.displacement_mm)));
+  check.exponent_change = fit.led.exponent - told.led.exponent;
+  check.axis_change_rad =
+      std::atan2(fit.led.axis.cross(told.led.axis).norm(), fit.led.axis.dot(told.led.axis));
+  check.text = fmt::format("{} stands {:.2f} +- {:.2f} mm from where the rig says", light,
+                           check.displacement_length_mm, check.displacement_std_mm);
+  return check;
+}
+
+}  // namespace scattermeter::apps

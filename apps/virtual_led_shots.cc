@@ -1,0 +1,113 @@
+#include "apps/virtual_led_shots.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "apps/led_picture.h"
+#include "apps/led_shots.h"
+#include "apps/shot_renderer.h"
+#include "capture/decoded_frame.h"
+#include "capture/tone_curve.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+constexpr double kLedExposedTo = 0.75;  // of the range, for a chosen exposure
+
+bool is_led_of(const Rig& rig, const std::string& name) {
+  return std::any_of(rig.lights.begin(), rig.lights.end(), [&](const RigLight& l) {
+    return l.name == name && !l.environment.has_value();
+  });
+}
+
+}  // namespace
+
+VirtualLedShots::VirtualLedShots(const Rig& rig, bool noise) : rig_(rig), noise_(noise) {
+  const CameraView view = true_view(rig);
+  std::array<double, 3> responsivity{};
+  responsivity.fill(kNominalResponsivity);
+  responsivity = rig.camera.responsivity.value_or(responsivity);
+  const RigSensor& s = rig.camera.sensor;
+  const double top = s.nef_lossy_curve
+                         ? std::min<double>(s.white_counts, capture::nef_lossy_curve().back())
+                         : s.white_counts;
+  const double range =
+      kLedExposedTo * (top - *std::max_element(s.black_counts.begin(), s.black_counts.end()));
+  const int width = view.intrinsics.width_px;
+  for (const RigLedShot& shot : rig.calibration.led->shots) {
+    if (!is_led_of(rig, shot.light)) {
+      throw InputError(rig.at(shot.line) + ": calibration.led.shots." + shot.file + ".light",
+                       "no such LED in lights, got " + shot.light);
+    }
+    std::vector<float> picture = led_picture(rig, shot, view);
+    float brightest = 0.0F;
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const int x = static_cast<int>(i % static_cast<std::size_t>(width));
+      const int y = static_cast<int>(i / static_cast<std::size_t>(width));
+      picture[i] *= static_cast<float>(responsivity[static_cast<std::size_t>(s.cfa.at(x, y))]);
+      brightest = std::max(brightest, picture[i]);
+    }
+    double exposure = 1.0;
+    if (shot.exposure_s) {
+      exposure = *shot.exposure_s;
+    } else if (brightest > 0.0F) {
+      // Two digits, rounded down.
+      const double exact_s = range / brightest;
+      const double unit = std::pow(10.0, std::floor(std::log10(exact_s)) - 1.0);
+      exposure = std::floor(exact_s / unit) * unit;
+    }
+    for (float& p : picture) p *= static_cast<float>(exposure);
+    exposure_s_.push_back(exposure);
+    counts_.push_back(std::move(picture));
+  }
+}
+
+capture::SensorModel VirtualLedShots::sensor() const {
+  const RigSensor& from = rig_.camera.sensor;
+  capture::SensorModel sensor;
+  sensor.noise = from.noise;
+  sensor.black_counts = from.black_counts;
+  sensor.white_counts = from.white_counts;
+  if (from.nef_lossy_curve) sensor.tone_curve = capture::nef_lossy_curve();
+  sensor.noise_on = noise_;
+  return sensor;
+}
+
+capture::DngMetadata VirtualLedShots::metadata(std::size_t shot) const {
+  const RigCamera& camera = rig_.camera;
+  capture::DngMetadata metadata;
+  if (!camera.model.empty()) {
+    metadata.model = camera.model;
+    metadata.make = camera.model.substr(0, camera.model.find(' '));
+  }
+  metadata.cfa = camera.sensor.cfa;
+  metadata.black_counts = camera.sensor.black_counts;
+  metadata.white_counts = camera.sensor.white_counts;
+  metadata.exposure_s = exposure_s(shot);
+  metadata.iso = camera.iso;
+  metadata.f_number = camera.f_number;
+  metadata.linearization_table = sensor().tone_curve;
+  return metadata;
+}
+
+std::vector<std::uint16_t> VirtualLedShots::codes(std::size_t shot, std::uint64_t seed) const {
+  // Streams apart from those of the rig's other shots.
+  constexpr std::uint64_t kFirst = 500'000;
+  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
+  return capture::expose(counts_.at(shot), k.width_px, k.height_px, sensor(),
+                         seed * 1'000'003ULL + kFirst + shot);
+}
+
+capture::RawFrame VirtualLedShots::frame(std::size_t shot, std::uint64_t seed) const {
+  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
+  return capture::decoded_frame(k.width_px, k.height_px, codes(shot, seed), metadata(shot));
+}
+
+void VirtualLedShots::write(std::size_t shot, std::uint64_t seed, const std::string& path) const {
+  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
+  capture::write_dng(path, k.width_px, k.height_px, codes(shot, seed), metadata(shot));
+}
+
+}  // namespace scattermeter::apps

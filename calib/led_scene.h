@@ -1,0 +1,51 @@
+// What calibration shots show of one LED.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "calib/camera_model.h"
+#include "calib/mirror_sphere.h"
+#include "calib/white_plane.h"
+#include "core/rigid3d.h"
+
+namespace scattermeter::calib {
+
+// The camera in a shot. Covariance as in PoseResult: (w in rad, dt in mm), camera axes.
+struct LedView {
+  Rigid3d camera_from_world;
+  Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+// The LED's image in a mirror sphere.
+struct SeenHighlight {
+  std::size_t view = 0;    // of LedScene::views
+  std::size_t sphere = 0;  // of LedScene::spheres
+  Eigen::Vector2d image_px = Eigen::Vector2d::Zero();
+  double std_px = 0;  // of each coordinate, > 0
+};
+
+// The mean of one channel's samples in a cell of a white plane.
+struct ShadedCell {
+  std::size_t view = 0;
+  std::size_t plane = 0;
+  int column = 0, row = 0;                               // of the plane's grid of cells
+  int channel = 0;                                       // 0 R, 1 G, 2 B
+  Eigen::Vector2d place_mm = Eigen::Vector2d::Zero();    // mean of the samples, on the plane
+  Eigen::Matrix2d spread_mm2 = Eigen::Matrix2d::Zero();  // covariance of their places
+  double radiance_W_per_mm2_sr = 0;
+  double std_W_per_mm2_sr = 0;  // of the mean, by the noise of the samples; > 0
+};
+
+struct LedScene {
+  CameraIntrinsics intrinsics;
+  std::vector<LedView> views;
+  std::vector<MirrorSphere> spheres;
+  std::vector<WhitePlane> planes;
+  std::vector<SeenHighlight> highlights;
+  std::vector<ShadedCell> cells;
+};
+
+}  // namespace scattermeter::calib
