@@ -2,28 +2,44 @@
 #include <ostream>
 
 #include "apps/check.h"
+#include "apps/check_page.h"
 #include "apps/commands.h"
+#include "apps/result_json.h"
 
 namespace scattermeter::apps {
 
 void add_check_command(CLI::App& app, CommandContext& context) {
   struct Options {
-    std::string shots, rig;
+    std::string shots, rig, out;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "check",
-      "Check the rig against its shots: pose, exposure, noise, camera settings.\n"
-      "Prints every residual with its limit and what to do where it fails.\n"
+      "Check whether the rig holds, against its shots: camera settings, pose, exposure, noise, "
+      "black level, lights and materials exchanged, each shot's light against the joint model, "
+      "light from elsewhere, the LEDs' places.\n"
+      "Prints one line for each: residual (rms and worst, where), limit, verdict, and what to do "
+      "where it fails. With --out: check.json with every single value, and check.html.\n"
       "Exit status: 0 all passed, 1 at least one failed, 2 bad input.");
   command->add_option("SHOTS", options->shots, "folder of the raw files")->required();
   command->add_option("--rig", options->rig, "rig file (YAML)")->required();
+  command->add_option("--out", options->out, "folder for check.json and check.html");
   command->callback([options, &context] {
     context.chosen = [options, &context] {
       CheckOptions check_options;
       check_options.quiet = context.quiet;
-      const CheckReport report = check_rig(read_rig(options->rig), options->shots, check_options);
+      check_options.pictures = !options->out.empty();
+      const Rig rig = read_rig(options->rig);
+      const CheckedRig checked = open_checked_rig(rig, options->shots, check_options);
+      const CheckReport report = check_report(checked);
       if (!context.quiet) context.out << check_table(report);
+      if (!options->out.empty()) {
+        const std::string json = options->out + "/check.json";
+        const std::string page = options->out + "/check.html";
+        write_text_file(json, check_json(report, context.command_line));
+        write_text_file(page, check_page(checked, report, context.command_line));
+        if (!context.quiet) context.out << "written: " << json << ", " << page << "\n";
+      }
       return report.passed() ? 0 : 1;
     };
   });

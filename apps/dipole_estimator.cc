@@ -233,6 +233,9 @@ class DipoleEstimator {
     report_rows(task, work_[i].rows, result);
     result.estimate = fit.estimate;
     if (!fit.estimate.converged) return;
+    if (e_.options.keep_rows) {
+      result.rows = shot_rows(task, work_[i].rows, fit.predicted, system.std_l);
+    }
     SmoothReflectanceOptions smooth;
     smooth.scale = options.scale;
     result.recovered = smooth_reflectance(fit.recovered, system.nuisances, knots_, smooth);

@@ -153,6 +153,30 @@ void report_rows(const Task& task, const TaskRows& rows, ChannelResult& result) 
   }
 }
 
+std::vector<ShotRows> shot_rows(const Task& task, const TaskRows& rows,
+                                const Eigen::VectorXd& predicted, const Eigen::VectorXd& std) {
+  std::vector<ShotRows> out;
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ChannelObservation& o = rows[i];
+    const OpenedShot& shot = *task.shots[i];
+    ShotRows& r = out.emplace_back();
+    r.file = shot.rig->file;
+    r.map = {shot.seen, &shot.seen->map};
+    r.observed.assign(o.l.begin(), o.l.end());
+    r.state = o.state;
+    r.predicted.assign(o.l.size(), std::numeric_limits<float>::quiet_NaN());
+    r.std = r.predicted;
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (o.state[j] != RowState::kUsed) continue;
+      r.predicted[j] = static_cast<float>(predicted[at]);
+      r.std[j] = static_cast<float>(std[at]);
+      ++at;
+    }
+  }
+  return out;
+}
+
 PairSumOptions pair_options(const DistanceKnots& knots) {
   PairSumOptions options;
   // The shortest mean free path that is answered for is five resolutions (fit_dipole); a fifth of

@@ -58,6 +58,11 @@ DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,
 // Counts of rows by what kept them out.
 void report_rows(const Task& task, const TaskRows& rows, ChannelResult& result);
 
+// The shots' rows with what the model makes of those in use. predicted, std: of the used rows of
+// `rows`, shot by shot.
+std::vector<ShotRows> shot_rows(const Task& task, const TaskRows& rows,
+                                const Eigen::VectorXd& predicted, const Eigen::VectorXd& std);
+
 // Near-field options for these knots.
 PairSumOptions pair_options(const DistanceKnots& knots);
 

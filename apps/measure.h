@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "core/dipole_misfit.h"
 #include "core/estimate.h"
 #include "core/observation.h"
+#include "core/sample_map.h"
 #include "core/shot_agreement.h"
 #include "core/smooth_reflectance.h"
 
@@ -27,7 +29,19 @@ struct MeasureOptions {
   // before the time does, the digits are the same on any machine.
   std::int64_t paths = 1'000'000'000;
   double time_limit_s = 50;  // of transport: per material and channel
+  bool keep_rows = false;    // fill ChannelResult::rows
   bool quiet = false;
+};
+
+// What a shot shows and what the model makes of it, by row of its map (a patch), W/mm^2 or up to
+// one factor as ChannelObservation. NaN in predicted and std where the row took no part.
+struct ShotRows {
+  std::string file;
+  std::shared_ptr<const SampleMap> map;
+  std::vector<float> observed;
+  std::vector<float> predicted;
+  std::vector<float> std;  // of observed
+  std::vector<RowState> state;
 };
 
 // A shot measured alone.
@@ -50,12 +64,14 @@ struct ChannelResult {
   // Dipole and transport.
   std::vector<ShotResult> singles;  // each shot alone; empty for a single shot
   ShotAgreement agreement;          // whether they tell the same
-  // Of the dipole only.
-  std::optional<SmoothReflectance> recovered;  // r(d) without the dipole
-  std::optional<DipoleMisfit> misfit;          // whether the dipole fits it
+  // r(d) without the dipole, and whether the dipole fits it. Of transport's answer, too, where it
+  // says why the dipole would not do.
+  std::optional<SmoothReflectance> recovered;
+  std::optional<DipoleMisfit> misfit;
   // Of transport only: what the dipole answers, and why --model auto did not leave it at that.
   std::optional<Estimate> dipole;
   std::string why_transport;
+  std::vector<ShotRows> rows;  // by shot, where asked for and the model came to an end
   bool refused() const { return !estimate.reasons.empty(); }
 };
 

@@ -4,6 +4,7 @@
 #include "apps/commands.h"
 #include "apps/measure.h"
 #include "apps/result_json.h"
+#include "apps/result_page.h"
 #include "apps/result_table.h"
 
 namespace scattermeter::apps {
@@ -20,13 +21,16 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
       "measure",
       "Measure the materials in a folder of raw shots.\n"
       "Prints one line per material and colour channel: sigma_s' (reduced scattering) and sigma_a "
-      "(absorption) in 1/mm with standard deviations, and a verdict; writes OUT/result.json.\n"
+      "(absorption) in 1/mm with standard deviations, and a verdict; writes OUT/result.json and, "
+      "to look at, "
+      "OUT/result.html.\n"
       "Exit status: 0 all measured, 1 at least one value refused, 2 bad input.");
   command->add_option("SHOTS", options->shots, "folder of the raw files")->required();
   command
       ->add_option("--rig", options->rig, "rig file: camera, pose, objects, lights, shots (YAML)")
       ->required();
-  command->add_option("--out", options->out, "folder for result.json")->capture_default_str();
+  command->add_option("--out", options->out, "folder for result.json and result.html")
+      ->capture_default_str();
   command
       ->add_option(
           "--model", options->model,
@@ -62,13 +66,16 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
       measure_options.time_limit_s = options->time_limit_s;
       measure_options.paths = options->paths;
       measure_options.quiet = context.quiet;
+      measure_options.keep_rows = true;
       if (options->patch_mm > 0.0) measure_options.patch_size_mm = options->patch_mm;
       const Measurement measurement = measure(rig, options->shots, measure_options);
       const std::string path = options->out + "/result.json";
+      const std::string page = options->out + "/result.html";
       write_text_file(path, result_json(measurement, context.command_line));
+      write_text_file(page, result_page(measurement, context.command_line));
       for (const std::string& note : measurement.notes) context.err << "note: " << note << "\n";
       if (!context.quiet) {
-        context.out << result_table(measurement) << "written: " << path << "\n";
+        context.out << result_table(measurement) << "written: " << path << ", " << page << "\n";
       }
       return measurement.any_refused() ? 1 : 0;
     };

@@ -144,7 +144,7 @@ class Columns {
   // The column of a nuisance, by a name that only this nuisance has.
   Eigen::Index at(const std::string& name, const std::string& group, double std) {
     const auto [it, is_new] = place_.try_emplace(name, static_cast<Eigen::Index>(list_.size()));
-    if (is_new) list_.push_back({group, std, true});
+    if (is_new) list_.push_back({group, std, true, name});
     return it->second;
   }
   const std::vector<Nuisance>& list() const { return list_; }

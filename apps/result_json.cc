@@ -123,7 +123,7 @@ Json channel_json(const ChannelResult& r) {
         far ? number(far->sigma_s_prime_relative) : Json(nullptr);
     dipole["sigma_a_off_per_mm"] = far ? number(far->sigma_a_per_mm) : Json(nullptr);
   }
-  if (r.recovered) j["reflectance"] = reflectance_json(r);
+  if (r.recovered && r.model == Model::kDipole) j["reflectance"] = reflectance_json(r);
   return j;
 }
 

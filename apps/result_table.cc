@@ -10,16 +10,34 @@
 #include "apps/text_table.h"
 
 namespace scattermeter::apps {
-namespace {
 
-// "2.193 ± 0.012": as many decimals as two digits of the deviation need.
-std::string with_deviation(const Quantity& q, bool known) {
-  if (!known) return "-";
+std::string value_with_deviation(const Quantity& q) {
   int decimals = 4;
   if (q.std > 0.0 && std::isfinite(q.std)) {
     decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(q.std))), 0, 8);
   }
   return fmt::format("{:.{}f} ± {:.{}f}", q.value, decimals, q.std, decimals);
+}
+
+std::string patches_text(const std::array<std::size_t, kRowStates>& by_state, std::size_t partly) {
+  std::string out = fmt::format("{} in use, {} at silhouettes or creases left out",
+                                by_state[static_cast<std::size_t>(RowState::kUsed)], partly);
+  for (const auto& [state, text] :
+       {std::pair{RowState::kNoSamples, "without a sample of the colour"},
+        std::pair{RowState::kClipped, "clipped"}, std::pair{RowState::kFloor, "cut at zero"},
+        std::pair{RowState::kMirror, "mirror a light"},
+        std::pair{RowState::kNoise, "deep in noise"}, std::pair{RowState::kOutlier, "outliers"},
+        std::pair{RowState::kEdge, "at edges"}}) {
+    const std::size_t n = by_state[static_cast<std::size_t>(state)];
+    if (n > 0) out += fmt::format(", {} {}", n, text);
+  }
+  return out;
+}
+
+namespace {
+
+std::string with_deviation(const Quantity& q, bool known) {
+  return known ? value_with_deviation(q) : "-";
 }
 
 // "3 clipped, 12 mirror a light": what kept patches out, summed over shots and channels.
@@ -30,18 +48,7 @@ std::string left_out(const Measurement& m) {
     for (std::size_t s = 0; s < kRowStates; ++s) sum[s] += r.patches_by_state[s];
     partly += r.patches_partly_seen;
   }
-  std::string out = fmt::format("patches: {} in use, {} at silhouettes or creases left out",
-                                sum[static_cast<std::size_t>(RowState::kUsed)], partly);
-  for (const auto& [state, text] :
-       {std::pair{RowState::kNoSamples, "without a sample of the colour"},
-        std::pair{RowState::kClipped, "clipped"}, std::pair{RowState::kFloor, "cut at zero"},
-        std::pair{RowState::kMirror, "mirror a light"},
-        std::pair{RowState::kNoise, "deep in noise"}, std::pair{RowState::kOutlier, "outliers"},
-        std::pair{RowState::kEdge, "at edges"}}) {
-    const std::size_t n = sum[static_cast<std::size_t>(state)];
-    if (n > 0) out += fmt::format(", {} {}", n, text);
-  }
-  return out + " (all shots and channels)\n";
+  return "patches: " + patches_text(sum, partly) + " (all shots and channels)\n";
 }
 
 // Materials whose shots do not tell the same.

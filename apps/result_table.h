@@ -1,6 +1,7 @@
 // The measurement as a table for people.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "apps/measure.h"
@@ -10,5 +11,11 @@ namespace scattermeter::apps {
 // One line per material and channel with value ± standard deviation in 1/mm, verdict, and the
 // reasons of refused ones below.
 std::string result_table(const Measurement& measurement);
+
+// "2.193 ± 0.012": as many decimals as two digits of the deviation need.
+std::string value_with_deviation(const Quantity& q);
+
+// "2310 in use, 120 at silhouettes or creases left out, 3 clipped": ChannelResult's counts.
+std::string patches_text(const std::array<std::size_t, kRowStates>& by_state, std::size_t partly);
 
 }  // namespace scattermeter::apps

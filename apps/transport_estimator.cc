@@ -235,6 +235,9 @@ class TransportFit {
     e.psnr_db = whole.psnr_db;
     e.rows = static_cast<std::size_t>(system_.l.size());
     report_rows(task_, rows_, result);
+    if (options_.keep_rows) {
+      result.rows = shot_rows(task_, rows_, system_.l - rest, variance.cwiseSqrt());
+    }
     judge(r, e);
     const std::vector<std::size_t> shots = r.shots();
     const std::vector<ScatteringEquation::Step> steps = r.steps_of_shots();
@@ -280,8 +283,7 @@ void estimate_transport(Estimation& e) {
     ChannelResult& result = e.results[i];
     result.model = Model::kTransport;
     result.dipole = result.estimate;
-    result.recovered.reset();
-    result.misfit.reset();
+    result.rows.clear();
     TransportFit(e.rig, probes, e.tasks[i], std::move(*systems[i]), scale_prior(e.rig), e.options)
         .run(result);
     progress.step();

@@ -30,6 +30,7 @@ struct Nuisance {
   // widens the uncertainty (errors of the method itself, whose shape is not known well enough to be
   // fitted).
   bool fitted = true;
+  std::string name = {};  // of this one alone ("led1.position0"); may be empty
 };
 
 // The rows that are used, as a dense system: weights (W), l (W/mm^2) and standard deviation of l.

@@ -1,0 +1,53 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "apps/check_stations.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// Standard deviations of a block's mean that its darkest tenth may be off by chance and selection.
+constexpr double kSelection = 3.0;
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+std::vector<CheckItem> check_black(const CheckedRig& checked) {
+  std::vector<CheckDetail> background, drift;
+  const double read_noise = std::max(0.5, checked.rig.camera.sensor.noise.read_noise_counts);
+  for (std::size_t c = 0; c < kRgb; ++c) {
+    std::vector<double> levels;  // of black itself, as the darkest background shows it
+    for (const CheckedFrame& frame : checked.frames) {
+      if (frame.background.blocks > 0) {
+        levels.push_back(frame.background.darkest_counts[c] + frame.black_counts[0]);
+      }
+    }
+    if (levels.empty()) continue;
+    const double usual = median(levels);
+    for (std::size_t i = 0; i < checked.shots.size(); ++i) {
+      const capture::BackgroundLevel& b = checked.frames[i].background;
+      if (b.blocks == 0) continue;
+      const double brightest = checked.shots[i].observation.channel[c].brightest_counts;
+      const double error = kSelection * b.block_std_counts[c];
+      const double beyond = std::max(0.0, std::abs(b.darkest_counts[c]) - error);
+      background.push_back(checked.of_channel(
+          i, c, std::copysign(100.0 * beyond / std::max(brightest, 1.0), b.darkest_counts[c])));
+      const double moved = b.darkest_counts[c] + checked.frames[i].black_counts[0] - usual;
+      const double surely = std::max(0.0, std::abs(moved) - error);
+      drift.push_back(checked.of_channel(i, c, std::copysign(surely, moved)));
+    }
+  }
+  return {
+      judged("background", "% of brightest", {checked.options.max_background_percent},
+             "look for a light left on, light on the lens, or a wrong black level", background),
+      judged("black drift", "counts", {checked.options.max_black_drift_read_noises * read_noise},
+             "let the camera warm up, or look for a light that was on in some shots", drift)};
+}
+
+}  // namespace scattermeter::apps

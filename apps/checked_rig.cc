@@ -1,0 +1,102 @@
+#include "apps/checked_rig.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+#include <fmt/core.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "apps/progress.h"
+#include "apps/shot_folder.h"
+#include "apps/shot_picture.h"
+#include "apps/shot_pose.h"
+#include "apps/shot_source.h"
+#include "capture/linear_samples.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// An LED's place is fitted within at least this, mm.
+constexpr double kLedPlaceStd_mm = 2.0;
+constexpr int kPictureWidth_px = 420;
+
+std::shared_ptr<CheckedGeometry> geometry_of(const Rig& rig) {
+  auto out = std::make_shared<CheckedGeometry>();
+  out->rig = rig;
+  for (RigLight& light : out->rig.lights) {
+    if (light.environment) continue;
+    light.position_std_mm = std::max(light.position_std_mm, kLedPlaceStd_mm);
+  }
+  out->scenes = open_objects(out->rig);
+  return out;
+}
+
+CheckedFrame checked_frame(const capture::RawFrame& frame, const Rig& rig, const OpenedShot& shot,
+                           const CheckOptions& options) {
+  CheckedFrame out;
+  out.black_counts = frame.black_counts;
+  const SampleMap& map = shot.seen->map;
+  // A board fills the frame with light.
+  if (!rig.pose.charuco) {
+    out.background = capture::background_level(frame, map.x0, map.y0, map.width, map.height);
+  }
+  if (!options.pictures) return out;
+  out.noise =
+      capture::noise_curve(capture::linear_samples(frame, rig.camera.sensor.noise, frame.exposure_s,
+                                                   map.x0, map.y0, map.width, map.height),
+                           map);
+  out.picture = shot_picture(frame, map, kPictureWidth_px);
+  return out;
+}
+
+}  // namespace
+
+CheckDetail CheckedRig::of_shot(std::size_t shot_idx, double value) const {
+  CheckDetail out;
+  out.where = rig.shots.at(shot_idx).file;
+  out.value = value;
+  out.shot_idx = shot_idx;
+  return out;
+}
+
+CheckDetail CheckedRig::of_channel(std::size_t shot_idx, std::size_t channel, double value) const {
+  CheckDetail out = of_shot(shot_idx, value);
+  out.where += fmt::format(" {}", kRgbName.at(channel));
+  return out;
+}
+
+CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
+                            const CheckOptions& options) {
+  CheckedRig out{rig, options, {}, {}, {}, {}, {}, {}};
+  const ShotFolder folder = match_shots(rig, shots_folder);
+  for (const std::string& name : folder.unlisted) {
+    out.notes.push_back(name + ": not in the rig's list of shots, skipped");
+  }
+  const auto geometry = geometry_of(rig);
+  out.geometry = geometry;
+  const Rig& loose = geometry->rig;
+  if (!rig.pose.charuco) out.shared_pose = pose_from_points(loose);
+  geometry->library = std::make_unique<ObjectLibrary>(loose, geometry->scenes, std::nullopt, 0.0);
+  std::optional<SharedView> view;
+  if (out.shared_pose) {
+    view = see_all(loose, geometry->scenes, *geometry->library, *out.shared_pose);
+  }
+  const ShotSource source = shots_in_files(loose, folder.paths);
+  out.shots = open_shots(loose, source, geometry->scenes, *geometry->library, view, options.quiet);
+  out.frames.resize(out.shots.size());
+  Progress progress("looking at shots", static_cast<int>(out.shots.size()), options.quiet);
+  tbb::parallel_for(std::size_t{0}, out.shots.size(), [&](std::size_t i) {
+    const capture::RawFrame frame = std::get<FrameSource>(source.open)(source.shot_idxs[i]);
+    out.frames[i] = checked_frame(frame, loose, out.shots[i], options);
+    progress.step();
+  });
+  out.fit = fit_for_check(loose, source, out.shots, *geometry->library, view, options.quiet);
+  if (!rig.camera.responsivity) {
+    out.notes.emplace_back(
+        "no responsivity in the rig: the scale is free, sigma_a will be uncertain");
+  }
+  return out;
+}
+
+}  // namespace scattermeter::apps

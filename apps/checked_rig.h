@@ -1,0 +1,76 @@
+// What the stations of `check` look at.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/check_fit.h"
+#include "apps/check_item.h"
+#include "apps/measure.h"
+#include "apps/picture.h"
+#include "apps/rig.h"
+#include "apps/shot_system.h"
+#include "calib/pose.h"
+#include "capture/background_level.h"
+#include "capture/noise_curve.h"
+
+namespace scattermeter::apps {
+
+struct CheckOptions {
+  double max_pose_rms_px = 1.0;
+  double max_pose_outlier_percent = 25.0;
+  double max_clipped_percent = 1.0;     // of the samples on the object
+  double min_brightest_snr = 30.0;      // of a patch
+  double max_noise_ratio = 1.3;         // scatter of samples over the noise model's variance
+  double max_background_percent = 1.0;  // of the brightest patch
+  double max_black_drift_read_noises = 0.5;
+  double max_power_percent = 5.0;             // of a shot's light, from the joint model's
+  double max_drift_percent = 5.0;             // of an LED, from its first shot to its last
+  double max_even_percent = 2.0;              // even light, of the shot's mean
+  double max_residual_percent = 10.0;         // of the image, from the joint model
+  double max_material_spread_percent = 10.0;  // of sigma_s' of a material's shots, see identity
+  double max_led_place_mm = 0.5;              // beside three times what the rig owns up to
+  double least_stds = 5.0;  // deviations from which on a departure from the model counts
+  bool pictures = false;    // shots in small, for the page
+  bool quiet = false;
+};
+
+// What a shot's file says besides its samples on the object.
+struct CheckedFrame {
+  std::array<double, 4> black_counts{};
+  capture::BackgroundLevel background;  // of shots without a board
+  std::array<std::vector<capture::NoisePoint>, kRgb> noise;
+  std::optional<Picture> picture;  // marked: see shot_picture.h
+};
+
+// What the opened shots refer to.
+struct CheckedGeometry {
+  // The rig with LEDs whose places are known less well, so that the shots say where they are.
+  Rig rig;
+  ObjectScenes scenes;
+  std::unique_ptr<ObjectLibrary> library;
+};
+
+struct CheckedRig {
+  const Rig& rig;
+  CheckOptions options;
+  std::optional<calib::PoseResult> shared_pose;  // from the rig's points
+  std::vector<OpenedShot> shots;                 // in the rig's order
+  std::vector<CheckedFrame> frames;              // of the same
+  CheckFit fit;
+  std::vector<std::string> notes;
+  std::shared_ptr<const CheckedGeometry> geometry;
+
+  CheckDetail of_shot(std::size_t shot_idx, double value) const;
+  CheckDetail of_channel(std::size_t shot_idx, std::size_t channel, double value) const;
+};
+
+// Opens all shots and fits the joint model (the dipole) to them. What is kept refers to `rig`,
+// which must outlive it. Throws InputError for what measure would refuse to read.
+CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
+                            const CheckOptions& options);
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,80 @@
+#include "apps/picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace scattermeter::apps {
+
+Picture::Picture(int width, int height, PictureColour colour)
+    : width_px(width),
+      height_px(height),
+      rgb(3U * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = colour[i % 3];
+}
+
+void Picture::set(int x, int y, PictureColour colour) {
+  std::copy(colour.begin(), colour.end(), rgb.begin() + 3L * (static_cast<long>(y) * width_px + x));
+}
+
+PictureColour Picture::at(int x, int y) const {
+  const auto i = 3U * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+                       static_cast<std::size_t>(x));
+  return {rgb[i], rgb[i + 1], rgb[i + 2]};
+}
+
+Picture side_by_side(const std::vector<Picture>& pictures, int gap_px) {
+  int width = -gap_px;
+  int height = 0;
+  for (const Picture& p : pictures) {
+    width += p.width_px + gap_px;
+    height = std::max(height, p.height_px);
+  }
+  Picture out(std::max(width, 0), height, {255, 255, 255});
+  int x0 = 0;
+  for (const Picture& p : pictures) {
+    for (int y = 0; y < p.height_px; ++y) {
+      for (int x = 0; x < p.width_px; ++x) out.set(x0 + x, y, p.at(x, y));
+    }
+    x0 += p.width_px + gap_px;
+  }
+  return out;
+}
+
+std::string png_bytes(const Picture& picture) {
+  if (picture.rgb.empty()) throw std::invalid_argument("png_bytes: an empty picture");
+  cv::Mat bgr(picture.height_px, picture.width_px, CV_8UC3);
+  for (int y = 0; y < picture.height_px; ++y) {
+    for (int x = 0; x < picture.width_px; ++x) {
+      const PictureColour c = picture.at(x, y);
+      bgr.at<cv::Vec3b>(y, x) = {c[2], c[1], c[0]};
+    }
+  }
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) {
+    throw std::runtime_error("png_bytes: the picture cannot be encoded");
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
+PictureColour grey_colour(double value) {
+  const auto g =
+      static_cast<std::uint8_t>(std::lround(255.0 * std::sqrt(std::clamp(value, 0.0, 1.0))));
+  return {g, g, g};
+}
+
+PictureColour difference_colour(double value) {
+  constexpr std::array<double, 3> kBlue = {33, 102, 172};
+  constexpr std::array<double, 3> kRed = {178, 24, 43};
+  const double part = std::min(std::abs(value), 1.0);
+  const auto& end = value < 0.0 ? kBlue : kRed;
+  PictureColour out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    out[i] = static_cast<std::uint8_t>(std::lround(255.0 + part * (end[i] - 255.0)));
+  }
+  return out;
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,234 @@
+#include "apps/result_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/core.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "apps/html_page.h"
+#include "apps/page_plots.h"
+#include "apps/residual_maps.h"
+#include "apps/result_plots.h"
+#include "apps/result_table.h"
+#include "apps/version.h"
+
+namespace scattermeter::apps {
+namespace {
+
+constexpr int kMapWidth_px = 150;
+
+std::string interval(const Quantity& q, bool known) {
+  if (!known) return "–";
+  // As many digits as tell the ends apart.
+  const double width = q.high95 - q.low95;
+  const int decimals = width > 0.0 && std::isfinite(width)
+                           ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 8)
+                           : 4;
+  return fmt::format("{:.{}f} … {:.{}f}", q.low95, decimals, q.high95, decimals);
+}
+
+HtmlTable::Cell verdict(const Estimate& e) {
+  return e.reasons.empty() ? text_cell("ok", "pass") : text_cell("refused", "fail");
+}
+
+Html overview(const Measurement& m) {
+  HtmlTable table;
+  table.header = {"material", "channel", "sigma_s' [1/mm]", "95 %",  "sigma_a [1/mm]", "95 %",
+                  "residual", "chi2/n",  "model",           "shots", "agree",          "verdict"};
+  for (const ChannelResult& r : m.results) {
+    const Estimate& e = r.estimate;
+    const bool known = e.converged;
+    table.rows.push_back(
+        {text_cell(r.material), text_cell(std::string(1, r.channel)),
+         number_cell(known ? value_with_deviation(e.sigma_s_prime_per_mm) : "–"),
+         number_cell(interval(e.sigma_s_prime_per_mm, known)),
+         number_cell(known ? value_with_deviation(e.sigma_a_per_mm) : "–"),
+         number_cell(interval(e.sigma_a_per_mm, known)),
+         number_cell(known ? fmt::format("{:.2f} %", 100.0 * e.rms_relative) : "–"),
+         number_cell(known ? fmt::format("{:.2f}", e.reduced_chi2) : "–"),
+         text_cell(model_name(r.model)), number_cell(std::to_string(r.shots.size())),
+         r.agreement.dof == 0 ? text_cell("–")
+         : r.agreement.disagree()
+             ? text_cell(fmt::format("no (p = {:.1g})", r.agreement.p_value), "fail")
+             : text_cell("yes", "pass"),
+         verdict(e)});
+  }
+  return html_table(table);
+}
+
+// Why values were refused, and why transport answers.
+Html reasons(const Measurement& m) {
+  Html list;
+  for (const ChannelResult& r : m.results) {
+    for (const std::string& reason : r.estimate.reasons) {
+      list += html_element(
+          "li", html_text(fmt::format("{} {} is refused: {}.", r.material, r.channel, reason)));
+    }
+    if (!r.why_transport.empty()) {
+      const std::optional<DipoleDistance> far = dipole_distance(r);
+      list += html_element(
+          "li",
+          html_text(fmt::format(
+              "{} {} is answered by transport: {}.{}", r.material, r.channel, r.why_transport,
+              far ? fmt::format(" The dipole lies {:+.2g} % off in sigma_s' and {:+.1g}/mm in "
+                                "sigma_a.",
+                                100.0 * far->sigma_s_prime_relative, far->sigma_a_per_mm)
+                  : "")));
+    }
+  }
+  return list.markup.empty() ? Html{} : html_element("ul", list);
+}
+
+// Each cause's share of the variance.
+Html budget(const std::vector<const ChannelResult*>& channels) {
+  HtmlTable table;
+  table.header = {"channel", "cause", "sigma_s' [1/mm]", "share", "sigma_a [1/mm]", "share"};
+  const auto share = [](double std, double whole) {
+    const double part = whole > 0.0 ? std::clamp(std * std / (whole * whole), 0.0, 1.0) : 0.0;
+    return Html{fmt::format("<meter min=\"0\" max=\"1\" value=\"{:.4f}\">{:.0f} %</meter>",
+                            std::isfinite(part) ? part : 0.0, 100.0 * part)};
+  };
+  for (const ChannelResult* r : channels) {
+    const Estimate& e = r->estimate;
+    for (const BudgetLine& line : e.budget) {
+      table.rows.push_back(
+          {text_cell(std::string(1, r->channel)),
+           text_cell(line.cause),
+           number_cell(fmt::format("{:.2g}", line.std_sigma_s_prime_per_mm)),
+           {share(line.std_sigma_s_prime_per_mm, e.sigma_s_prime_per_mm.std), false, ""},
+           number_cell(fmt::format("{:.2g}", line.std_sigma_a_per_mm)),
+           {share(line.std_sigma_a_per_mm, e.sigma_a_per_mm.std), false, ""}});
+    }
+  }
+  return table.rows.empty() ? Html{} : html_table(table);
+}
+
+Html single_shots(const std::vector<const ChannelResult*>& channels) {
+  HtmlTable table;
+  table.header = {"shot", "channel", "sigma_s' [1/mm]", "sigma_a [1/mm]", "verdict"};
+  for (const ChannelResult* r : channels) {
+    for (const ShotResult& s : r->singles) {
+      const Estimate& e = s.estimate;
+      table.rows.push_back(
+          {text_cell(s.file), text_cell(std::string(1, r->channel)),
+           number_cell(e.converged ? value_with_deviation(e.sigma_s_prime_per_mm) : "–"),
+           number_cell(e.converged ? value_with_deviation(e.sigma_a_per_mm) : "–"), verdict(e)});
+    }
+  }
+  return table.rows.empty() ? Html{} : html_table(table);
+}
+
+// What kept patches out, in words.
+std::string left_out(const ChannelResult& r) {
+  return fmt::format("{}: {}", r.channel, patches_text(r.patches_by_state, r.patches_partly_seen));
+}
+
+Html maps(const std::vector<const ChannelResult*>& channels) {
+  std::vector<const ShotRows*> all;
+  std::vector<char> names;
+  for (const ChannelResult* r : channels) {
+    for (const ShotRows& rows : r->rows) {
+      all.push_back(&rows);
+      names.push_back(r->channel);
+    }
+  }
+  std::vector<Html> figures(all.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    const ResidualMap map = residual_map(*all[i], kMapWidth_px);
+    const std::string caption = fmt::format(
+        "{} {}: observed, model, difference (blue to red: ±{:g} % of the brightest "
+        "place); rms {:.2g} %",
+        all[i]->file, names[i], map.full_scale_percent, 100.0 * map.rms_relative);
+    figures[i] =
+        html_figure(data_address("image/png", png_bytes(map.picture)), caption, html_text(caption));
+  });
+  return html_figures(figures);
+}
+
+Html material_section(const std::vector<const ChannelResult*>& channels) {
+  Html out = html_element("h2", html_text(channels.front()->material));
+  std::vector<PagePlot> plots = ellipse_plots(channels);
+  for (const ChannelResult* r : channels) {
+    for (PagePlot& plot : reflectance_plots(*r)) plots.push_back(std::move(plot));
+  }
+  if (!plots.empty()) out += plot_figures(plots);
+  if (const Html table = budget(channels); !table.markup.empty()) {
+    out += html_element("h3", html_text("Where the uncertainty comes from"));
+    out += html_element(
+        "p",
+        html_text("One standard deviation for each cause, and its share of the variance. Shares "
+                  "of causes that only together are told apart need not add up to one."),
+        "dim");
+    out += table;
+  }
+  if (const Html table = single_shots(channels); !table.markup.empty()) {
+    out += html_element("h3", html_text("Each shot alone"));
+    for (const ChannelResult* r : channels) {
+      if (r->agreement.dof == 0) continue;
+      out += html_element("p",
+                          html_text(fmt::format(
+                              "{}: the shots {} (chi2 {:.1f} at {} degrees of freedom, p = "
+                              "{:.2g}){}",
+                              r->channel, r->agreement.disagree() ? "do not agree" : "agree",
+                              r->agreement.chi2, r->agreement.dof, r->agreement.p_value,
+                              r->agreement.disagree() ? "; the uncertainties are widened." : ".")),
+                          "dim");
+    }
+    out += html_details("answers of the single shots", table);
+  }
+  out += html_element("h3", html_text("Observed, model, difference"));
+  for (const ChannelResult* r : channels) {
+    out += html_element("p", html_text(left_out(*r)), "dim");
+  }
+  out += maps(channels);
+  return out;
+}
+
+}  // namespace
+
+std::string result_page(const Measurement& m, const std::string& command_line) {
+  const auto refused =
+      std::count_if(m.results.begin(), m.results.end(), [](const auto& r) { return r.refused(); });
+  Html body = html_element("h1", html_text("Scattering and absorption"));
+  body += html_element(
+      "p",
+      html_text(refused == 0 ? fmt::format("All {} values measured.", m.results.size())
+                             : fmt::format("{} of {} values refused.", refused, m.results.size())),
+      refused == 0 ? "pass" : "fail");
+  double total_s = 0.0;
+  for (const auto& [stage, seconds] : m.timing_s) {
+    if (stage == "total") total_s = seconds;
+  }
+  body += html_element(
+      "p",
+      html_text(fmt::format("{} ({:.1f} s, scattermeter {})", command_line, total_s, kVersion)),
+      "dim");
+  body += overview(m);
+  body += reasons(m);
+  for (const std::string& note : m.notes) body += html_element("p", html_text(note), "dim");
+  body += html_element(
+      "p",
+      html_text("On the shots, places at silhouettes and creases, which take no part, are dark; "
+                "clipped places red, others that were left out orange."),
+      "dim");
+  for (std::size_t i = 0; i < m.results.size();) {
+    std::vector<const ChannelResult*> channels;
+    const std::string& material = m.results[i].material;
+    for (; i < m.results.size() && m.results[i].material == material; ++i) {
+      channels.push_back(&m.results[i]);
+    }
+    body += material_section(channels);
+  }
+  HtmlTable inputs;
+  inputs.header = {"file", "sha256"};
+  for (const InputFile& f : m.inputs) {
+    inputs.rows.push_back({text_cell(f.path), text_cell(f.sha256)});
+  }
+  body += html_element("h2", html_text("Inputs"));
+  body += html_details(fmt::format("{} files", m.inputs.size()), html_table(inputs));
+  return html_document("Scattering and absorption", body);
+}
+
+}  // namespace scattermeter::apps
