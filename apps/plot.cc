@@ -29,12 +29,12 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-std::string axis(const char* name, const PlotAxis& a) {
+std::string axis(const char* name, const PlotAxis& a, bool reversed) {
   const auto end = [](const std::optional<double>& v) { return v ? fmt::format("{}", *v) : "*"; };
-  return fmt::format("set {0}label {1} noenhanced\n{2}set {0}range [{3}:{4}]\n", name,
+  return fmt::format("set {0}label {1} noenhanced\n{2}set {0}range [{3}:{4}]{5}\n", name,
                      quoted(a.label),
                      a.log ? fmt::format("set logscale {0}\nset format {0} '%g'\n", name) : "",
-                     end(a.min), end(a.max));
+                     end(a.min), end(a.max), reversed ? " reverse" : "");
 }
 
 bool can_stand(const PlotAxis& a, double value) {
@@ -48,9 +48,20 @@ std::string data_block(const Plot& plot, std::size_t index, std::size_t& drawn) 
     throw std::invalid_argument(fmt::format("write_plot: series {} has {} x, {} y, {} y_std",
                                             s.name, s.x.size(), s.y.size(), s.y_std.size()));
   }
+  const bool arrows = s.style == PlotSeries::Style::kArrows;
+  if (arrows && (s.dx.size() != s.x.size() || s.dy.size() != s.x.size())) {
+    throw std::invalid_argument(fmt::format("write_plot: series {} has {} x, {} dx, {} dy", s.name,
+                                            s.x.size(), s.dx.size(), s.dy.size()));
+  }
   std::string out = fmt::format("$series{} << END_OF_DATA\n", index);
   for (std::size_t i = 0; i < s.x.size(); ++i) {
     if (!can_stand(plot.x, s.x[i]) || !can_stand(plot.y, s.y[i])) continue;
+    if (arrows) {
+      if (!std::isfinite(s.dx[i]) || !std::isfinite(s.dy[i])) continue;
+      out += fmt::format("{} {} {} {}\n", s.x[i], s.y[i], s.dx[i], s.dy[i]);
+      ++drawn;
+      continue;
+    }
     const double std = s.y_std.empty() || !std::isfinite(s.y_std[i]) ? 0.0 : s.y_std[i];
     out += fmt::format("{} {} {}\n", s.x[i], s.y[i], std);
     ++drawn;
@@ -82,6 +93,9 @@ std::string style_of(const PlotSeries& s, std::size_t index) {
       return fmt::format("with linespoints lw 2 pt 7 ps 0.8 lc rgb '{}'", colour);
     case PlotSeries::Style::kBoxes:
       return fmt::format("with boxes fs solid 0.35 border lc rgb '{}'", colour);
+    case PlotSeries::Style::kArrows:
+      return fmt::format("with vectors head filled size screen 0.012,20 lw 1.5 lc rgb '{}'",
+                         colour);
   }
   throw std::invalid_argument("write_plot: no such style");
 }
@@ -89,7 +103,7 @@ std::string style_of(const PlotSeries& s, std::size_t index) {
 std::string script_of(const Plot& plot, const std::string& terminal) {
   std::string script = terminal;
   script += fmt::format("set title {} noenhanced\n", quoted(plot.title));
-  script += axis("x", plot.x) + axis("y", plot.y);
+  script += axis("x", plot.x, false) + axis("y", plot.y, plot.y_down);
   script += "set grid lc rgb '#DDDDDD'\nset boxwidth 1.0 relative\n";
   script += plot.legend_outside ? "set key outside right top Left reverse noenhanced\n"
                                 : "set key top right noenhanced\n";
@@ -107,7 +121,9 @@ std::string script_of(const Plot& plot, const std::string& terminal) {
                             i, colour_of(s, i));
     }
     const std::string title = s.name.empty() ? "notitle" : "title " + quoted(s.name);
-    curves += fmt::format("$series{} using 1:2 {} {}", i, title, style_of(s, i));
+    curves += fmt::format("$series{} using {} {} {}", i,
+                          s.style == PlotSeries::Style::kArrows ? "1:2:3:4" : "1:2", title,
+                          style_of(s, i));
   }
   if (drawn == 0) throw std::invalid_argument("write_plot: nothing to draw: " + plot.title);
   return script + "plot " + curves + "\n";

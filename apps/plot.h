@@ -15,7 +15,7 @@ struct PlotAxis {
 };
 
 struct PlotSeries {
-  enum class Style { kLine, kDashedLine, kPoints, kOpenPoints, kLineAndPoints, kBoxes };
+  enum class Style { kLine, kDashedLine, kPoints, kOpenPoints, kLineAndPoints, kBoxes, kArrows };
   std::string name;  // in the legend; "": not there
   Style style = Style::kLine;
   std::vector<double> x;
@@ -24,6 +24,9 @@ struct PlotSeries {
   // Of eight colours; of open and filled points with it their shape, the same for both. Absent: the
   // colour of its place in the list, and discs.
   std::optional<std::size_t> look = std::nullopt;
+  // Of arrows only, which lead from (x, y) to (x + dx, y + dy).
+  std::vector<double> dx = {};
+  std::vector<double> dy = {};
 };
 
 struct Plot {
@@ -34,6 +37,7 @@ struct Plot {
   bool legend_outside = false;  // to the right of the axes; else in their upper right corner
   int width_px = 1000;
   int height_px = 640;
+  bool y_down = false;  // as in a picture
 };
 
 // Draws the plot into `path`, whose ending says the format: .png or .svg. The folder is made where
