@@ -15,8 +15,7 @@ Plot frame_plot(const calib::CameraCalibration& c) {
   const double height = c.intrinsics.height_px;
   Plot plot;
   plot.x = {"x [px]", false, -0.5, width - 0.5};
-  plot.y = {"y [px]", false, -0.5, height - 0.5};
-  plot.y_down = true;
+  plot.y = {"y [px]", false, height - 0.5, -0.5};  // down, as in a picture
   plot.legend_outside = true;
   // The axes' rectangle has the frame's shape, about: margins and legend take the rest.
   plot.width_px = 1160;

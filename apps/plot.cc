@@ -29,12 +29,12 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-std::string axis(const char* name, const PlotAxis& a, bool reversed) {
+std::string axis(const char* name, const PlotAxis& a) {
   const auto end = [](const std::optional<double>& v) { return v ? fmt::format("{}", *v) : "*"; };
-  return fmt::format("set {0}label {1} noenhanced\n{2}set {0}range [{3}:{4}]{5}\n", name,
+  return fmt::format("set {0}label {1} noenhanced\n{2}set {0}range [{3}:{4}]\n", name,
                      quoted(a.label),
                      a.log ? fmt::format("set logscale {0}\nset format {0} '%g'\n", name) : "",
-                     end(a.min), end(a.max), reversed ? " reverse" : "");
+                     end(a.min), end(a.max));
 }
 
 bool can_stand(const PlotAxis& a, double value) {
@@ -103,7 +103,7 @@ std::string style_of(const PlotSeries& s, std::size_t index) {
 std::string script_of(const Plot& plot, const std::string& terminal) {
   std::string script = terminal;
   script += fmt::format("set title {} noenhanced\n", quoted(plot.title));
-  script += axis("x", plot.x, false) + axis("y", plot.y, plot.y_down);
+  script += axis("x", plot.x) + axis("y", plot.y);
   script += "set grid lc rgb '#DDDDDD'\nset boxwidth 1.0 relative\n";
   script += plot.legend_outside ? "set key outside right top Left reverse noenhanced\n"
                                 : "set key top right noenhanced\n";

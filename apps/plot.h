@@ -37,7 +37,6 @@ struct Plot {
   bool legend_outside = false;  // to the right of the axes; else in their upper right corner
   int width_px = 1000;
   int height_px = 640;
-  bool y_down = false;  // as in a picture
 };
 
 // Draws the plot into `path`, whose ending says the format: .png or .svg. The folder is made where

