@@ -17,19 +17,17 @@ std::string lower(std::string text) {
   return text;
 }
 
-// "NIKON D80", "Nikon D80" and "D80" are one camera: LibRaw shortens makes and strips them from
-// models.
-bool same_camera(const std::string& wanted, const capture::RawFrame& frame) {
-  const std::string w = lower(wanted);
-  const std::string model = lower(frame.model);
-  return w == model || w == lower(frame.make) + " " + model;
-}
-
 }  // namespace
+
+bool same_camera(const std::string& wanted, const std::string& make, const std::string& model) {
+  const std::string w = lower(wanted);
+  const std::string m = lower(model);
+  return w == m || w == lower(make) + " " + m;
+}
 
 capture::RawFrame open_shot(const Rig& rig, const std::string& path) {
   capture::RawFrame frame = capture::read_raw(path);
-  if (!rig.camera.model.empty() && !same_camera(rig.camera.model, frame)) {
+  if (!rig.camera.model.empty() && !same_camera(rig.camera.model, frame.make, frame.model)) {
     throw InputError(path, fmt::format("camera.model: shot with a {} {}, but the rig {} says {}",
                                        frame.make, frame.model, rig.path, rig.camera.model));
   }

@@ -9,9 +9,15 @@
 
 namespace scattermeter::apps {
 
+// Expected counts above black of one board shot, each pixel in the channel of its filter: white in
+// full light (apps/board_signal.h) reaches 0.7 of the range in the channel that the camera answers
+// to most, the others in the proportion of its responsivity. Throws InputError where the board is
+// behind the camera or out of the frame.
+std::vector<float> board_shot_counts(const Rig& rig, const RigBoardShot& shot);
+
 // Writes the shots into `out_folder` (which exists); the paths of the files. None where the rig has
 // no calibration.camera. Throws InputError for bad input.
 std::vector<std::string> simulate_camera_calibration(const Rig& rig, const std::string& out_folder,
-                                                   const SimulateOptions& options);
+                                                     const SimulateOptions& options);
 
 }  // namespace scattermeter::apps

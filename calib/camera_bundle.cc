@@ -139,6 +139,9 @@ CameraBundle adjust_bundle(const std::vector<BoardView>& views, const LensModel&
   solver.function_tolerance = 1e-13;
   solver.gradient_tolerance = 1e-14;
   solver.parameter_tolerance = 1e-11;
+  // Damping of 1e-9 at least keeps the equations of a model with idle terms solvable, of which
+  // Ceres would write to stderr whatever the logging type.
+  solver.max_trust_region_radius = 1e9;
   solver.logging_type = ceres::SILENT;
   solver.num_threads = 1;
 

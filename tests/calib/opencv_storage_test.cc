@@ -1,0 +1,40 @@
+#include "calib/opencv_storage.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calib/opencv_quiet.h"
+#include "core/input_error.h"
+#include "tests/temporary_folder.h"
+
+namespace scattermeter::calib {
+namespace {
+
+TEST(OpencvStorage, OpensMapsAndReadsMatrices) {
+  const TemporaryFolder folder;
+  cv::FileStorage out(folder / "a.yaml", cv::FileStorage::WRITE);
+  out << "m" << cv::Mat(cv::Matx22f(1, 2, 3, 4)) << "n" << 7 << "rgb" << cv::Mat(2, 2, CV_8UC3);
+  out.release();
+  const OpencvQuiet quiet;
+  const cv::FileStorage in = open_storage(folder / "a.yaml");
+  const cv::Mat m = read_storage_matrix("m", in["m"]);
+  EXPECT_EQ(m.type(), CV_64F);
+  EXPECT_EQ(m.at<double>(1, 0), 3);
+  EXPECT_THROW(read_storage_matrix("n", in["n"]), InputError);
+  EXPECT_THROW(read_storage_matrix("rgb", in["rgb"]), InputError);
+}
+
+TEST(OpencvStorage, NamesTheFile) {
+  const TemporaryFolder folder;
+  const OpencvQuiet quiet;
+  EXPECT_THROW(open_storage(folder / "missing.yaml"), InputError);
+  std::ofstream(folder / "empty.yaml") << "\n";
+  EXPECT_THROW(open_storage(folder / "empty.yaml"), InputError);
+  std::ofstream(folder / "text.yaml") << "no map at all";
+  EXPECT_THROW(open_storage(folder / "text.yaml"), InputError);
+}
+
+}  // namespace
+}  // namespace scattermeter::calib
