@@ -265,8 +265,9 @@ TEST_F(LedCalibrationTest, BadInputIsNamed) {
   };
   EXPECT_EQ(file_error(yaml), "");
   EXPECT_THAT(file_error(first_replaced(yaml, "  - [", "  - [7")), HasSubstr("axis_tangents"));
-  EXPECT_THAT(file_error(first_replaced(yaml, "common_to_plane: [", "common_to_plane: [9")),
-              HasSubstr("covariance"));
+  LedCalibration negative = c;
+  negative.fit.uncertainty.common[0] = 9.0;
+  EXPECT_THAT(file_error(led_calibration_yaml(negative)), HasSubstr("covariance"));
   EXPECT_THAT(file_error(first_replaced(yaml, "exponent: ", "exponent: -")), HasSubstr("exponent"));
   EXPECT_THAT(file_error(first_replaced(yaml, "scattermeter_led: 1", "scattermeter_led: 2")),
               HasSubstr("version"));

@@ -20,10 +20,16 @@ double part(const Estimate& e, const std::string& cause) {
   return 0.0;
 }
 
+Rig one_shot() {
+  Rig rig = plastics_rig(240);
+  rig.shots.resize(1);
+  return rig;
+}
+
 class CalibratedNuisances : public ::testing::Test {
  protected:
   CalibratedNuisances()
-      : exact_(plastics_rig(240)),
+      : exact_(one_shot()),
         scenes_(bodies_scenes(exact_)),
         shots_(exact_, scenes_, {.noise = true, .quiet = true}) {}
 
