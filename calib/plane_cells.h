@@ -15,7 +15,7 @@
 namespace scattermeter::calib {
 
 struct PlaneCellOptions {
-  int cells_across = 24;      // along the plane's longer side, at most
+  int cells_across = 16;      // along the plane's longer side, at most
   double min_cell_px = 10;    // smallest edge of a cell in the image
   double border_px = 4;       // samples nearer to the plane's edge are left out
   double max_left_out = 0.2;  // share of a cell's samples; with more, the cell is dropped
