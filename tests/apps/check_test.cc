@@ -55,7 +55,11 @@ TEST(Check, AGoodRigPasses) {
   rig.simulate();
   const Checked c = check(rig);
   EXPECT_EQ(c.answer.status, 0) << c.answer.out << c.answer.err;
-  for (const auto& [what, item] : c.items) EXPECT_EQ(item["verdict"], "pass") << what;
+  // Of one material, two things have nothing to be held against.
+  for (const auto& [what, item] : c.items) {
+    const bool judged = what != "LED drift" && what != "material in shot";
+    EXPECT_EQ(item["verdict"], judged ? "pass" : "not judged") << what;
+  }
   EXPECT_THAT(c.answer.out, HasSubstr("all "));
   const std::string page = slurp(rig.out() + "/check.html");
   EXPECT_EQ(html_problem(page), "");
