@@ -8,7 +8,7 @@ namespace scattermeter::apps {
 namespace {
 
 // Standard deviations of a block's mean that its darkest tenth may be off by chance and selection.
-constexpr double kSelection = 3.0;
+constexpr double kSelection = 4.0;
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
@@ -33,20 +33,23 @@ std::vector<CheckItem> check_black(const CheckedRig& checked) {
     for (std::size_t i = 0; i < checked.shots.size(); ++i) {
       const capture::BackgroundLevel& b = checked.frames[i].background;
       if (b.blocks == 0) continue;
-      const double brightest = checked.shots[i].observation.channel[c].brightest_counts;
-      const double error = kSelection * b.block_std_counts[c];
-      const double beyond = std::max(0.0, std::abs(b.darkest_counts[c]) - error);
-      background.push_back(checked.of_channel(
-          i, c, std::copysign(100.0 * beyond / std::max(brightest, 1.0), b.darkest_counts[c])));
-      const double moved = b.darkest_counts[c] + checked.frames[i].black_counts[0] - usual;
-      const double surely = std::max(0.0, std::abs(moved) - error);
-      drift.push_back(checked.of_channel(i, c, std::copysign(surely, moved)));
+      const double brightest =
+          std::max(1.0, checked.shots[i].observation.channel[c].brightest_counts);
+      CheckDetail light = checked.of_channel(i, c, 100.0 * b.darkest_counts[c] / brightest);
+      light.std = 100.0 * b.block_std_counts[c] / brightest;
+      background.push_back(light);
+      CheckDetail moved =
+          checked.of_channel(i, c, b.darkest_counts[c] + checked.frames[i].black_counts[0] - usual);
+      moved.std = b.block_std_counts[c];
+      drift.push_back(moved);
     }
   }
   return {
-      judged("background", "% of brightest", {checked.options.max_background_percent},
+      judged("background", "% of brightest",
+             {checked.options.max_background_percent, false, false, kSelection},
              "look for a light left on, light on the lens, or a wrong black level", background),
-      judged("black drift", "counts", {checked.options.max_black_drift_read_noises * read_noise},
+      judged("black drift", "counts",
+             {checked.options.max_black_drift_read_noises * read_noise, false, false, kSelection},
              "let the camera warm up, or look for a light that was on in some shots", drift)};
 }
 

@@ -9,14 +9,15 @@ namespace {
 bool holds(const CheckDetail& d, const CheckLimit& limit) {
   if (!std::isfinite(d.value)) return false;
   if (limit.at_least) return d.value >= limit.value;
-  if (std::abs(d.value) <= limit.value) return true;
+  if ((limit.above_only ? d.value : std::abs(d.value)) <= limit.value) return true;
   return limit.least_stds > 0.0 && !(std::abs(d.value) > limit.least_stds * d.std);
 }
 
 // Larger is worse.
 double badness(const CheckDetail& d, const CheckLimit& limit) {
   if (!std::isfinite(d.value)) return std::numeric_limits<double>::infinity();
-  return limit.at_least ? -d.value : std::abs(d.value);
+  if (limit.at_least) return -d.value;
+  return limit.above_only ? d.value : std::abs(d.value);
 }
 
 }  // namespace
@@ -45,7 +46,8 @@ CheckItem judged(const std::string& what, const std::string& unit, const CheckLi
   item.rms =
       worst == nullptr ? kNone : std::sqrt(squares / static_cast<double>(item.details.size()));
   item.worst = worst == nullptr ? kNone : worst->value;
-  if (worst != nullptr) item.where = worst->where;
+  // Where all are 0, none is the worst.
+  if (worst != nullptr && worst->value != 0.0) item.where = worst->where;
   return item;
 }
 

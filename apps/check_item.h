@@ -34,6 +34,7 @@ struct CheckItem {
 struct CheckLimit {
   double value = 0;
   bool at_least = false;
+  bool above_only = false;  // any value below the limit passes, however far below 0
   // A value beyond the limit counts only when it is as many deviations away from 0, too.
   double least_stds = 0;
 };

@@ -43,7 +43,7 @@ std::vector<CheckItem> check_led_places(const CheckedRig& checked) {
       details.push_back(d);
     }
   }
-  const CheckLimit limit{checked.options.max_led_place_mm + 3.0 * own_std_mm, false,
+  const CheckLimit limit{checked.options.max_led_place_mm + 3.0 * own_std_mm, false, false,
                          checked.options.least_stds};
   return {judged("LED place", "mm off the rig's", limit,
                  "measure lights.position_mm again (calibrate led), or say how well it is known",

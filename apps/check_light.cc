@@ -79,17 +79,18 @@ std::vector<CheckItem> check_light(const CheckedRig& checked) {
     }
   }
   // A misfit of the model as large as the limit says that its other figures mean little.
-  return {
-      judged("image residual", "% of the image", {o.max_residual_percent},
-             "look at the shot: object moved, wrong mesh, wrong light, or light from elsewhere",
-             residual),
-      judged("light of shot", "% off the joint model", {o.max_power_percent, false, o.least_stds},
-             "look whether aperture, exposure or LED current changed in this shot", power),
-      judged("LED drift", "% over the shots", {o.max_drift_percent, false, 3.0},
-             "let the LED warm up, or drive it by a constant current", drifts(checked, powers)),
-      judged("light from elsewhere", "% of mean light", {o.max_even_percent, false, o.least_stds},
-             "switch off every other lamp, shut the blinds, or list a light of type ambient",
-             even)};
+  return {judged("image residual", "% of the image", {o.max_residual_percent},
+                 "look at the shot: object moved, wrong mesh, wrong light, or light from elsewhere",
+                 residual),
+          judged("light of shot", "% off the joint model",
+                 {o.max_power_percent, false, false, o.least_stds},
+                 "look whether aperture, exposure or LED current changed in this shot", power),
+          judged("LED drift", "% over the shots", {o.max_drift_percent, false, false, 3.0},
+                 "let the LED warm up, or drive it by a constant current", drifts(checked, powers)),
+          judged("light from elsewhere", "% of mean light",
+                 {o.max_even_percent, false, false, o.least_stds},
+                 "switch off every other lamp, shut the blinds, or list a light of type ambient",
+                 even)};
 }
 
 }  // namespace scattermeter::apps

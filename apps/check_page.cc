@@ -15,23 +15,27 @@
 namespace scattermeter::apps {
 namespace {
 
+// Samples from which on a variance is worth a point.
+constexpr std::size_t kLeastTriples = 50;
+
 std::string figure_text(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : "–";
 }
 
 Html summary(const CheckReport& report) {
   HtmlTable table;
-  table.header = {"check", "rms", "worst", "limit", "unit", "verdict", "worst at", "what to do"};
+  table.header = {"check", "verdict", "worst", "limit", "unit", "worst at", "what to do", "rms"};
   for (const CheckItem& item : report.items) {
     const bool judged = !item.details.empty();
     const std::string limit = fmt::format("{}{:.3g}", item.at_least ? "≥ " : "≤ ", item.limit);
-    table.rows.push_back({text_cell(item.what), number_cell(figure_text(item.rms)),
-                          number_cell(figure_text(item.worst)), number_cell(limit),
-                          text_cell(item.unit),
+    table.rows.push_back({text_cell(item.what),
                           !judged       ? text_cell("not judged", "dim")
                           : item.passed ? text_cell("pass", "pass")
                                         : text_cell("FAIL", "fail"),
-                          text_cell(item.where), text_cell(item.passed ? "" : item.advice)});
+                          number_cell(figure_text(item.worst)), number_cell(limit),
+                          text_cell(item.unit), text_cell(item.where),
+                          text_cell(item.passed ? "" : item.advice),
+                          number_cell(figure_text(item.rms))});
   }
   return html_table(table);
 }
@@ -116,7 +120,7 @@ std::vector<PagePlot> trends(const CheckedRig& checked, const CheckReport& repor
        "Even light beside the lamps of the rig, which a lamp left on would bring."},
       {"background", "The darkest background above the file's black level."},
       {"black drift", "The black level itself, from its usual value: it moves with temperature."},
-      {"noise", "Scatter of neighbouring samples over the noise model: 1 where it is right."},
+      {"noise", "Variance of neighbouring samples above the noise model's: 0 where that is right."},
       {"clipped", "Samples at the top of the range."}};
   std::vector<PagePlot> out;
   for (const auto& [what, caption] : wanted) {
@@ -138,6 +142,7 @@ std::vector<PagePlot> noise_plots(const CheckedRig& checked) {
     std::vector<std::pair<double, double>> model;
     for (const CheckedFrame& frame : checked.frames) {
       for (const capture::NoisePoint& p : frame.noise[c]) {
+        if (p.triples < kLeastTriples) continue;
         seen.x.push_back(p.mean_counts);
         seen.y.push_back(p.variance_counts2);
         seen.y_std.push_back(p.variance_std_counts2);
@@ -169,7 +174,7 @@ std::vector<PagePlot> noise_plots(const CheckedRig& checked) {
 Html pictures(const CheckedRig& checked) {
   std::vector<Html> figures;
   for (std::size_t i = 0; i < checked.shots.size(); ++i) {
-    if (!checked.frames[i].picture) continue;
+    if (checked.frames[i].png.empty()) continue;
     const OpenedShot& shot = checked.shots[i];
     std::size_t clipped = 0;
     for (const ChannelObservation& o : shot.observation.channel) {
@@ -181,7 +186,7 @@ Html pictures(const CheckedRig& checked) {
         fmt::format("{}: {} of {}, lit by {}; {:g} s, f/{:g}, ISO {:g}; {} samples clipped",
                     shot.rig->file, shot.rig->object, shot.rig->material, lights, shot.exposure_s,
                     shot.f_number, shot.iso, clipped);
-    figures.push_back(html_figure(data_address("image/png", png_bytes(*checked.frames[i].picture)),
+    figures.push_back(html_figure(data_address("image/png", checked.frames[i].png),
                                   "shot " + shot.rig->file, html_text(caption)));
   }
   return html_figures(figures);
@@ -231,8 +236,10 @@ std::string check_page(const CheckedRig& checked, const CheckReport& report,
   section("Noise", noise_plots(checked));
   body += html_element("h2", html_text("Shots"));
   body += html_element(
-      "p", html_text("Grey is the light on the sensor. Places in use lie inside the orange lines; "
-                     "clipped pixels are red."));
+      "p",
+      html_text("Grey is the light on the sensor, over it the mesh where camera and pose put it: "
+                "contour orange, steps pink, creases blue. They should run along the object's "
+                "edges. Clipped samples are red."));
   body += pictures(checked);
   body += html_element("h2", html_text("Every value"));
   body += every_value(report);

@@ -41,12 +41,13 @@ CheckedFrame checked_frame(const capture::RawFrame& frame, const Rig& rig, const
   if (!rig.pose.charuco) {
     out.background = capture::background_level(frame, map.x0, map.y0, map.width, map.height);
   }
-  if (!options.pictures) return out;
   out.noise =
       capture::noise_curve(capture::linear_samples(frame, rig.camera.sensor.noise, frame.exposure_s,
                                                    map.x0, map.y0, map.width, map.height),
                            map);
-  out.picture = shot_picture(frame, map, kPictureWidth_px);
+  if (!options.pictures) return out;
+  out.png = shot_picture(frame, {rig.camera.intrinsics, shot.pose.camera_from_world},
+                         *shot.seen->object->rays, map, kPictureWidth_px);
   return out;
 }
 

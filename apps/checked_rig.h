@@ -10,7 +10,6 @@
 #include "apps/check_fit.h"
 #include "apps/check_item.h"
 #include "apps/measure.h"
-#include "apps/picture.h"
 #include "apps/rig.h"
 #include "apps/shot_system.h"
 #include "calib/pose.h"
@@ -24,7 +23,7 @@ struct CheckOptions {
   double max_pose_outlier_percent = 25.0;
   double max_clipped_percent = 1.0;     // of the samples on the object
   double min_brightest_snr = 30.0;      // of a patch
-  double max_noise_ratio = 1.3;         // scatter of samples over the noise model's variance
+  double max_noise_percent = 30.0;      // scatter of samples above the noise model's variance
   double max_background_percent = 1.0;  // of the brightest patch
   double max_black_drift_read_noises = 0.5;
   double max_power_percent = 5.0;             // of a shot's light, from the joint model's
@@ -43,7 +42,7 @@ struct CheckedFrame {
   std::array<double, 4> black_counts{};
   capture::BackgroundLevel background;  // of shots without a board
   std::array<std::vector<capture::NoisePoint>, kRgb> noise;
-  std::optional<Picture> picture;  // marked: see shot_picture.h
+  std::string png;  // shot_picture(); empty unless asked for
 };
 
 // What the opened shots refer to.

@@ -31,6 +31,7 @@ th, td { padding: 0.3rem 0.6rem; text-align: left; vertical-align: top;
 tr:last-child td { border-bottom: 0; }
 th { background: var(--soft); font-weight: 600; }
 td.number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
+th.number { text-align: right; }
 .figures { display: grid; gap: 0.8rem;
   grid-template-columns: repeat(auto-fill, minmax(min(100%, 23rem), 1fr)); }
 figure { margin: 0; padding: 0.4rem; border: 1px solid var(--line); border-radius: 6px;
@@ -119,8 +120,10 @@ HtmlTable::Cell number_cell(const std::string& text) { return {html_text(text), 
 
 Html html_table(const HtmlTable& table) {
   std::string out = "<div class=\"scroll\"><table>\n<thead><tr>";
-  for (const std::string& name : table.header) {
-    out += "<th scope=\"col\">" + html_text(name).markup + "</th>";
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    const bool number = !table.rows.empty() && i < table.rows[0].size() && table.rows[0][i].number;
+    out += number ? "<th scope=\"col\" class=\"number\">" : "<th scope=\"col\">";
+    out += html_text(table.header[i]).markup + "</th>";
   }
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {

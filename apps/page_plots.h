@@ -10,8 +10,8 @@
 namespace scattermeter::apps {
 
 // Of a size whose letters can be read on a phone.
-inline constexpr int kPagePlotWidth_px = 560;
-inline constexpr int kPagePlotHeight_px = 400;
+inline constexpr int kPagePlotWidth_px = 480;
+inline constexpr int kPagePlotHeight_px = 360;
 
 struct PagePlot {
   Plot plot;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -35,10 +36,13 @@ std::string quoted(const std::string& text) {
 
 std::string axis(const char* name, const PlotAxis& a, bool reversed) {
   const auto end = [](const std::optional<double>& v) { return v ? fmt::format("{}", *v) : "*"; };
+  const auto ends = reversed && a.min && a.max ? std::pair(end(a.max), end(a.min))
+                                               : std::pair(end(a.min), end(a.max));
+  // gnuplot heeds `reverse` only where it chooses an end itself.
   return fmt::format("set {0}label {1} noenhanced\n{2}set {0}range [{3}:{4}]{5}\n", name,
                      quoted(a.label),
                      a.log ? fmt::format("set logscale {0}\nset format {0} '%g'\n", name) : "",
-                     end(a.min), end(a.max), reversed ? " reverse" : "");
+                     ends.first, ends.second, reversed && !(a.min && a.max) ? " reverse" : "");
 }
 
 bool can_stand(const PlotAxis& a, double value) {

@@ -4,14 +4,30 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/shot_picture.h"
-
 namespace scattermeter::apps {
 namespace {
 
 constexpr PictureColour kBehind = {28, 30, 34};
 constexpr PictureColour kUnused = {120, 120, 120};
+constexpr PictureColour kClipped = {213, 0, 50};
 constexpr PictureColour kLeftOut = {230, 159, 0};
+
+// Values on the rows of a map as a picture of its rectangle, at most `width_px` wide.
+template <class ColourOfRow>
+Picture row_picture(const SampleMap& map, int width_px, const ColourOfRow& colour_of_row) {
+  const int step = (map.width + width_px - 1) / width_px;
+  Picture out(map.width / step, map.height / step, kBehind);
+  for (int y = 0; y < out.height_px; ++y) {
+    for (int x = 0; x < out.width_px; ++x) {
+      const auto at =
+          static_cast<std::size_t>(y * step + step / 2) * static_cast<std::size_t>(map.width) +
+          static_cast<std::size_t>(x * step + step / 2);
+      const std::int32_t row = map.row_of_sample[at];
+      if (row >= 0) out.set(x, y, colour_of_row(static_cast<std::size_t>(row)));
+    }
+  }
+  return out;
+}
 
 // A round number of percent that holds most of the differences.
 double round_up(double percent) {
@@ -45,15 +61,15 @@ ResidualMap residual_map(const ShotRows& rows, int width_px) {
   }
   const double unit = scale > 0.0 ? 0.01 * scale * brightest : 1.0;
   const auto used = [&](std::size_t j) { return rows.state[j] == RowState::kUsed; };
-  const Picture observed = row_picture(*rows.map, width_px, kBehind, [&](std::size_t j) {
-    if (rows.state[j] == RowState::kClipped) return kClippedColour;
+  const Picture observed = row_picture(*rows.map, width_px, [&](std::size_t j) {
+    if (rows.state[j] == RowState::kClipped) return kClipped;
     if (!used(j)) return kLeftOut;
     return grey_colour(static_cast<double>(rows.observed[j]) / brightest);
   });
-  const Picture model = row_picture(*rows.map, width_px, kBehind, [&](std::size_t j) {
+  const Picture model = row_picture(*rows.map, width_px, [&](std::size_t j) {
     return used(j) ? grey_colour(static_cast<double>(rows.predicted[j]) / brightest) : kUnused;
   });
-  const Picture difference = row_picture(*rows.map, width_px, kBehind, [&](std::size_t j) {
+  const Picture difference = row_picture(*rows.map, width_px, [&](std::size_t j) {
     return used(j)
                ? difference_colour(static_cast<double>(rows.observed[j] - rows.predicted[j]) / unit)
                : kUnused;

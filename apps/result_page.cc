@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -35,16 +36,17 @@ HtmlTable::Cell verdict(const Estimate& e) {
 
 Html overview(const Measurement& m) {
   HtmlTable table;
-  table.header = {"material", "channel", "sigma_s' [1/mm]", "95 %",  "sigma_a [1/mm]", "95 %",
-                  "residual", "chi2/n",  "model",           "shots", "agree",          "verdict"};
+  table.header = {
+      "material",     "",         "verdict", "sigma_s' [1/mm]", "sigma_a [1/mm]", "sigma_s' 95 %",
+      "sigma_a 95 %", "residual", "chi2/n",  "model",           "shots",          "shots agree"};
   for (const ChannelResult& r : m.results) {
     const Estimate& e = r.estimate;
     const bool known = e.converged;
     table.rows.push_back(
-        {text_cell(r.material), text_cell(std::string(1, r.channel)),
+        {text_cell(r.material), text_cell(std::string(1, r.channel)), verdict(e),
          number_cell(known ? value_with_deviation(e.sigma_s_prime_per_mm) : "–"),
-         number_cell(interval(e.sigma_s_prime_per_mm, known)),
          number_cell(known ? value_with_deviation(e.sigma_a_per_mm) : "–"),
+         number_cell(interval(e.sigma_s_prime_per_mm, known)),
          number_cell(interval(e.sigma_a_per_mm, known)),
          number_cell(known ? fmt::format("{:.2f} %", 100.0 * e.rms_relative) : "–"),
          number_cell(known ? fmt::format("{:.2f}", e.reduced_chi2) : "–"),
@@ -52,8 +54,7 @@ Html overview(const Measurement& m) {
          r.agreement.dof == 0 ? text_cell("–")
          : r.agreement.disagree()
              ? text_cell(fmt::format("no (p = {:.1g})", r.agreement.p_value), "fail")
-             : text_cell("yes", "pass"),
-         verdict(e)});
+             : text_cell("yes", "pass")});
   }
   return html_table(table);
 }
@@ -149,9 +150,12 @@ Html maps(const std::vector<const ChannelResult*>& channels) {
 
 Html material_section(const std::vector<const ChannelResult*>& channels) {
   Html out = html_element("h2", html_text(channels.front()->material));
-  std::vector<PagePlot> plots = ellipse_plots(channels);
+  std::vector<PagePlot> plots;
   for (const ChannelResult* r : channels) {
     for (PagePlot& plot : reflectance_plots(*r)) plots.push_back(std::move(plot));
+  }
+  for (const ChannelResult* r : channels) {
+    for (PagePlot& plot : ellipse_plots(*r)) plots.push_back(std::move(plot));
   }
   if (!plots.empty()) out += plot_figures(plots);
   if (const Html table = budget(channels); !table.markup.empty()) {

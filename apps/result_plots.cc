@@ -29,7 +29,7 @@ PlotSeries dipole_series(const Estimate& e, double eta, double from_mm, double t
 
 // Points of the 95 % ellipse: chi-square of two degrees of freedom, 5.991 = -2 ln 0.05.
 PlotSeries ellipse(const Estimate& e, char channel) {
-  PlotSeries out{std::string(1, channel), PlotSeries::Style::kLine, {}, {}};
+  PlotSeries out{"95 %", PlotSeries::Style::kLine, {}, {}};
   out.look = look_of(channel);
   const double radius = std::sqrt(-2.0 * std::log(0.05));
   const double rest = std::sqrt(std::max(0.0, 1.0 - e.correlation * e.correlation));
@@ -90,33 +90,36 @@ std::vector<PagePlot> reflectance_plots(const ChannelResult& r) {
   return {out};
 }
 
-std::vector<PagePlot> ellipse_plots(const std::vector<const ChannelResult*>& channels) {
+std::vector<PagePlot> ellipse_plots(const ChannelResult& r) {
+  const Estimate& e = r.estimate;
+  const Quantity& s = e.sigma_s_prime_per_mm;
+  const Quantity& a = e.sigma_a_per_mm;
+  if (!e.converged || !(s.std > 0.0) || !(a.std > 0.0) || !std::isfinite(s.std + a.std)) return {};
+  constexpr double kShown = 6.0;  // deviations on each side
   PagePlot out;
-  std::string material;
-  for (const ChannelResult* r : channels) {
-    material = r->material;
-    if (!r->estimate.converged) continue;
-    PlotSeries line = ellipse(r->estimate, r->channel);
-    PlotSeries center{"", PlotSeries::Style::kPoints, {}, {}};
-    center.look = line.look;
-    center.x.push_back(r->estimate.sigma_s_prime_per_mm.value);
-    center.y.push_back(r->estimate.sigma_a_per_mm.value);
-    PlotSeries singles{"", PlotSeries::Style::kOpenPoints, {}, {}};
-    singles.look = line.look;
-    for (const ShotResult& s : r->singles) {
-      if (!s.estimate.converged) continue;
-      singles.x.push_back(s.estimate.sigma_s_prime_per_mm.value);
-      singles.y.push_back(s.estimate.sigma_a_per_mm.value);
+  PlotSeries center{"answer", PlotSeries::Style::kPoints, {s.value}, {a.value}};
+  center.look = look_of(r.channel);
+  PlotSeries singles{"single shots", PlotSeries::Style::kOpenPoints, {}, {}};
+  singles.look = center.look;
+  for (const ShotResult& shot : r.singles) {
+    const double x = shot.estimate.sigma_s_prime_per_mm.value;
+    const double y = shot.estimate.sigma_a_per_mm.value;
+    if (!shot.estimate.converged || std::abs(x - s.value) > kShown * s.std ||
+        std::abs(y - a.value) > kShown * a.std) {
+      continue;
     }
-    out.plot.series.insert(out.plot.series.end(), {line, center});
-    if (!singles.x.empty()) out.plot.series.push_back(singles);
+    singles.x.push_back(x);
+    singles.y.push_back(y);
   }
-  if (out.plot.series.empty()) return {};
-  out.plot.title = material + ": sigma_s' and sigma_a";
-  out.plot.x = {"sigma_s' [1/mm]"};
-  out.plot.y = {"sigma_a [1/mm]"};
-  out.caption = material +
-                ": 95 % regions of the answers (filled points), and each shot alone (open points).";
+  out.plot.series = {ellipse(e, r.channel), center};
+  if (!singles.x.empty()) out.plot.series.push_back(singles);
+  out.plot.title = fmt::format("{} {}: sigma_s' and sigma_a", r.material, r.channel);
+  out.plot.x = {"sigma_s' [1/mm]", false, s.value - kShown * s.std, s.value + kShown * s.std};
+  out.plot.y = {"sigma_a [1/mm]", false, a.value - kShown * a.std, a.value + kShown * a.std};
+  out.caption = fmt::format(
+      "{} {}: 95 % region of the answer (correlation {:.2f}); open: {} of {} shots' own answers, "
+      "those that lie within this plot.",
+      r.material, r.channel, e.correlation, singles.x.size(), r.singles.size());
   return {out};
 }
 

@@ -12,8 +12,8 @@ namespace scattermeter::apps {
 // answers. Nothing where the image was not asked for r(d).
 std::vector<PagePlot> reflectance_plots(const ChannelResult& result);
 
-// 95 % regions of (sigma_s', sigma_a) of a material's channels, with each shot's own answer.
-// Nothing without an answer.
-std::vector<PagePlot> ellipse_plots(const std::vector<const ChannelResult*>& channels);
+// 95 % region of (sigma_s', sigma_a), with each shot's own answer where it lies near. Nothing
+// without an answer.
+std::vector<PagePlot> ellipse_plots(const ChannelResult& result);
 
 }  // namespace scattermeter::apps

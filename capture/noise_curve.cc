@@ -7,8 +7,6 @@
 namespace scattermeter::capture {
 namespace {
 
-constexpr std::size_t kLeastTriples = 50;
-
 // Triples overlap: second differences a step apart correlate by -4/6, two steps apart by 1/6, so n
 // of them tell as much of a variance as n / (1 + 2 (16 + 1) / 36) independent ones.
 constexpr double kOverlap = 1.0 + 2.0 * 17.0 / 36.0;
@@ -49,7 +47,6 @@ std::array<std::vector<NoisePoint>, kRgb> noise_curve(const CfaSamples& samples,
   std::array<std::vector<NoisePoint>, kRgb> out;
   for (std::size_t channel = 0; channel < kRgb; ++channel) {
     for (const auto& [bin, sum] : bins[channel]) {
-      if (sum.triples < kLeastTriples) continue;
       const auto n = static_cast<double>(sum.triples);
       NoisePoint p = sum;
       p.mean_counts /= n;

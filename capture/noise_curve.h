@@ -19,7 +19,7 @@ struct NoisePoint {
   std::size_t triples = 0;
 };
 
-// By channel, in half octaves of the mean from 1 count on; only those with at least 50 triples.
+// By channel, in half octaves of the mean from 1 count on.
 // The variance is a sixth of the mean squared second difference of three neighbouring samples of
 // one filter phase on one row of the map, which is free of the light's slope. Clipped samples take
 // no part. Precondition (std::invalid_argument): the rectangles agree.

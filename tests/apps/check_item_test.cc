@@ -33,10 +33,17 @@ TEST(CheckItem, FailsBeyondTheLimitOnEitherSide) {
   EXPECT_EQ(low.where, "b");
 }
 
+TEST(CheckItem, AboveOnly) {
+  const CheckItem item =
+      judged("noise", "%", {30.0, false, true}, "", {detail("a", -90.0), detail("b", 4.0)});
+  EXPECT_TRUE(item.passed);
+  EXPECT_EQ(item.where, "b");
+}
+
 // A value that is only noise does not fail, however large, and the one that does is named before
 // it.
 TEST(CheckItem, ValuesWithinTheirDeviationsPass) {
-  const CheckLimit limit{5.0, false, 4.0};
+  const CheckLimit limit{5.0, false, false, 4.0};
   EXPECT_TRUE(judged("x", "%", limit, "", {detail("noisy", 20.0, 10.0)}).passed);
   const CheckItem item =
       judged("x", "%", limit, "", {detail("noisy", 20.0, 10.0), detail("sure", 6.0, 0.1)});

@@ -43,6 +43,7 @@ TEST(NoiseCurve, MeetsTheVarianceWithinItsDeviation) {
     for (const auto& channel : noise_curve(ramp.samples, ramp.map)) {
       ASSERT_GE(channel.size(), 4U);
       for (const NoisePoint& p : channel) {
+        if (p.triples < 50) continue;  // too few for a normal error
         EXPECT_NEAR(p.variance_counts2 / p.model_counts2, factor,
                     4.5 * p.variance_std_counts2 / p.model_counts2)
             << p.mean_counts;
