@@ -68,7 +68,8 @@ struct TaskSensitivity {
 // Fills the system's nuisances and their columns for the used rows of the shots (`rows`: one
 // observation a shot), in the order of stack(): place, exponent and power of every LED in use,
 // power of every environment, pose (six independent combinations of each pose's covariance), eta;
-// those with a standard deviation of 0 are left out.
+// with a radiance calibration each shot's black, the glare and the exposure times (shots of one
+// stated time share theirs); those with a standard deviation of 0 are left out.
 void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
                    const std::vector<ChannelObservation>& rows, std::size_t channel,
                    const std::map<LightKey, TaskSensitivity>& sensitivities, DenseSystem& system);
