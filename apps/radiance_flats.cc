@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/core.h>
 
 #include "apps/radiance_steps.h"
@@ -311,12 +312,16 @@ void find_response_and_noise(RadianceSteps& steps) {
       best = lamp;
     }
   }
+  // Independent errors of deviation 1 behind the covariance.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fit.joint_covariance);
+  const Eigen::MatrixXd shared = fit.light_rows * eigen.eigenvectors() *
+                                 eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   steps.light.resize(n_blocks);
   for (std::size_t k = 0; k < n_blocks; ++k) {
     const std::size_t place = best * n_blocks + k;
     if (!(information[place] > 0.0)) continue;
     steps.light[k] = {std::exp(fit.log_light_per_s[place]), 1.0 / information[place],
-                      n_of_place[place]};
+                      n_of_place[place], shared.row(static_cast<Eigen::Index>(place)).transpose()};
   }
 }
 

@@ -173,7 +173,7 @@ void find_vignetting(RadianceSteps& steps) {
     const auto c =
         static_cast<std::size_t>(steps.cfa.phase[static_cast<std::size_t>(steps.blocks[k].phase)]);
     lights.push_back({steps.blocks[k], c, l.per_s - correction.glare_share[c] * sum[c] / n[c],
-                      l.relative_variance * l.per_s * l.per_s});
+                      l.relative_variance * l.per_s * l.per_s, l.shared});
   }
   const calib::VignettingFit fit =
       calib::fit_vignetting(lights, correction.width_px, correction.height_px);

@@ -21,6 +21,7 @@ struct RadianceSteps {
     double per_s = 0;  // light of a block, counts a stated second; 0: unknown
     double relative_variance = 0;
     double samples = 0;
+    Eigen::VectorXd shared = {};  // calib::FlatLight::shared: curve and exposure times
   };
   std::vector<Light> light = {};             // of each block
   std::vector<double> settings_s = {};       // stated times, as in the next

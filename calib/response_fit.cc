@@ -41,6 +41,7 @@ struct ResponseSolution {
   Eigen::VectorXd x;
   Eigen::MatrixXd covariance;
   std::vector<double> log_light;
+  Eigen::MatrixXd light_rows;  // places x columns: d log_light / d x
   Eigen::VectorXd residual, weight;
 };
 
@@ -120,9 +121,13 @@ ResponseSolution solve_turn(const ResponseProblem& problem, const std::vector<do
                    ldlt.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols())).eval() *
                    scale.asDiagonal();
   out.log_light.assign(problem.n_places, std::numeric_limits<double>::quiet_NaN());
+  out.light_rows =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(problem.n_places), columns.size());
   for (std::size_t k = 0; k < problem.n_places; ++k) {
     const PlaceSums& p = places[k];
-    if (p.weight > 0.0) out.log_light[k] = (p.value - p.row.dot(out.x)) / p.weight;
+    if (!(p.weight > 0.0)) continue;
+    out.log_light[k] = (p.value - p.row.dot(out.x)) / p.weight;
+    out.light_rows.row(static_cast<Eigen::Index>(k)) = -p.row.transpose() / p.weight;
   }
   out.residual = value - rows * out.x;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -255,6 +260,9 @@ ResponseFit fit_response(const std::vector<FlatSample>& samples, const std::vect
   pick.topLeftCorner(n, n) = center;
   pick.bottomRightCorner(solution.columns.knots, solution.columns.knots).setIdentity();
   out.joint_covariance = widen * pick * solution.covariance * pick.transpose();
+  out.light_rows.resize(solution.light_rows.rows(), n + solution.columns.knots);
+  out.light_rows << solution.light_rows.leftCols(n),
+      solution.light_rows.rightCols(solution.columns.knots);
   out.log_light_per_s = solution.log_light;
   for (double& l : out.log_light_per_s) l += log_times.mean();
   out.ok = solution.x.allFinite() && out.curve_covariance.allFinite();

@@ -43,6 +43,8 @@ struct ResponseFit {
   // Of the settings' logs, then the knots' values: their errors largely cancel in the light of a
   // shot, log counts + G(counts) - e(setting).
   Eigen::MatrixXd joint_covariance;
+  // Places x (settings, knots): how a place's log light below moves with these.
+  Eigen::MatrixXd light_rows;
   // Per place: log of (light per stated second), the settings' mean error in it. NaN: never seen.
   std::vector<double> log_light_per_s;
   double shot_std = 0;  // by how much shots of one setting differ, relative (lamp, shutter)

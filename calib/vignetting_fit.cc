@@ -32,6 +32,7 @@ Terms mean_terms(const Block& b, const Vignetting& frame) {
 struct ColourBlocks {
   Eigen::MatrixXd terms;  // blocks x (1 + kTerms), the first column 1
   Eigen::VectorXd light, weight;
+  Eigen::MatrixXd shared;  // blocks x errors, in units of light
   std::vector<int> fold;
 };
 
@@ -79,11 +80,13 @@ VignettingFit fit_vignetting(const std::vector<FlatLight>& blocks, int width_px,
     of.terms.resize(n, 1 + kTerms);
     of.light.resize(n);
     of.weight.resize(n);
+    of.shared.resize(n, own.front()->shared.size());
     for (Eigen::Index i = 0; i < n; ++i) {
       const FlatLight& b = *own[static_cast<std::size_t>(i)];
       of.terms.row(i) << 1.0, mean_terms(b.block, out.vignetting).transpose();
       of.light[i] = b.light;
       of.weight[i] = 1.0 / b.variance;
+      of.shared.row(i) = b.light * b.shared.transpose();
       of.fold.push_back(static_cast<int>(i * 7 % (kFolds * 7) / 7 % kFolds));
     }
   }
@@ -158,7 +161,12 @@ VignettingFit fit_vignetting(const std::vector<FlatLight>& blocks, int width_px,
     // d factor / d (A, A factor).
     Eigen::MatrixXd j(m, m + 1);
     j << -factor / x[0], Eigen::MatrixXd::Identity(m, m) / x[0];
-    out.covariance[c] = widen * j * fits[c].covariance * j.transpose();
+    // Each shared error moves the answer as it moves the light.
+    const ColourBlocks& of = colours[c];
+    const Eigen::MatrixXd moved = fits[c].covariance * of.terms(Eigen::all, columns).transpose() *
+                                  of.weight.asDiagonal() * of.shared;
+    const Eigen::MatrixXd covariance = widen * fits[c].covariance + moved * moved.transpose();
+    out.covariance[c] = j * covariance * j.transpose();
     const auto radial = static_cast<std::ptrdiff_t>(out.n_radial);
     out.vignetting.radial[c].assign(factor.begin(), factor.begin() + radial);
     out.vignetting.map[c].assign(factor.begin() + radial, factor.end());

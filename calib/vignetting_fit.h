@@ -17,7 +17,10 @@ struct FlatLight {
   Block block;
   std::size_t colour = 0;
   double light = 0;     // > 0
-  double variance = 0;  // > 0
+  double variance = 0;  // > 0, of this block alone
+  // Relative changes by what blocks share: one for each of some independent errors of deviation 1,
+  // the same in number for all blocks; may be empty. Widens the covariance.
+  Eigen::VectorXd shared = {};
 };
 
 struct VignettingFit {
