@@ -4,7 +4,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <fmt/core.h>
 
+#include "apps/radiance_file.h"
 #include "core/dipole.h"
 #include "core/fresnel.h"
 #include "core/incident_light.h"
@@ -241,6 +243,28 @@ void add_light(const RowContext& c, const RigLight& light, double intensity,
   }
 }
 
+// What the radiance calibration leaves open: each shot's black, the glare, the shutter.
+void add_radiance(const RowContext& c, const ChannelObservation& o, std::size_t channel,
+                  double l_predicted, Columns& columns, Entries& entries) {
+  const OpenedShot& shot = c.shot;
+  if (!c.rig.camera.radiance) return;
+  const capture::RadianceCorrection& correction = c.rig.camera.radiance->correction;
+  if (shot.black_std_counts > 0.0) {
+    entries.emplace_back(
+        columns.at("black " + shot.rig->file, "black level", shot.black_std_counts),
+        o.l_per_count[c.row]);
+  }
+  if (correction.glare_std[channel] > 0.0) {
+    entries.emplace_back(columns.at("glare", "veiling glare", correction.glare_std[channel]),
+                         o.l_per_count[c.row] * shot.frame_mean_counts[channel]);
+  }
+  if (shot.exposure_relative_std > 0.0) {
+    entries.emplace_back(columns.at(fmt::format("exposure {:.4g}", shot.stated_exposure_s),
+                                    "exposure time", shot.exposure_relative_std),
+                         l_predicted);
+  }
+}
+
 void add_pose(const RowContext& c, double intensity, const TaskSensitivity& task, Columns& columns,
               Entries& entries) {
   const auto row = static_cast<Eigen::Index>(c.row);
@@ -261,9 +285,10 @@ void add_pose(const RowContext& c, double intensity, const TaskSensitivity& task
   }
 }
 
-Entries row_entries(const RowContext& c, std::size_t channel,
+Entries row_entries(const RowContext& c, const ChannelObservation& o, std::size_t channel,
                     const std::map<LightKey, TaskSensitivity>& sensitivities, Columns& columns) {
   Entries entries;
+  double l_predicted = 0.0;
   const double eta_std = c.shot.seen->object->rig->eta_std;
   for (const std::string& name : c.shot.rig->lights) {
     const RigLight& light = c.rig.light(name);
@@ -275,6 +300,7 @@ Entries row_entries(const RowContext& c, std::size_t channel,
       entries.emplace_back(columns.at(light.name + ".ambient", "ambient", ambient_std),
                            task.sensitivity->l(static_cast<Eigen::Index>(c.row), task.medium));
     }
+    l_predicted += intensity * task.sensitivity->l(static_cast<Eigen::Index>(c.row), task.medium);
     if (light.is_ambient) continue;
     if (light.calibrated) {
       add_calibrated(c, light, channel, intensity, task, columns, entries);
@@ -288,6 +314,7 @@ Entries row_entries(const RowContext& c, std::size_t channel,
           intensity * task.sensitivity->per_eta(static_cast<Eigen::Index>(c.row), task.medium));
     }
   }
+  add_radiance(c, o, channel, l_predicted, columns, entries);
   return entries;
 }
 
@@ -309,7 +336,7 @@ void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
     for (std::size_t j = 0; j < o.l.size(); ++j) {
       if (o.state[j] != RowState::kUsed) continue;
       entries.push_back(
-          row_entries({rig, *shot, j, root, led_root}, channel, sensitivities, columns));
+          row_entries({rig, *shot, j, root, led_root}, o, channel, sensitivities, columns));
     }
   }
   system.nuisances = columns.list();

@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "apps/rig_calibration.h"
+#include "apps/rig_sensor_truth.h"
 #include "calib/camera_model.h"
 #include "calib/charuco_board.h"
 #include "calib/led_uncertainty.h"
@@ -25,6 +26,8 @@
 #include "core/probe_projection.h"
 
 namespace scattermeter::apps {
+
+struct RadianceCalibration;  // apps/radiance_file.h
 
 // What is known of the sensor. Read by `simulate` to make raws and by `measure` for the noise;
 // black, white and filter phase of a measured raw come from the raw itself.
@@ -42,6 +45,9 @@ struct RigCamera {
   // Counts per (W/(mm^2 sr)) and second; absent: the scale is free.
   std::optional<std::array<double, 3>> responsivity;
   double responsivity_relative_std = 0.02;
+  // From `calibrate radiance`; absent: the raws are taken as they are. A responsivity in it stands
+  // above.
+  std::shared_ptr<const RadianceCalibration> radiance;
   RigSensor sensor;
   std::optional<double> exposure_s;  // simulate only; absent: chosen so that nothing clips
   int iso = 100;
@@ -105,6 +111,9 @@ struct RigShot {
   std::string material;
   std::vector<std::string> lights;
   std::optional<double> exposure_s;  // simulate only
+  // A bracket: further exposures of the same scene, merged with the first.
+  std::vector<std::string> more_files;
+  std::vector<double> more_exposures_s;  // of these; simulate only
   int line = 0;
 };
 
@@ -126,6 +135,7 @@ struct Rig {
   std::map<std::string, std::array<Medium, 3>>
       truth_materials;  // eta is the object's, not set here
   std::optional<RigTruthPose> truth_pose;
+  RigSensorTruth truth_sensor;
 
   const RigObject& object(const std::string& name) const;  // std::out_of_range
   const RigLight& light(const std::string& name) const;
@@ -139,6 +149,7 @@ struct Rig {
 // anything that is missing, of the wrong kind, out of range, not finite, unknown, given twice or
 // not referred to properly. Paths in the rig are relative to the rig's folder. Meshes are not
 // opened here.
-Rig read_rig(const std::string& path);
+// with_radiance off: camera.radiance is left out (`calibrate radiance` makes that file).
+Rig read_rig(const std::string& path, bool with_radiance = true);
 
 }  // namespace scattermeter::apps

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "apps/radiance_file.h"
 #include "apps/rig.h"
 #include "apps/rig_fields.h"
 #include "apps/rig_light_reader.h"
@@ -63,9 +65,9 @@ RigSensor read_sensor(const YamlField& field) {
   return s;
 }
 
-RigCamera read_camera(const YamlField& field, const std::string& rig_path) {
+RigCamera read_camera(const YamlField& field, const std::string& rig_path, bool with_radiance) {
   field.only({"model", "image_size_px", "intrinsics", "responsivity_counts_mm2_sr_per_W_s",
-              "responsivity_relative_std", "sensor", "exposure_s", "iso", "f_number"});
+              "responsivity_relative_std", "radiance", "sensor", "exposure_s", "iso", "f_number"});
   RigCamera camera;
   if (const auto f = field.find("model")) camera.model = f->text();
   const YamlField size = field.at("image_size_px");
@@ -83,6 +85,23 @@ RigCamera read_camera(const YamlField& field, const std::string& rig_path) {
   if (const auto f = field.find("responsivity_relative_std")) {
     if (!camera.responsivity) f->fail("is given without responsivity_counts_mm2_sr_per_W_s");
     camera.responsivity_relative_std = f->number(0.0, 10.0);
+  }
+  if (const auto f = field.find("radiance"); f && with_radiance) {
+    const std::string file = beside(rig_path, f->text());
+    auto radiance = std::make_shared<const RadianceCalibration>(read_radiance_file(file));
+    const capture::RadianceCorrection& c = radiance->correction;
+    if (c.width_px != camera.intrinsics.width_px || c.height_px != camera.intrinsics.height_px) {
+      f->fail("the calibration is of " + std::to_string(c.width_px) + " x " +
+              std::to_string(c.height_px) + " samples, not of camera.image_size_px");
+    }
+    if (radiance->responsivity) {
+      if (camera.responsivity) {
+        f->fail("holds a responsivity, and camera.responsivity_counts_mm2_sr_per_W_s another");
+      }
+      camera.responsivity = radiance->responsivity;
+      camera.responsivity_relative_std = radiance->responsivity_relative_std;
+    }
+    camera.radiance = std::move(radiance);
   }
   if (const auto f = field.find("sensor")) camera.sensor = read_sensor(*f);
   if (const auto f = field.find("exposure_s")) camera.exposure_s = f->positive();
@@ -191,7 +210,8 @@ RigShot read_shot(const YamlField& field, const Rig& rig) {
 }
 
 void read_truth(const YamlField& field, Rig& rig) {
-  field.only({"materials", "pose"});
+  field.only({"materials", "pose", "sensor"});
+  if (const auto sensor = field.find("sensor")) rig.truth_sensor = read_sensor_truth(*sensor);
   if (const auto materials = field.find("materials")) {
     for (const auto& [name, material] : materials->entries()) {
       material.only({"sigma_s_prime_per_mm", "sigma_a_per_mm"});
@@ -215,7 +235,7 @@ void read_truth(const YamlField& field, Rig& rig) {
 
 }  // namespace
 
-Rig read_rig(const std::string& path) {
+Rig read_rig(const std::string& path, bool with_radiance) {
   const YamlField top = YamlField::load(path);
   top.only(
       {"scattermeter_rig", "camera", "pose", "objects", "lights", "shots", "calibration", "truth"});
@@ -223,7 +243,7 @@ Rig read_rig(const std::string& path) {
   if (version.number() != 1.0) version.fail("this program reads rigs of version 1");
   Rig rig;
   rig.path = path;
-  rig.camera = read_camera(top.at("camera"), path);
+  rig.camera = read_camera(top.at("camera"), path, with_radiance);
   rig.pose = read_pose(top.at("pose"));
   for (const auto& [name, field] : top.at("objects").entries()) {
     rig.objects.push_back(read_object(name, field, path));
@@ -241,6 +261,15 @@ Rig read_rig(const std::string& path) {
   }
   if (rig.shots.empty()) shots.fail("expected at least one shot");
   if (const auto f = top.find("calibration")) rig.calibration = read_calibration(*f, path);
+  if (rig.calibration.radiance && rig.calibration.radiance->white) {
+    const std::string& name = rig.calibration.radiance->white->light;
+    const bool is_led = std::any_of(rig.lights.begin(), rig.lights.end(), [&](const RigLight& l) {
+      return l.name == name && !l.environment;
+    });
+    if (!is_led) {
+      top.at("calibration").at("radiance").at("white").at("light").fail("no such LED in lights");
+    }
+  }
   if (const auto truth = top.find("truth")) read_truth(*truth, rig);
   return rig;
 }

@@ -41,6 +41,11 @@ struct OpenedShot {
   double exposure_s = 0;
   double iso = 0;
   double f_number = 0;
+  // With a radiance calibration: what all samples of the shot share.
+  double black_std_counts = 0;
+  std::array<double, kRgb> frame_mean_counts{};  // of which glare is a share
+  double exposure_relative_std = 0;
+  double stated_exposure_s = 0;
 };
 
 // Patches and light of the rig's objects, shared by the shots.

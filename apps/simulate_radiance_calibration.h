@@ -11,7 +11,8 @@ namespace scattermeter::apps {
 
 // Writes the shots into `out_folder` (which exists); the paths of the files. None where the rig has
 // no calibration.radiance. Throws InputError for bad input.
-std::vector<std::string> simulate_radiance_calibration(const Rig& rig, const std::string& out_folder,
-                                                   const SimulateOptions& options);
+std::vector<std::string> simulate_radiance_calibration(const Rig& rig,
+                                                       const std::string& out_folder,
+                                                       const SimulateOptions& options);
 
 }  // namespace scattermeter::apps

@@ -1,9 +1,52 @@
 #include "apps/virtual_sensor.h"
 
+#include <array>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include <oneapi/tbb/parallel_for.h>
+
 #include "capture/decoded_frame.h"
 #include "capture/tone_curve.h"
+#include "core/cfa_samples.h"
+#include "core/input_error.h"
+#include "core/random_stream.h"
+#include "core/vignetting.h"
 
 namespace scattermeter::apps {
+namespace {
+
+constexpr std::uint64_t kHotPixelStream = 0x686f74;
+constexpr std::uint64_t kDriftStream = 0x6472696674;
+
+std::vector<std::pair<std::size_t, float>> hot_pixels(const RigSensorTruth& truth,
+                                                      std::size_t n_pixels) {
+  std::vector<std::pair<std::size_t, float>> out;
+  if (!(truth.hot_pixel_share > 0.0)) return out;
+  RandomStream random(truth.hot_pixel_seed, kHotPixelStream);
+  std::normal_distribution<double> normal;
+  std::mt19937_64 spread(random.bits());
+  // Gaps between hot pixels are geometric.
+  const double log_rest = std::log1p(-truth.hot_pixel_share);
+  double at = -1.0;
+  for (;;) {
+    at += 1.0 + std::floor(std::log(random.uniform()) / log_rest);
+    if (!(at < static_cast<double>(n_pixels))) return out;
+    out.emplace_back(
+        static_cast<std::size_t>(at),
+        static_cast<float>(truth.hot_pixel_counts_per_s * std::exp(0.5 * normal(spread))));
+  }
+}
+
+}  // namespace
+
+VirtualSensor::VirtualSensor(const Rig& rig, bool noise)
+    : rig_(rig),
+      noise_(noise),
+      hot_(hot_pixels(rig.truth_sensor,
+                      static_cast<std::size_t>(rig.camera.intrinsics.width_px) *
+                          static_cast<std::size_t>(rig.camera.intrinsics.height_px))) {}
 
 // FNV-1a (Fowler, Noll, Vo), 64 bits.
 std::uint64_t VirtualSensor::stream(std::uint64_t seed, const std::string& file) {
@@ -12,10 +55,96 @@ std::uint64_t VirtualSensor::stream(std::uint64_t seed, const std::string& file)
   return hash ^ (seed * 0x9e3779b97f4a7c15ULL);
 }
 
-std::vector<std::uint16_t> VirtualSensor::codes(const std::vector<float>& signal_counts,
-                                                double /*stated_s*/, std::uint64_t stream) const {
+double VirtualSensor::true_exposure_s(double stated_s) const {
+  for (const TrueExposure& e : rig_.truth_sensor.exposures) {
+    if (std::abs(e.stated_s - stated_s) < 1e-6 * stated_s) return e.true_s;
+  }
+  if (!rig_.truth_sensor.shutter_in_thirds) return stated_s;
+  return std::exp2(std::round(3.0 * std::log2(stated_s)) / 3.0);
+}
+
+std::vector<float> VirtualSensor::signal_counts(const std::vector<float>& radiance_W_per_mm2_sr,
+                                                double stated_s) const {
+  if (!rig_.camera.responsivity) {
+    throw InputError(rig_.path + ": camera.responsivity_counts_mm2_sr_per_W_s",
+                     "is missing: shots of a calibration cannot be simulated without it");
+  }
+  std::array<float, 4> factor{};
+  for (std::size_t p = 0; p < 4; ++p) {
+    const auto c = static_cast<std::size_t>(rig_.camera.sensor.cfa.phase[p]);
+    factor[p] = static_cast<float>((*rig_.camera.responsivity)[c] * stated_s);
+  }
+  const int width = rig_.camera.intrinsics.width_px;
+  std::vector<float> out = radiance_W_per_mm2_sr;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto x = static_cast<int>(i % static_cast<std::size_t>(width));
+    const auto y = static_cast<int>(i / static_cast<std::size_t>(width));
+    out[i] *= factor[cfa_phase(x, y)];
+  }
+  return out;
+}
+
+std::vector<float> VirtualSensor::on_sensor(std::vector<float> signal, double stated_s) const {
+  const RigSensorTruth& truth = rig_.truth_sensor;
   const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
-  return capture::expose(signal_counts, k.width_px, k.height_px, model(), stream);
+  const auto width = static_cast<std::size_t>(k.width_px);
+  const auto height = static_cast<std::size_t>(k.height_px);
+  if (signal.size() != width * height) {
+    throw std::invalid_argument("VirtualSensor: " + std::to_string(width * height) +
+                                " values expected, got " + std::to_string(signal.size()));
+  }
+  const double true_s = true_exposure_s(stated_s);
+  Vignetting vignetting = vignetting_of_frame(k.width_px, k.height_px);
+  vignetting.radial = truth.vignetting_radial;
+  if (true_s != stated_s || !vignetting.is_identity()) {
+    tbb::parallel_for(std::size_t{0}, height, [&](std::size_t y) {
+      for (std::size_t x = 0; x < width; ++x) {
+        const auto c = static_cast<std::size_t>(
+            rig_.camera.sensor.cfa.at(static_cast<int>(x), static_cast<int>(y)));
+        signal[y * width + x] *=
+            static_cast<float>(true_s / stated_s *
+                               vignetting.share(static_cast<double>(x), static_cast<double>(y), c));
+      }
+    });
+  }
+  std::array<float, 4> added{};
+  added.fill(static_cast<float>(truth.dark_current_counts_per_s * true_s));
+  if (truth.veiling_glare > 0.0) {
+    std::array<double, 4> sum{};
+    std::array<double, 3> colour_sum{}, n{};
+    for (std::size_t i = 0; i < signal.size(); ++i) {
+      sum[cfa_phase(static_cast<int>(i % width), static_cast<int>(i / width))] +=
+          static_cast<double>(signal[i]);
+    }
+    const double of_phase = 0.25 * static_cast<double>(signal.size());
+    for (std::size_t p = 0; p < 4; ++p) {
+      const auto c = static_cast<std::size_t>(rig_.camera.sensor.cfa.phase[p]);
+      colour_sum[c] += sum[p];
+      n[c] += of_phase;
+    }
+    for (std::size_t p = 0; p < 4; ++p) {
+      const auto c = static_cast<std::size_t>(rig_.camera.sensor.cfa.phase[p]);
+      added[p] += static_cast<float>(truth.veiling_glare * colour_sum[c] / n[c]);
+    }
+  }
+  for (std::size_t i = 0; i < signal.size(); ++i) {
+    signal[i] += added[cfa_phase(static_cast<int>(i % width), static_cast<int>(i / width))];
+  }
+  for (const auto& [pixel, rate] : hot_) signal[pixel] += rate * static_cast<float>(true_s);
+  return signal;
+}
+
+std::vector<std::uint16_t> VirtualSensor::codes(const std::vector<float>& signal_counts,
+                                                double stated_s, std::uint64_t stream) const {
+  capture::SensorModel sensor = model();
+  if (noise_ && rig_.truth_sensor.black_drift_counts > 0.0) {
+    std::mt19937_64 generator(RandomStream(stream, kDriftStream).bits());
+    sensor.black_offset_counts =
+        rig_.truth_sensor.black_drift_counts * std::normal_distribution<double>()(generator);
+  }
+  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
+  return capture::expose(on_sensor(signal_counts, stated_s), k.width_px, k.height_px, sensor,
+                         stream);
 }
 
 capture::RawFrame VirtualSensor::frame(const std::vector<float>& signal_counts, double stated_s,
@@ -40,6 +169,7 @@ capture::SensorModel VirtualSensor::model() const {
   sensor.white_counts = from.white_counts;
   if (from.nef_lossy_curve) sensor.tone_curve = capture::nef_lossy_curve();
   sensor.noise_on = noise_;
+  sensor.departure_at_white = rig_.truth_sensor.non_linearity;
   return sensor;
 }
 

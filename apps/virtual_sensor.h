@@ -12,11 +12,14 @@
 
 namespace scattermeter::apps {
 
-// Exposes whole pictures as the rig's camera does. The rig must outlive it. Everything may be
-// called from several threads at once.
+// Exposes whole pictures as the rig's camera does, with what truth.sensor says: light takes the
+// true exposure time, the vignetting, then the glare (every pixel gets the stated share of the
+// frame's mean of its colour); dark current and hot pixels join; photon noise, departure from
+// linearity, read noise, black and its drift, codes. Without truth.sensor: noise and codes only.
+// The rig must outlive it. Everything may be called from several threads at once.
 class VirtualSensor {
  public:
-  VirtualSensor(const Rig& rig, bool noise) : rig_(rig), noise_(noise) {}
+  VirtualSensor(const Rig& rig, bool noise);
 
   // A stream of random numbers for one shot. By name: for files, whatever else is made with them.
   static std::uint64_t stream(std::uint64_t seed, std::size_t shot) {
@@ -24,8 +27,15 @@ class VirtualSensor {
   }
   static std::uint64_t stream(std::uint64_t seed, const std::string& file);
 
-  // One exposure of a signal (counts above black, in the channel of each pixel's filter); width_px
-  // * height_px values of the camera's frame (std::invalid_argument).
+  double true_exposure_s(double stated_s) const;
+  // Counts above black per pixel, in the channel of its filter, for the stated exposure time, with
+  // nothing of the above: responsivity * radiance * stated_s.
+  // Throws InputError where the rig has no responsivity.
+  std::vector<float> signal_counts(const std::vector<float>& radiance_W_per_mm2_sr,
+                                   double stated_s) const;
+
+  // One exposure of such a signal; width_px * height_px values of the camera's frame
+  // (std::invalid_argument).
   std::vector<std::uint16_t> codes(const std::vector<float>& signal_counts, double stated_s,
                                    std::uint64_t stream) const;
   // As the raw reader delivers the written file (exceptions: capture/decoded_frame.h).
@@ -39,8 +49,11 @@ class VirtualSensor {
   capture::DngMetadata metadata(double stated_s) const;
 
  private:
+  std::vector<float> on_sensor(std::vector<float> signal_counts, double stated_s) const;
+
   const Rig& rig_;
   bool noise_;
+  std::vector<std::pair<std::size_t, float>> hot_;  // pixel, counts per s
 };
 
 }  // namespace scattermeter::apps

@@ -6,7 +6,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/progress.h"
-#include "capture/decoded_frame.h"
 #include "capture/ideal_samples.h"
 #include "capture/tone_curve.h"
 
@@ -15,13 +14,11 @@ namespace {
 
 constexpr double kExposedTo = 0.75;  // of the range, for a chosen exposure
 
-std::uint64_t stream_of(std::uint64_t seed, std::size_t shot) { return seed * 1'000'003ULL + shot; }
-
 }  // namespace
 
 VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& scenes,
                            const VirtualShotOptions& options)
-    : rig_(rig), options_(options) {
+    : rig_(rig), options_(options), sensor_(rig, options.noise) {
   ShotRenderer renderer(rig, scenes, options.transport);
   Eigen::Array3d brightest = Eigen::Array3d::Zero();
   Progress progress("rendering", static_cast<int>(rig.shots.size()), options.quiet);
@@ -73,35 +70,6 @@ void VirtualShots::choose_exposure(const Eigen::Array3d& brightest) {
   }
 }
 
-capture::SensorModel VirtualShots::sensor() const {
-  const RigSensor& from = rig_.camera.sensor;
-  capture::SensorModel sensor;
-  sensor.noise = from.noise;
-  sensor.black_counts = from.black_counts;
-  sensor.white_counts = from.white_counts;
-  if (from.nef_lossy_curve) sensor.tone_curve = capture::nef_lossy_curve();
-  sensor.noise_on = options_.noise;
-  return sensor;
-}
-
-capture::DngMetadata VirtualShots::metadata(std::size_t shot) const {
-  const RigCamera& camera = rig_.camera;
-  capture::DngMetadata metadata;
-  // "NIKON D80" is model D80 by NIKON; cameras write both tags with the maker's name in the model.
-  if (!camera.model.empty()) {
-    metadata.model = camera.model;
-    metadata.make = camera.model.substr(0, camera.model.find(' '));
-  }
-  metadata.cfa = camera.sensor.cfa;
-  metadata.black_counts = camera.sensor.black_counts;
-  metadata.white_counts = camera.sensor.white_counts;
-  metadata.exposure_s = exposure_s(shot);
-  metadata.iso = camera.iso;
-  metadata.f_number = camera.f_number;
-  metadata.linearization_table = sensor().tone_curve;
-  return metadata;
-}
-
 std::vector<float> VirtualShots::whole_signal_counts(std::size_t shot) const {
   const LinearPicture& p = picture(shot);
   const auto width = static_cast<std::ptrdiff_t>(rig_.camera.intrinsics.width_px);
@@ -114,19 +82,18 @@ std::vector<float> VirtualShots::whole_signal_counts(std::size_t shot) const {
 }
 
 std::vector<std::uint16_t> VirtualShots::codes(std::size_t shot, std::uint64_t seed) const {
-  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
-  return capture::expose(whole_signal_counts(shot), k.width_px, k.height_px, sensor(),
-                         stream_of(seed, shot));
+  return sensor_.codes(whole_signal_counts(shot), exposure_s(shot),
+                       VirtualSensor::stream(seed, shot));
 }
 
 capture::RawFrame VirtualShots::frame(std::size_t shot, std::uint64_t seed) const {
-  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
-  return capture::decoded_frame(k.width_px, k.height_px, codes(shot, seed), metadata(shot));
+  return sensor_.frame(whole_signal_counts(shot), exposure_s(shot),
+                       VirtualSensor::stream(seed, shot));
 }
 
 void VirtualShots::write(std::size_t shot, std::uint64_t seed, const std::string& path) const {
-  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
-  capture::write_dng(path, k.width_px, k.height_px, codes(shot, seed), metadata(shot));
+  sensor_.write(path, whole_signal_counts(shot), exposure_s(shot),
+                VirtualSensor::stream(seed, shot));
 }
 
 CfaSamples VirtualShots::ideal_samples(std::size_t shot, int x0, int y0, int width,
@@ -142,8 +109,8 @@ CfaSamples VirtualShots::ideal_samples(std::size_t shot, int x0, int y0, int wid
     const auto to = static_cast<std::ptrdiff_t>(y - y0) * width + (from_x - x0);
     std::copy_n(p.counts.begin() + from, to_x - from_x, part.begin() + to);
   }
-  return capture::ideal_samples(part, x0, y0, width, height, sensor(), rig_.camera.sensor.cfa,
-                                exposure_s(shot));
+  return capture::ideal_samples(part, x0, y0, width, height, sensor_.model(),
+                                rig_.camera.sensor.cfa, exposure_s(shot));
 }
 
 }  // namespace scattermeter::apps

@@ -9,9 +9,8 @@
 #include "apps/object_scene.h"
 #include "apps/rig.h"
 #include "apps/shot_renderer.h"
-#include "capture/dng_writer.h"
+#include "apps/virtual_sensor.h"
 #include "capture/raw_frame.h"
-#include "capture/sensor.h"
 #include "core/cfa_samples.h"
 
 namespace scattermeter::apps {
@@ -58,16 +57,15 @@ class VirtualShots {
   // Writes the 12-bit DNG; it appears complete or not at all. Throws InputError naming the file.
   void write(std::size_t shot, std::uint64_t seed, const std::string& path) const;
 
-  // A rectangle of the frame as a sensor without noise and rounding sees it.
+  // A rectangle of the frame as a sensor without noise, rounding and truth.sensor sees it.
   CfaSamples ideal_samples(std::size_t shot, int x0, int y0, int width, int height) const;
 
  private:
   void choose_exposure(const Eigen::Array3d& brightest);
-  capture::SensorModel sensor() const;
-  capture::DngMetadata metadata(std::size_t shot) const;
 
   const Rig& rig_;
   VirtualShotOptions options_;
+  VirtualSensor sensor_;
   std::vector<LinearPicture> pictures_;
   std::vector<double> exposure_s_;
   std::array<double, 3> responsivity_{};

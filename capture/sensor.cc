@@ -32,6 +32,11 @@ void check(const SensorModel& sensor) {
   if (sensor.white_counts < 1 || sensor.white_counts > 65535) {
     refuse("white_counts must lie in 1 .. 65535, got " + std::to_string(sensor.white_counts));
   }
+  if (!(std::abs(sensor.departure_at_white) < 0.5)) {
+    refuse("departure_at_white must lie within 0.5, got " +
+           std::to_string(sensor.departure_at_white));
+  }
+  if (!std::isfinite(sensor.black_offset_counts)) refuse("black_offset_counts must be finite");
   if (!std::is_sorted(sensor.tone_curve.begin(), sensor.tone_curve.end())) {
     refuse("tone_curve must ascend");
   }
@@ -48,10 +53,23 @@ std::vector<std::uint16_t> code_table(const SensorModel& sensor) {
   return codes;
 }
 
+// Light in counts to counts.
+struct Departure {
+  double per_count = 0;
+  double operator()(double counts) const { return counts * (1.0 + per_count * counts); }
+};
+
+Departure departure_of(const SensorModel& sensor) {
+  const int black = *std::min_element(sensor.black_counts.begin(), sensor.black_counts.end());
+  return {sensor.departure_at_white / std::max(1, sensor.white_counts - black)};
+}
+
 // The noise of one row.
 class RowNoise {
  public:
-  RowNoise(const SensorNoise& noise, std::uint64_t seed, std::uint64_t row) : noise_(noise) {
+  RowNoise(const SensorNoise& noise, const Departure& departure, std::uint64_t seed,
+           std::uint64_t row)
+      : noise_(noise), departure_(departure) {
     // The sequence mixes all of its words into the whole state: neighbouring rows are unrelated.
     std::seed_seq words{seed & 0xffffffffU, seed >> 32U, row & 0xffffffffU, row >> 32U};
     generator_.seed(words);
@@ -60,7 +78,7 @@ class RowNoise {
   double draw(double signal_counts) {
     const double electrons = signal_counts * noise_.gain_e_per_count;
     const double read = noise_.read_noise_counts * normal_(generator_);
-    return photon(electrons) / noise_.gain_e_per_count + read;
+    return departure_(photon(electrons) / noise_.gain_e_per_count) + read;
   }
 
  private:
@@ -71,6 +89,7 @@ class RowNoise {
   }
 
   SensorNoise noise_;
+  Departure departure_;
   std::mt19937_64 generator_;
   std::normal_distribution<double> normal_;
 };
@@ -96,15 +115,16 @@ std::vector<std::uint16_t> expose(const std::vector<float>& signal_counts, int w
   }
 
   const std::vector<std::uint16_t> codes = code_table(sensor);
+  const Departure departure = departure_of(sensor);
   const auto width = static_cast<std::size_t>(width_px);
   std::vector<std::uint16_t> stored(signal_counts.size());
   const auto expose_row = [&](std::size_t y) {
-    RowNoise noise(sensor.noise, seed, y);
+    RowNoise noise(sensor.noise, departure, seed, y);
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t i = y * width + x;
       const double signal = signal_counts[i];
-      const double counts = (sensor.noise_on ? noise.draw(signal) : signal) +
-                            sensor.black_counts[2 * (y % 2) + x % 2];
+      const double counts = (sensor.noise_on ? noise.draw(signal) : departure(signal)) +
+                            sensor.black_counts[2 * (y % 2) + x % 2] + sensor.black_offset_counts;
       const double clipped = std::clamp(std::round(counts), 0.0, double(sensor.white_counts));
       stored[i] = codes[static_cast<std::size_t>(clipped)];
     }

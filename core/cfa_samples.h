@@ -16,6 +16,10 @@ inline std::size_t cfa_phase(int x, int y) {
   return 2 * (static_cast<std::size_t>(y) & 1U) + (static_cast<std::size_t>(x) & 1U);
 }
 
+// Why a sample is not used.
+inline constexpr std::uint8_t kSampleClipped = 1;  // the light was at least as bright
+inline constexpr std::uint8_t kSampleDefect = 2;   // says nothing: a hot pixel
+
 // A rectangle of samples of one shot. Pixel (x, y) counts from the first sample of the active area.
 struct CfaSamples {
   int x0 = 0, y0 = 0, width = 0, height = 0;  // the rectangle, px
@@ -23,7 +27,7 @@ struct CfaSamples {
   double exposure_s = 0;
   std::vector<float> signal_counts;     // above black; row by row; may be negative by noise
   std::vector<float> variance_counts2;  // of the same
-  std::vector<std::uint8_t> clipped;    // 1: at the top of the range; its signal means nothing
+  std::vector<std::uint8_t> clipped;    // 0, or one of the above; its signal means nothing
   // Samples below this many counts above black are cut at zero by the camera; 0 when black lies
   // high enough for the noise to swing both ways.
   double floor_counts = 0;

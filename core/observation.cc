@@ -47,6 +47,7 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
       const Monomials from_origin = monomials_at(Eigen::Vector2i(x, y) - origin[row]);
       place[row] += from_origin;
       Sum& s = sums[c][row];
+      if (samples.clipped[i] == kSampleDefect) continue;
       ++out.channel[c].samples;
       if (samples.clipped[i] != 0) {
         ++s.clipped;
@@ -79,6 +80,7 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
     channel.l.assign(n_rows, 0.0);
     channel.variance.assign(n_rows, 0.0);
     channel.variance_per_l.assign(n_rows, 0.0);
+    channel.l_per_count.assign(n_rows, 0.0);
     channel.state.assign(n_rows, RowState::kNoSamples);
     if (scatter[c].expected > 0.0) channel.noise_ratio = scatter[c].squared / scatter[c].expected;
     const double unit = 1.0 / (responsivity[c] * samples.exposure_s);
@@ -113,6 +115,7 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
       // Samples of l / (unit factor) counts: sum of factor^2 variance_per_count l / (unit factor).
       channel.variance_per_l[row] =
           unit * samples.variance_per_count * s.factor / (n * n) * mean.spread;
+      channel.l_per_count[row] = unit * s.factor / n;
       channel.state[row] = RowState::kUsed;
       channel.brightest_snr =
           std::max(channel.brightest_snr, channel.l[row] / std::sqrt(channel.variance[row]));

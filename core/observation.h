@@ -30,6 +30,7 @@ struct ChannelObservation {
   std::vector<double> l;         // per row, W/mm^2 for known responsivity, else up to one factor
   std::vector<double> variance;  // of l, from the samples' variances
   std::vector<double> variance_per_l;  // growth of the variance with l (photon noise), W/mm^2
+  std::vector<double> l_per_count;     // mean over the row: a count more in every sample, W/mm^2
   std::vector<RowState> state;
   std::size_t rows_used = 0;
   std::size_t rows_clipped = 0;
@@ -47,6 +48,7 @@ struct Observation {
   std::array<ChannelObservation, kRgb> channel;
 };
 
+// Clipped samples take their row out, defect ones only themselves.
 // responsivity: counts per (W/(mm^2 sr)) and second, per channel, > 0.
 // Preconditions (std::invalid_argument): the rectangles of map and samples agree, exposure > 0.
 Observation observe(const CfaSamples& samples, const SampleMap& map,

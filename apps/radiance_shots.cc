@@ -1,0 +1,130 @@
+#include "apps/radiance_shots.h"
+
+#include <algorithm>
+
+#include "apps/shot_pose.h"
+#include "apps/white_plane.h"
+#include "calib/white_scale.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+std::vector<float> even_picture(const Rig& rig, const std::array<double, 3>& radiance) {
+  const calib::CameraIntrinsics& k = rig.camera.intrinsics;
+  std::vector<float> out;
+  out.reserve(static_cast<std::size_t>(k.width_px) * static_cast<std::size_t>(k.height_px));
+  for (int y = 0; y < k.height_px; ++y) {
+    for (int x = 0; x < k.width_px; ++x) {
+      out.push_back(
+          static_cast<float>(radiance[static_cast<std::size_t>(rig.camera.sensor.cfa.at(x, y))]));
+    }
+  }
+  return out;
+}
+
+std::vector<float> white_picture(const Rig& rig, const RigWhite& white) {
+  CameraView view{rig.camera.intrinsics, {}};
+  if (rig.truth_pose) {
+    view.camera_from_world =
+        look_at(rig.truth_pose->position_mm, rig.truth_pose->look_at_mm, rig.truth_pose->up);
+  } else {
+    view.camera_from_world = pose_from_points(rig).camera_from_world;
+  }
+  const Led& led = rig.light(white.light).led;
+  std::vector<float> out = even_picture(rig, {0, 0, 0});
+  const Eigen::Vector3d normal = white_normal(white);
+  for (const WhitePixel& p : white_pixels(white, view, 0.0)) {
+    const auto width = static_cast<std::size_t>(rig.camera.intrinsics.width_px);
+    const auto c = static_cast<std::size_t>(rig.camera.sensor.cfa.at(
+        static_cast<int>(p.pixel % width), static_cast<int>(p.pixel / width)));
+    out[p.pixel] =
+        static_cast<float>(white.albedo[c] * led.intensity_W_per_sr[static_cast<Eigen::Index>(c)] *
+                           calib::white_radiance_per_intensity(led, p.point_mm, normal));
+  }
+  return out;
+}
+
+std::vector<float> glare_picture(const Rig& rig, const RigGlare& glare) {
+  const PixelRect& r = *glare.bright_px;
+  const calib::CameraIntrinsics& k = rig.camera.intrinsics;
+  std::vector<float> out = even_picture(rig, {0, 0, 0});
+  for (int y = r.y; y < std::min(r.y + r.height, k.height_px); ++y) {
+    for (int x = r.x; x < std::min(r.x + r.width, k.width_px); ++x) {
+      out[static_cast<std::size_t>(y) * static_cast<std::size_t>(k.width_px) +
+          static_cast<std::size_t>(x)] =
+          static_cast<float>(glare.bright_radiance_W_per_mm2_sr[static_cast<std::size_t>(
+              rig.camera.sensor.cfa.at(x, y))]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<RadianceShot> all_radiance_shots(const RigRadianceCalibration& radiance) {
+  std::vector<RadianceShot> out = radiance.dark;
+  out.insert(out.end(), radiance.flats.begin(), radiance.flats.end());
+  if (radiance.white) {
+    out.insert(out.end(), radiance.white->shots.begin(), radiance.white->shots.end());
+  }
+  if (radiance.glare) {
+    out.insert(out.end(), radiance.glare->shots.begin(), radiance.glare->shots.end());
+  }
+  return out;
+}
+
+RadianceShots::RadianceShots(const Rig& rig, bool noise) : rig_(rig), sensor_(rig, noise) {
+  const RigRadianceCalibration& radiance = *rig.calibration.radiance;
+  for (const RadianceShot& shot : all_radiance_shots(radiance)) exposure_s(shot);
+  if (!radiance.flat_radiance_W_per_mm2_sr) {
+    throw InputError(rig.at(radiance.line) + ": calibration.radiance.flat_radiance_W_per_mm2_sr",
+                     "is missing: simulate needs it");
+  }
+  for (const RadianceShot& shot : radiance.flats) lamp_[shot.file] = shot.lamp;
+  if (radiance.white) {
+    white_ = white_picture(rig, *radiance.white);
+    for (const RadianceShot& shot : radiance.white->shots) picture_of_[shot.file] = &white_;
+  }
+  if (radiance.glare) {
+    if (!radiance.glare->bright_px) {
+      throw InputError(rig.at(radiance.glare->line) + ": calibration.radiance.glare.bright_px",
+                       "is missing: simulate needs it");
+    }
+    glare_ = glare_picture(rig, *radiance.glare);
+    for (const RadianceShot& shot : radiance.glare->shots) picture_of_[shot.file] = &glare_;
+  }
+}
+
+double RadianceShots::exposure_s(const RadianceShot& shot) const {
+  if (shot.exposure_s) return *shot.exposure_s;
+  if (rig_.camera.exposure_s) return *rig_.camera.exposure_s;
+  throw InputError(rig_.at(shot.line) + ": exposure_s",
+                   "is missing: simulate needs it of " + shot.file);
+}
+
+std::vector<float> RadianceShots::signal_counts(const RadianceShot& shot) const {
+  if (const auto picture = picture_of_.find(shot.file); picture != picture_of_.end()) {
+    return sensor_.signal_counts(*picture->second, exposure_s(shot));
+  }
+  std::array<double, 3> light{};
+  if (const auto lamp = lamp_.find(shot.file); lamp != lamp_.end()) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      light[c] = lamp->second * (*rig_.calibration.radiance->flat_radiance_W_per_mm2_sr)[c];
+    }
+  }
+  return sensor_.signal_counts(even_picture(rig_, light), exposure_s(shot));
+}
+
+capture::RawFrame RadianceShots::frame(const RadianceShot& shot, std::uint64_t seed) const {
+  return sensor_.frame(signal_counts(shot), exposure_s(shot),
+                       VirtualSensor::stream(seed, shot.file));
+}
+
+void RadianceShots::write(const RadianceShot& shot, std::uint64_t seed,
+                          const std::string& path) const {
+  sensor_.write(path, signal_counts(shot), exposure_s(shot),
+                VirtualSensor::stream(seed, shot.file));
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,41 @@
+// How a sensor's counts depart from being proportional to light.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace scattermeter {
+
+// light = y exp(G(y)), both in counts above black: y as recorded, light as a sensor would record it
+// that stays as sensitive as this one is in the limit of no light. G is the polynomial through
+// (0, 0) and the knots. A sensor that records 1 % too little at its top has G = +0.01 there.
+// Without knots G is 0. Domain: 0 .. the last knot; beyond, the polynomial goes on (it is not to be
+// trusted far), below 0 G is that of 0.
+class ResponseCurve {
+ public:
+  ResponseCurve() = default;
+  // At most four knots, counts ascending and positive, values finite: std::invalid_argument.
+  ResponseCurve(std::vector<double> knot_counts, std::vector<double> log_ratio);
+
+  const std::vector<double>& knot_counts() const { return knot_counts_; }
+  const std::vector<double>& log_ratio() const { return log_ratio_; }
+  bool is_identity() const { return knot_counts_.empty(); }
+
+  // G and dG/dy.
+  double log_ratio_at(double recorded_counts) const;
+  double slope_at(double recorded_counts) const;
+  double light_counts(double recorded_counts) const;
+  // d light / d recorded.
+  double gain_at(double recorded_counts) const;
+
+  // G at a place as a weighted sum of the knots' values: Lagrange's polynomials, one per knot.
+  static Eigen::RowVectorXd weights(const std::vector<double>& knot_counts, double recorded_counts);
+
+ private:
+  std::vector<double> knot_counts_;
+  std::vector<double> log_ratio_;
+  Eigen::VectorXd monomial_;  // G = sum over k of monomial_[k] (y / last knot)^(k + 1)
+};
+
+}  // namespace scattermeter

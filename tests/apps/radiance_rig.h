@@ -1,0 +1,20 @@
+// A small rig whose radiance calibration is simulated in memory.
+#pragma once
+
+#include <string>
+
+#include "apps/calibrate_radiance.h"
+#include "apps/radiance_shots.h"
+#include "apps/rig.h"
+
+namespace scattermeter::apps {
+
+// 120 x 80 pixels; dark frames, pairs of flats at two lamps and seven times, a bracket of a white
+// plane, a glare shot; a camera with everything that truth.sensor knows.
+Rig radiance_rig();
+
+// The seed's shots through calibrate_radiance(): the camera is truth's, what is told to the
+// calibration is rig's.
+RadianceResult calibrated(const Rig& rig, const Rig& truth, std::uint64_t seed);
+
+}  // namespace scattermeter::apps
