@@ -110,6 +110,8 @@ CalibratedLed read_led_calibration_file(const std::string& path) {
   }
   led.intensity_W_per_sr = {rgb[0], rgb[1], rgb[2]};
 
+  out.responsivity = positive_rgb(top.at("responsivity_counts_mm2_sr_per_W_s"));
+
   calib::LedUncertainty& u = out.uncertainty;
   const YamlField tangents = top.at("axis_tangents");
   const std::vector<YamlField> two = tangents.items();

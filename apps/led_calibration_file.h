@@ -1,6 +1,7 @@
 // The file that `calibrate led` writes and a rig's light names as its calibration.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "apps/led_calibration.h"
@@ -18,6 +19,8 @@ std::string led_calibration_yaml(const LedCalibration& calibration);
 struct CalibratedLed {
   Led led;
   calib::LedUncertainty uncertainty;
+  // Counts mm^2 sr / (W s) that the intensities count for: only the product matters.
+  std::array<double, 3> responsivity{};
 };
 
 // Throws InputError with file, line, field and value.

@@ -7,9 +7,9 @@
 
 #include "apps/raw_shot.h"
 #include "apps/shot_pose.h"
+#include "apps/shot_samples.h"
 #include "calib/highlight.h"
 #include "calib/plane_cells.h"
-#include "capture/linear_samples.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
@@ -19,9 +19,9 @@ struct Rectangle {
   int x0, y0, width, height;
 };
 
-CfaSamples samples_of(const Rig& rig, const capture::RawFrame& frame, const Rectangle& r) {
-  return capture::linear_samples(frame, rig.camera.sensor.noise, frame.exposure_s, r.x0, r.y0,
-                                 r.width, r.height);
+CfaSamples samples_of(const Rig& rig, const RigLedShot& shot, const capture::RawFrame& frame,
+                      const Rectangle& r) {
+  return shot_samples(rig, frame, shot.file, r.x0, r.y0, r.width, r.height).samples;
 }
 
 void read_spheres(const Rig& rig, const RigLedShot& shot, const capture::RawFrame& frame,
@@ -36,7 +36,7 @@ void read_spheres(const Rig& rig, const RigLedShot& shot, const capture::RawFram
       continue;
     }
     const calib::FoundHighlight found = calib::find_highlight(
-        samples_of(rig, frame, {image.x0, image.y0, image.width, image.height}), image);
+        samples_of(rig, shot, frame, {image.x0, image.y0, image.width, image.height}), image);
     if (!found.problem.empty()) {
       out.notes.push_back(name + ": " + found.problem);
       continue;
@@ -56,9 +56,9 @@ void read_plane(const Rig& rig, const RigLedShot& shot, const capture::RawFrame&
     throw InputError(where,
                      fmt::format("plane {} is out of view or seen from behind", shot.plane + 1));
   }
-  calib::PlaneCells cells =
-      calib::plane_cells(samples_of(rig, frame, {image.x0, image.y0, image.width, image.height}),
-                         rig.camera.intrinsics, pose, plane, out.responsivity, view, shot.plane);
+  calib::PlaneCells cells = calib::plane_cells(
+      samples_of(rig, shot, frame, {image.x0, image.y0, image.width, image.height}),
+      rig.camera.intrinsics, pose, plane, out.responsivity, view, shot.plane);
   if (cells.cells.empty()) {
     out.notes.push_back(shot.file + (cells.clipped_cells > 0
                                          ? ": the plane is clipped all over: expose shorter"

@@ -94,6 +94,8 @@ struct RigLight {
   // Of an LED from a file of `calibrate led`: in place of the three deviations above.
   std::optional<calib::LedUncertainty> calibrated;
   std::string calibration_path;  // "": none
+  // With a calibrated intensity: the responsivity that it counts for.
+  std::optional<std::array<double, 3>> calibrated_for;
   int line = 0;
 
   // Whether each colour falls on the object in its own way.

@@ -30,6 +30,10 @@ void read_led(const YamlField& field, const std::string& rig_path, RigLight& lig
     const CalibratedLed calibrated = read_led_calibration_file(light.calibration_path);
     light.led = calibrated.led;
     light.calibrated = calibrated.uncertainty;
+    // Spheres alone leave the power as the rig had it.
+    const bool has_power =
+        (calibrated.uncertainty.covariance.diagonal().tail<3>().array() > 0.0).any();
+    if (has_power) light.calibrated_for = calibrated.responsivity;
     return;
   }
   light.led.position_mm = field.at("position_mm").vector3();

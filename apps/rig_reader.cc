@@ -233,6 +233,36 @@ void read_truth(const YamlField& field, Rig& rig) {
   }
 }
 
+// Intensities of calibrated LEDs count for a responsivity of their own. A rig without one takes it,
+// and its scale is as well known as they are; a rig with another one is wrong.
+void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
+  const RigLight* first = nullptr;
+  for (const RigLight& light : rig.lights) {
+    if (!light.calibrated_for) continue;
+    const YamlField field = lights.at(light.name).at("calibration");
+    if (first == nullptr && !rig.camera.responsivity) {
+      for (const RigLight& other : rig.lights) {
+        if (!other.calibrated_for && !other.is_ambient) {
+          field.fail("its intensity counts for the responsivity that the file states; light " +
+                     other.name +
+                     " has no such calibration, so camera.responsivity_counts_mm2_sr_per_W_s must "
+                     "say what both count for");
+        }
+      }
+      rig.camera.responsivity = light.calibrated_for;
+      rig.camera.responsivity_relative_std = 0.0;
+    }
+    first = &light;
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (std::abs((*light.calibrated_for)[c] / (*rig.camera.responsivity)[c] - 1.0) > 1e-9) {
+        field.fail("its intensity counts for a responsivity of " +
+                   std::to_string((*light.calibrated_for)[c]) + ", the camera's is " +
+                   std::to_string((*rig.camera.responsivity)[c]) + " (" + "RGB"[c] + ")");
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Rig read_rig(const std::string& path, bool with_radiance) {
@@ -248,9 +278,11 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   for (const auto& [name, field] : top.at("objects").entries()) {
     rig.objects.push_back(read_object(name, field, path));
   }
-  for (const auto& [name, field] : top.at("lights").entries()) {
+  const YamlField lights = top.at("lights");
+  for (const auto& [name, field] : lights.entries()) {
     rig.lights.push_back(read_light(name, field, path));
   }
+  take_responsivity_of_leds(lights, rig);
   std::set<std::string> files;
   const YamlField shots = top.at("shots");
   for (const YamlField& field : shots.items()) {

@@ -8,10 +8,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/progress.h"
-#include "apps/radiance_file.h"
 #include "apps/shot_pose.h"
-#include "capture/corrected_samples.h"
-#include "capture/linear_samples.h"
+#include "apps/shot_samples.h"
 #include "core/environment_light.h"
 #include "core/input_error.h"
 
@@ -42,18 +40,9 @@ std::shared_ptr<const SeenObject> see(const Rig& rig, const ObjectScenes& scenes
 // keeps of it.
 CfaSamples samples_of(const Rig& rig, const capture::RawFrame& frame, const std::string& name,
                       const SampleMap& map, OpenedShot& shot) {
-  shot.stated_exposure_s = frame.exposure_s;
-  if (!rig.camera.radiance) {
-    return capture::linear_samples(frame, rig.camera.sensor.noise, frame.exposure_s, map.x0, map.y0,
-                                   map.width, map.height);
-  }
-  const capture::RadianceCorrection& correction = rig.camera.radiance->correction;
-  if (const std::string problem = capture::correction_problem(frame, correction);
-      !problem.empty()) {
-    throw InputError(name, problem);
-  }
   capture::CorrectedSamples corrected =
-      capture::corrected_samples(frame, correction, map.x0, map.y0, map.width, map.height);
+      shot_samples(rig, frame, name, map.x0, map.y0, map.width, map.height);
+  shot.stated_exposure_s = frame.exposure_s;
   shot.black_std_counts = corrected.black_std_counts;
   shot.frame_mean_counts = corrected.frame_mean_counts;
   shot.exposure_relative_std = corrected.exposure_relative_std;

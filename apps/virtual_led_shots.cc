@@ -7,7 +7,6 @@
 #include "apps/led_picture.h"
 #include "apps/led_shots.h"
 #include "apps/shot_renderer.h"
-#include "capture/decoded_frame.h"
 #include "capture/tone_curve.h"
 #include "core/input_error.h"
 
@@ -24,7 +23,7 @@ bool is_led_of(const Rig& rig, const std::string& name) {
 
 }  // namespace
 
-VirtualLedShots::VirtualLedShots(const Rig& rig, bool noise) : rig_(rig), noise_(noise) {
+VirtualLedShots::VirtualLedShots(const Rig& rig, bool noise) : rig_(rig), sensor_(rig, noise) {
   const CameraView view = true_view(rig);
   std::array<double, 3> responsivity{};
   responsivity.fill(kNominalResponsivity);
@@ -64,50 +63,16 @@ VirtualLedShots::VirtualLedShots(const Rig& rig, bool noise) : rig_(rig), noise_
   }
 }
 
-capture::SensorModel VirtualLedShots::sensor() const {
-  const RigSensor& from = rig_.camera.sensor;
-  capture::SensorModel sensor;
-  sensor.noise = from.noise;
-  sensor.black_counts = from.black_counts;
-  sensor.white_counts = from.white_counts;
-  if (from.nef_lossy_curve) sensor.tone_curve = capture::nef_lossy_curve();
-  sensor.noise_on = noise_;
-  return sensor;
-}
-
-capture::DngMetadata VirtualLedShots::metadata(std::size_t shot) const {
-  const RigCamera& camera = rig_.camera;
-  capture::DngMetadata metadata;
-  if (!camera.model.empty()) {
-    metadata.model = camera.model;
-    metadata.make = camera.model.substr(0, camera.model.find(' '));
-  }
-  metadata.cfa = camera.sensor.cfa;
-  metadata.black_counts = camera.sensor.black_counts;
-  metadata.white_counts = camera.sensor.white_counts;
-  metadata.exposure_s = exposure_s(shot);
-  metadata.iso = camera.iso;
-  metadata.f_number = camera.f_number;
-  metadata.linearization_table = sensor().tone_curve;
-  return metadata;
-}
-
-std::vector<std::uint16_t> VirtualLedShots::codes(std::size_t shot, std::uint64_t seed) const {
-  // Streams apart from those of the rig's other shots.
-  constexpr std::uint64_t kFirst = 500'000;
-  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
-  return capture::expose(counts_.at(shot), k.width_px, k.height_px, sensor(),
-                         seed * 1'000'003ULL + kFirst + shot);
+std::uint64_t VirtualLedShots::stream(std::size_t shot, std::uint64_t seed) const {
+  return VirtualSensor::stream(seed, rig_.calibration.led->shots.at(shot).file);
 }
 
 capture::RawFrame VirtualLedShots::frame(std::size_t shot, std::uint64_t seed) const {
-  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
-  return capture::decoded_frame(k.width_px, k.height_px, codes(shot, seed), metadata(shot));
+  return sensor_.frame(counts_.at(shot), exposure_s(shot), stream(shot, seed));
 }
 
 void VirtualLedShots::write(std::size_t shot, std::uint64_t seed, const std::string& path) const {
-  const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
-  capture::write_dng(path, k.width_px, k.height_px, codes(shot, seed), metadata(shot));
+  sensor_.write(path, counts_.at(shot), exposure_s(shot), stream(shot, seed));
 }
 
 }  // namespace scattermeter::apps

@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "apps/rig.h"
-#include "capture/dng_writer.h"
+#include "apps/virtual_sensor.h"
 #include "capture/raw_frame.h"
-#include "capture/sensor.h"
 
 namespace scattermeter::apps {
 
@@ -33,12 +32,10 @@ class VirtualLedShots {
   void write(std::size_t shot, std::uint64_t seed, const std::string& path) const;
 
  private:
-  std::vector<std::uint16_t> codes(std::size_t shot, std::uint64_t seed) const;
-  capture::SensorModel sensor() const;
-  capture::DngMetadata metadata(std::size_t shot) const;
+  std::uint64_t stream(std::size_t shot, std::uint64_t seed) const;
 
   const Rig& rig_;
-  bool noise_;
+  VirtualSensor sensor_;
   std::vector<std::vector<float>> counts_;
   std::vector<double> exposure_s_;
 };
