@@ -67,7 +67,8 @@ TEST(Layering, EachForeignLibraryHasItsDoor) {
       {"tiff", "capture/dng_writer\\.cc"},
       {"tiny_obj_loader", "capture/obj_reader\\.cc"},
       {"OpenEXR/", "capture/exr_file\\.cc"},
-      {"opencv2/", "calib/[a-z_]+\\.cc|calib/(charuco_opencv|opencv_storage|tone_picture)\\.h|"
+      {"opencv2/",
+       "calib/[a-z_]+\\.cc|calib/(charuco_opencv|opencv_storage|tone_picture)\\.h|"
        "capture/hdr_file\\.cc|apps/grey_picture\\.cc"},
       {"embree", "core/ray_scene\\.cc"},
       {"ceres/", "core/dipole_solver\\.cc|calib/camera_bundle\\.cc"},
