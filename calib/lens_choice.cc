@@ -109,7 +109,9 @@ LensChoice choose_lens(const std::vector<BoardView>& views, int width_px, int he
   if (only) {
     models = {*only};
   } else if (views.size() < kMinViews) {
-    models = {{true, DistortionTerms::kK1}};
+    models = {{true, DistortionTerms::kK1K2}};
+  } else {
+    std::erase_if(models, [](const LensModel& m) { return m.terms == DistortionTerms::kK1; });
   }
   std::vector<Trial> trials(models.size());
   tbb::parallel_for(std::size_t{0}, models.size(), [&](std::size_t i) {

@@ -19,7 +19,7 @@ TEST(CameraLayout, AngleFieldsAndCorners) {
   const BoardScene flat = board_scene(lens, 5, 1, 0.0);
   EXPECT_LT(camera_layout(flat.views, true_bundle(lens, flat), 640, 480).widest_angle_rad, 0.01);
 
-  BoardView corners{"v", {{{}, {1, 1}}, {{}, {639, 479}}, {{}, {320, 240}}}};
+  BoardView corners{"v", {{{0, 0, 0}, {1, 1}}, {{0, 0, 0}, {639, 479}}, {{0, 0, 0}, {320, 240}}}};
   const CameraLayout bare = camera_layout({corners}, {}, 640, 480);
   EXPECT_THAT(bare.bare_corners, ElementsAre("upper right", "lower left"));
   EXPECT_NEAR(bare.covered_share, 3.0 / 25, 1e-12);

@@ -67,7 +67,7 @@ TEST(LensChoice, FewViewsAreNotJudged) {
   const LensChoice choice =
       choose_lens(with_noise(scene.views, 0.05, 6), 640, 480, true_bundle(board_lens(), scene), {});
   ASSERT_EQ(choice.candidates.size(), 1U);
-  EXPECT_EQ(choice.candidates[0].model, (LensModel{true, DistortionTerms::kK1}));
+  EXPECT_EQ(choice.candidates[0].model, (LensModel{true, DistortionTerms::kK1K2}));
 }
 
 }  // namespace
