@@ -90,8 +90,11 @@ CheckReport check_rig(const Rig& rig, const std::string& shots_folder,
   const ObjectLibrary library(rig, scenes, std::nullopt, 0.0);
   std::optional<SharedView> view;
   if (shared_pose) view = see_all(rig, scenes, library, *shared_pose);
+  // The pose as the rig states it: refined silhouettes would hide what a check looks for.
+  Rig stated = rig;
+  stated.pose.refine_by_silhouette = false;
   const std::vector<OpenedShot> shots =
-      open_shots(rig, shots_in_files(rig, folder.paths), scenes, library, view, options.quiet);
+      open_shots(stated, shots_in_files(rig, folder.paths), scenes, library, view, options.quiet);
   for (const OpenedShot& shot : shots) {
     if (!shared_pose) check_pose(shot.pose, "pose in " + shot.rig->file, options, report);
     check_shot(shot, options, report);
