@@ -73,5 +73,21 @@ TEST_F(SilhouetteCheckTest, FocusChanged) {
   EXPECT_EQ(c.diagnosis.cause, calib::EdgeCause::kFocalLength) << c.verdict();
 }
 
+// Between the first and the second shot of the pyramid the camera slips by 0.3 mm: 2 px.
+TEST_F(SilhouetteCheckTest, CameraDrifts) {
+  const VirtualShots before(truth_, scenes_, {.noise = true, .quiet = true});
+  Rig later = truth_;
+  later.truth_pose->position_mm.x() += 0.3;
+  later.truth_pose->look_at_mm.x() += 0.3;
+  const VirtualShots after(later, scenes_, {.noise = true, .quiet = true});
+  const SilhouetteCheck c = check_silhouettes(
+      rig_, scenes_, [&](std::size_t i) { return i == 3 ? after.frame(i, 1) : before.frame(i, 1); },
+      all_shots(rig_), pose_from_points(rig_));
+  EXPECT_FALSE(c.passed());
+  EXPECT_TRUE(c.drifts);
+  EXPECT_NEAR(c.drift_px, 2.1, 0.5);
+  EXPECT_NE(c.verdict().find("PP_pyramid_2.dng"), std::string::npos) << c.verdict();
+}
+
 }  // namespace
 }  // namespace scattermeter::apps
