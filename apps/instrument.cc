@@ -32,7 +32,7 @@ Instrument::Instrument(const Rig& rig, const ObjectScenes& scenes, const Measure
       options_(options),
       pose_(shared_pose(rig)),
       library_(rig, scenes, options.patch_size_mm, distance_to_camera_mm(rig, scenes, pose_)) {
-  if (pose_) view_ = see_all(rig, scenes, library_, *pose_);
+  if (pose_ && !rig.pose.refine_by_silhouette) view_ = see_all(rig, scenes, library_, *pose_);
 }
 
 Measurement Instrument::measure(const ShotSource& source) {
@@ -55,8 +55,12 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
     weights_.clear();
     changed_weights_.clear();
   }
+  std::optional<SharedView> view = view_;
+  if (!view && pose_ && !rig_.pose.per_shot) {
+    view = see_all(rig_, scenes_, library_, pose_from_silhouettes(rig_, scenes_, *pose_, source));
+  }
   const std::vector<OpenedShot> shots =
-      open_shots(rig_, source, scenes_, library_, view_, options_.quiet);
+      open_shots(rig_, source, scenes_, library_, view, options_.quiet);
   watch.lap("shots");
   const std::vector<Task> tasks = tasks_of(rig_, shots);
   for (const Task& task : tasks) {

@@ -25,9 +25,10 @@ class Instrument {
 
   // Measures the materials in these shots, jointly over the shots of each. The light in each patch
   // (W of every view and lamp) is computed when first needed and kept, as long as the pose comes
-  // from the rig's points; with a board in the shots each set is seen anew. The digits are the same
-  // either way. Results, patch sizes and timing are filled; notes and inputs are the caller's.
-  // Throws InputError as measure() does. Not for several threads at once (it uses all of them).
+  // from the rig's points alone; with a board or silhouettes each set is seen anew. The digits are
+  // the same either way. Results, patch sizes and timing are filled; notes and inputs are the
+  // caller's. Throws InputError as measure() does. Not for several threads at once (it uses all of
+  // them).
   Measurement measure(const ShotSource& source);
   Measurement measure(const ShotSource& source, Stopwatch& watch);  // timing goes there only
 

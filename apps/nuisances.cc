@@ -275,7 +275,8 @@ void add_pose(const RowContext& c, double intensity, const TaskSensitivity& task
       surface_shift_by_pose(c.shot.pose.camera_from_world, seen.sites[c.row].center_mm, normal) *
       c.pose_root;
   // One pose for all shots, or one a shot.
-  const std::string name = c.rig.pose.charuco ? "pose " + c.shot.rig->file : "pose";
+  const std::string name =
+      c.rig.pose.charuco || c.rig.pose.per_shot ? "pose " + c.shot.rig->file : "pose";
   for (int k = 0; k < 6; ++k) {
     double change = 0.0;
     for (std::size_t t = 0; t < 2; ++t) {

@@ -58,6 +58,9 @@ struct RigPose {
   std::vector<calib::PointPair> points;  // one or the other
   std::optional<calib::CharucoBoard> charuco;
   calib::PoseOptions options;
+  bool refine_by_silhouette = false;
+  double edge_std_px = 0.1;  // see calib::SilhouetteOptions::line_std_px
+  bool per_shot = false;     // the camera may have moved between the shots; always, with a board
   int line = 0;
 };
 

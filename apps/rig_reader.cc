@@ -139,7 +139,8 @@ calib::CharucoBoard read_board(const YamlField& field) {
 }
 
 RigPose read_pose(const YamlField& field) {
-  field.only({"points", "charuco", "inlier_px", "point_std_px"});
+  field.only(
+      {"points", "charuco", "inlier_px", "point_std_px", "refine", "edge_std_px", "per_shot"});
   RigPose pose;
   pose.line = field.line();
   const auto points = field.find("points");
@@ -159,6 +160,24 @@ RigPose read_pose(const YamlField& field) {
   }
   if (const auto f = field.find("inlier_px")) pose.options.inlier_px = f->positive();
   if (const auto f = field.find("point_std_px")) pose.options.point_std_px = f->positive();
+  if (const auto f = field.find("refine")) {
+    if (f->text() != "silhouette") f->fail("expected silhouette");
+    pose.refine_by_silhouette = true;
+  }
+  if (const auto f = field.find("edge_std_px")) {
+    if (!pose.refine_by_silhouette) f->fail("only with refine: silhouette");
+    pose.edge_std_px = f->positive();
+  }
+  pose.per_shot = charuco.has_value();
+  if (const auto f = field.find("per_shot")) {
+    const std::string text = f->text();
+    if (text != "true" && text != "false") f->fail("expected true or false");
+    pose.per_shot = text == "true";
+    if (charuco && !pose.per_shot) f->fail("with a board every shot has a pose of its own");
+    if (!charuco && pose.per_shot && !pose.refine_by_silhouette) {
+      f->fail("points give one pose for all shots; per_shot needs refine: silhouette");
+    }
+  }
   return pose;
 }
 

@@ -1,8 +1,13 @@
 // The camera's pose, from what the rig gives.
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "apps/camera_view.h"
+#include "apps/object_scene.h"
 #include "apps/rig.h"
+#include "apps/shot_source.h"
 #include "calib/pose.h"
 #include "capture/raw_frame.h"
 
@@ -16,5 +21,14 @@ calib::PoseResult pose_from_points(const Rig& rig);
 // found or does not determine the pose.
 calib::PoseResult pose_from_board(const Rig& rig, const capture::RawFrame& frame,
                                   const std::string& path);
+
+// `prior` (of points or board) and the objects' silhouettes together: of one shot, or of all shots
+// of a source, by one camera that stood still. Throws InputError naming the rig's line and the shot
+// (of several: the first) when the silhouette is not found or contradicts the prior.
+calib::PoseResult pose_from_silhouette(const Rig& rig, const ObjectScenes& scenes,
+                                       const calib::PoseResult& prior, std::size_t shot_idx,
+                                       const capture::RawFrame& frame, const std::string& name);
+calib::PoseResult pose_from_silhouettes(const Rig& rig, const ObjectScenes& scenes,
+                                        const calib::PoseResult& prior, const ShotSource& source);
 
 }  // namespace scattermeter::apps

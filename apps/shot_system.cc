@@ -147,6 +147,9 @@ std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
   // A free scale works in units of its own: counts per second.
   const std::array<double, 3> responsivity =
       rig.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0});
+  // Where each shot's own silhouette starts from, without a board.
+  std::optional<calib::PoseResult> points;
+  if (!shared && !rig.pose.charuco) points = pose_from_points(rig);
   std::vector<OpenedShot> shots(source.shot_idxs.size());
   Progress progress("reading shots", static_cast<int>(shots.size()), quiet);
   tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) {
@@ -163,7 +166,10 @@ std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
       shot.iso = frame.iso;
       shot.f_number = frame.f_number;
       if (!shared) {
-        shot.pose = pose_from_board(rig, frame, source.names.at(i));
+        shot.pose = points ? *points : pose_from_board(rig, frame, source.names.at(i));
+        if (rig.pose.refine_by_silhouette) {
+          shot.pose = pose_from_silhouette(rig, scenes, shot.pose, idx, frame, source.names.at(i));
+        }
         shot.seen = see(rig, scenes, library, shot.rig->object, shot.pose);
       }
       const SampleMap& map = shot.seen->map;

@@ -93,8 +93,8 @@ SharedView see_all(const Rig& rig, const ObjectScenes& scenes, const ObjectLibra
                    const calib::PoseResult& pose);
 
 // Gets every shot of the source and reduces it to one l per visible patch and channel. With the
-// pose from the rig's points (`shared`), shots of one object share their map; without, each has a
-// board to take its pose from (a FrameSource, then: std::invalid_argument otherwise).
+// pose of all shots (`shared`), shots of one object share their map; without, each has a pose of
+// its own, from a board or its silhouette (a FrameSource, then: std::invalid_argument otherwise).
 std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
                                    const ObjectScenes& scenes, const ObjectLibrary& library,
                                    const std::optional<SharedView>& shared, bool quiet);

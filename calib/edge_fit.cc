@@ -97,8 +97,18 @@ class LineCost final : public ceres::CostFunction {
   LineCost(const Problem& problem, std::vector<std::size_t> which, const EdgeFitOptions& options)
       : problem_(problem), which_(std::move(which)) {
     const auto n = static_cast<Eigen::Index>(which_.size());
-    Eigen::MatrixXd covariance =
-        Eigen::MatrixXd::Constant(n, n, options.line_std_px * options.line_std_px);
+    // Places along the line, -1 and 1 at its ends.
+    Eigen::VectorXd q(n);
+    const EdgePoint& first = problem.points[which_[0]];
+    for (Eigen::Index i = 0; i < n; ++i) {
+      q[i] = first.tangent.dot(problem.points[which_[static_cast<std::size_t>(i)]].point_mm -
+                               first.point_mm);
+    }
+    const double middle = 0.5 * (q.maxCoeff() + q.minCoeff());
+    const double half = 0.5 * (q.maxCoeff() - q.minCoeff());
+    q = half > 0 ? ((q.array() - middle) / half).matrix().eval() : Eigen::VectorXd::Zero(n).eval();
+    Eigen::MatrixXd covariance = 0.5 * options.line_std_px * options.line_std_px *
+                                 (Eigen::MatrixXd::Ones(n, n) + q * q.transpose());
     for (Eigen::Index i = 0; i < n; ++i) {
       covariance(i, i) += std::pow(problem.points[which_[static_cast<std::size_t>(i)]].std_px, 2) +
                           std::pow(options.piece_std_px, 2);

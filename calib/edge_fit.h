@@ -28,8 +28,8 @@ struct EdgeFitOptions {
   std::vector<int> free;  // parameters that are fitted
   // Information of the normal prior about 0 of all parameters, n x n; n = 15 + bodies.
   Eigen::MatrixXd prior;
-  // Departure that the pieces of one line share (of mesh, lens, profile), and one of each piece's
-  // own, standard deviations, px.
+  // Departures of mesh, lens and profile of the edge from the truth, standard deviations, px: of
+  // each end of a line, the pieces between share both in proportion; and each piece's own.
   double line_std_px = 0;
   double piece_std_px = 0;
   bool robust = false;  // Cauchy loss on each piece by itself, lines are not held together

@@ -9,7 +9,7 @@ namespace scattermeter::calib {
 
 struct EdgeScatter {
   double piece_std_px = 0;  // each piece's own, about the straight line of its edge
-  double line_std_px = 0;   // common to the pieces of one line
+  double line_std_px = 0;   // of each end of a line, see EdgeFitOptions
 };
 
 // By moments (R. C. Paule, J. Mandel, "Consensus values and weighting factors", 1982), in two
