@@ -8,6 +8,7 @@
 #include "apps/led_calibration.h"
 #include "apps/led_calibration_file.h"
 #include "apps/result_json.h"
+#include "apps/shot_pose.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
@@ -35,7 +36,8 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
       ->required();
   command->callback([options, &context] {
     context.chosen = [options, &context] {
-      const Rig rig = read_rig(options->rig);
+      Rig rig = read_rig(options->rig);
+      take_points_from_board_shot(options->shots, rig);
       if (!rig.calibration.led) {
         throw InputError(options->rig,
                          "calibration.led: is missing: it lists spheres, planes and shots");

@@ -7,6 +7,7 @@
 #include "apps/plot.h"
 #include "apps/raw_shot.h"
 #include "apps/result_json.h"
+#include "apps/shot_pose.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -73,7 +74,11 @@ void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context) {
   command->add_option("--out", options->out, "file to write")->capture_default_str();
   command->callback([options, &context] {
     context.chosen = [options, &context] {
-      const Rig rig = read_rig(options->rig, false);
+      Rig rig = read_rig(options->rig, false);
+      // Where the camera stands matters to the white reference alone.
+      if (rig.calibration.radiance && rig.calibration.radiance->white) {
+        take_points_from_board_shot(options->shots, rig);
+      }
       const RadianceFrameSource open = [&](const RadianceShot& shot) {
         return open_shot(rig, (std::filesystem::path(options->shots) / shot.file).string());
       };

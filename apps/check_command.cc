@@ -5,6 +5,7 @@
 #include "apps/check_page.h"
 #include "apps/commands.h"
 #include "apps/result_json.h"
+#include "apps/shot_pose.h"
 
 namespace scattermeter::apps {
 
@@ -29,7 +30,8 @@ void add_check_command(CLI::App& app, CommandContext& context) {
       CheckOptions check_options;
       check_options.quiet = context.quiet;
       check_options.pictures = !options->out.empty();
-      const Rig rig = read_rig(options->rig);
+      Rig rig = read_rig(options->rig);
+      take_points_from_board_shot(options->shots, rig);
       const CheckedRig checked = open_checked_rig(rig, options->shots, check_options);
       const CheckReport report = check_report(checked);
       if (!context.quiet) context.out << check_table(report);

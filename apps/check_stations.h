@@ -24,5 +24,11 @@ std::vector<CheckItem> check_identity(const CheckedRig& checked);
 std::vector<CheckItem> check_light(const CheckedRig& checked);
 // Where the shots put the LEDs.
 std::vector<CheckItem> check_led_places(const CheckedRig& checked);
+// The objects' outline against pose, meshes and lens, and the camera's drift between shots.
+std::vector<CheckItem> check_outline(const CheckedRig& checked);
+// The shots of calibration.led that are in the folder against the rig's LEDs.
+std::vector<CheckItem> check_led_shots(const CheckedRig& checked);
+// Dark frames that are in the folder, and what the radiance calibration left.
+std::vector<CheckItem> check_radiance(const CheckedRig& checked);
 
 }  // namespace scattermeter::apps

@@ -24,8 +24,17 @@ constexpr int kPictureWidth_px = 420;
 std::shared_ptr<CheckedGeometry> geometry_of(const Rig& rig) {
   auto out = std::make_shared<CheckedGeometry>();
   out->rig = rig;
+  // The pose as the rig states it: a refined one would hide what is looked for.
+  out->rig.pose.refine_by_silhouette = false;
   for (RigLight& light : out->rig.lights) {
     if (light.environment) continue;
+    if (light.calibrated) {
+      // Position, exponent and power by themselves: the places are what is asked for here.
+      const calib::LedVector std = light.calibrated->covariance.diagonal().cwiseSqrt();
+      light.exponent_std = std[5];
+      light.power_relative_std = std.tail<3>().maxCoeff();
+      light.calibrated.reset();
+    }
     light.position_std_mm = std::max(light.position_std_mm, kLedPlaceStd_mm);
   }
   out->scenes = open_objects(out->rig);
@@ -69,13 +78,14 @@ CheckDetail CheckedRig::of_channel(std::size_t shot_idx, std::size_t channel, do
 
 CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
                             const CheckOptions& options) {
-  CheckedRig out{rig, options, {}, {}, {}, {}, {}, {}};
+  CheckedRig out{rig, options, {}, {}, {}, {}, {}, {}, {}, {}};
   const ShotFolder folder = match_shots(rig, shots_folder);
   for (const std::string& name : folder.unlisted) {
     out.notes.push_back(name + ": not in the rig's list of shots, skipped");
   }
   const auto geometry = geometry_of(rig);
   out.geometry = geometry;
+  out.folder = shots_folder;
   const Rig& loose = geometry->rig;
   if (!rig.pose.charuco) out.shared_pose = pose_from_points(loose);
   geometry->library = std::make_unique<ObjectLibrary>(loose, geometry->scenes, std::nullopt, 0.0);
@@ -92,6 +102,14 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
     out.frames[i] = checked_frame(frame, loose, out.shots[i], options);
     progress.step();
   });
+  const FrameSource& frames = std::get<FrameSource>(source.open);
+  for (std::size_t i = 0; i < out.shots.size(); ++i) {
+    if (out.shared_pose && i > 0) break;
+    const std::vector<std::size_t> which =
+        out.shared_pose ? source.shot_idxs : std::vector<std::size_t>{source.shot_idxs[i]};
+    out.outlines.push_back(
+        check_silhouettes(loose, geometry->scenes, frames, which, out.shots[i].pose));
+  }
   out.fit = fit_for_check(loose, source, out.shots, *geometry->library, view, options.quiet);
   if (!rig.camera.responsivity) {
     out.notes.emplace_back(

@@ -12,6 +12,7 @@
 #include "apps/measure.h"
 #include "apps/rig.h"
 #include "apps/shot_system.h"
+#include "apps/silhouette_check.h"
 #include "calib/pose.h"
 #include "capture/background_level.h"
 #include "capture/noise_curve.h"
@@ -32,6 +33,10 @@ struct CheckOptions {
   double max_residual_percent = 10.0;         // of the image, from the joint model
   double max_material_spread_percent = 10.0;  // of sigma_s' of a material's shots, see identity
   double max_led_place_mm = 0.5;              // beside three times what the rig owns up to
+  double max_outline_px = 1.0;                // of a shot's mean shift
+  double max_plane_percent = 2.0;             // of the white plane under an LED
+  double max_led_power_percent = 2.0;         // of an LED, from its calibration shots
+  double max_dark_counts = 2.0;               // of a dark frame, above the file's black
   double least_stds = 5.0;  // deviations from which on a departure from the model counts
   bool pictures = false;    // shots in small, for the page
   bool quiet = false;
@@ -62,6 +67,8 @@ struct CheckedRig {
   CheckFit fit;
   std::vector<std::string> notes;
   std::shared_ptr<const CheckedGeometry> geometry;
+  std::string folder;                     // of the shots
+  std::vector<SilhouetteCheck> outlines;  // of all shots, or, with a board, of each
 
   CheckDetail of_shot(std::size_t shot_idx, double value) const;
   CheckDetail of_channel(std::size_t shot_idx, std::size_t channel, double value) const;

@@ -1,5 +1,6 @@
 #include "apps/led_shots.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -19,9 +20,9 @@ struct Rectangle {
   int x0, y0, width, height;
 };
 
-CfaSamples samples_of(const Rig& rig, const RigLedShot& shot, const capture::RawFrame& frame,
-                      const Rectangle& r) {
-  return shot_samples(rig, frame, shot.file, r.x0, r.y0, r.width, r.height).samples;
+capture::CorrectedSamples samples_of(const Rig& rig, const RigLedShot& shot,
+                                     const capture::RawFrame& frame, const Rectangle& r) {
+  return shot_samples(rig, frame, shot.file, r.x0, r.y0, r.width, r.height);
 }
 
 void read_spheres(const Rig& rig, const RigLedShot& shot, const capture::RawFrame& frame,
@@ -36,7 +37,8 @@ void read_spheres(const Rig& rig, const RigLedShot& shot, const capture::RawFram
       continue;
     }
     const calib::FoundHighlight found = calib::find_highlight(
-        samples_of(rig, shot, frame, {image.x0, image.y0, image.width, image.height}), image);
+        samples_of(rig, shot, frame, {image.x0, image.y0, image.width, image.height}).samples,
+        image);
     if (!found.problem.empty()) {
       out.notes.push_back(name + ": " + found.problem);
       continue;
@@ -47,7 +49,7 @@ void read_spheres(const Rig& rig, const RigLedShot& shot, const capture::RawFram
 }
 
 void read_plane(const Rig& rig, const RigLedShot& shot, const capture::RawFrame& frame,
-                std::size_t view, LedShots& out) {
+                std::size_t view, std::vector<double>& exposures_s, LedShots& out) {
   const calib::WhitePlane& plane = out.scene.planes.at(shot.plane);
   const Rigid3d& pose = out.scene.views[view].camera_from_world;
   const calib::PlaneImage image = calib::plane_image(rig.camera.intrinsics, pose, plane);
@@ -56,9 +58,18 @@ void read_plane(const Rig& rig, const RigLedShot& shot, const capture::RawFrame&
     throw InputError(where,
                      fmt::format("plane {} is out of view or seen from behind", shot.plane + 1));
   }
-  calib::PlaneCells cells = calib::plane_cells(
-      samples_of(rig, shot, frame, {image.x0, image.y0, image.width, image.height}),
-      rig.camera.intrinsics, pose, plane, out.responsivity, view, shot.plane);
+  const capture::CorrectedSamples light =
+      samples_of(rig, shot, frame, {image.x0, image.y0, image.width, image.height});
+  calib::PlaneCells cells = calib::plane_cells(light.samples, rig.camera.intrinsics, pose, plane,
+                                               out.responsivity, view, shot.plane);
+  // Shots of one stated time share its error.
+  const auto known = std::find(exposures_s.begin(), exposures_s.end(), frame.exposure_s);
+  const auto setting = static_cast<std::size_t>(known - exposures_s.begin());
+  if (known == exposures_s.end()) {
+    exposures_s.push_back(frame.exposure_s);
+    out.scene.exposure_relative_std.push_back(light.exposure_relative_std);
+  }
+  for (calib::ShadedCell& cell : cells.cells) cell.setting = setting;
   if (cells.cells.empty()) {
     out.notes.push_back(shot.file + (cells.clipped_cells > 0
                                          ? ": the plane is clipped all over: expose shorter"
@@ -105,6 +116,7 @@ LedShots read_led_shots(const Rig& rig, const std::string& light, const LedFrame
   nominal.fill(kNominalResponsivity);
   out.responsivity = rig.camera.responsivity.value_or(nominal);
   std::optional<calib::PoseResult> shared;
+  std::vector<double> exposures_s;  // of the planes
   if (!rig.pose.charuco) shared = pose_from_points(rig);
   for (std::size_t i = 0; i < led.shots.size(); ++i) {
     const RigLedShot& shot = led.shots[i];
@@ -121,7 +133,7 @@ LedShots read_led_shots(const Rig& rig, const std::string& light, const LedFrame
     }
     const std::size_t view = out.scene.views.size() - 1;
     if (shot.is_plane) {
-      read_plane(rig, shot, frame, view, out);
+      read_plane(rig, shot, frame, view, exposures_s, out);
     } else {
       read_spheres(rig, shot, frame, view, out);
     }

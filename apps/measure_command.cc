@@ -6,6 +6,7 @@
 #include "apps/result_json.h"
 #include "apps/result_page.h"
 #include "apps/result_table.h"
+#include "apps/shot_pose.h"
 
 namespace scattermeter::apps {
 
@@ -57,7 +58,8 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
       ->capture_default_str();
   command->callback([options, &context] {
     context.chosen = [options, &context] {
-      const Rig rig = read_rig(options->rig);
+      Rig rig = read_rig(options->rig);
+      take_points_from_board_shot(options->shots, rig);
       MeasureOptions measure_options;
       measure_options.model = options->model == "paper"       ? Model::kPaper
                               : options->model == "transport" ? Model::kTransport

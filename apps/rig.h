@@ -57,6 +57,8 @@ struct RigCamera {
 struct RigPose {
   std::vector<calib::PointPair> points;  // one or the other
   std::optional<calib::CharucoBoard> charuco;
+  // With charuco: the one shot of the board, taken from where all others are; "": it is in each.
+  std::string board_shot;
   calib::PoseOptions options;
   bool refine_by_silhouette = false;
   double edge_std_px = 0.1;  // see calib::SilhouetteOptions::line_std_px

@@ -38,11 +38,7 @@ RigBoardShot read_board_shot(const YamlField& field) {
   field.only({"file", "position_mm", "look_at_mm", "up"});
   RigBoardShot shot;
   shot.line = field.line();
-  const YamlField file = field.at("file");
-  shot.file = file.text();
-  if (shot.file.find('/') != std::string::npos || shot.file == "." || shot.file == "..") {
-    file.fail("expected the name of a file in the folder of shots, without a path");
-  }
+  shot.file = file_in_folder(field.at("file"));
   const auto position = field.find("position_mm");
   const auto look_at = field.find("look_at_mm");
   const auto up = field.find("up");

@@ -10,6 +10,14 @@ std::string beside(const std::string& rig_path, const std::string& file) {
   return p.is_absolute() ? file : (std::filesystem::path(rig_path).parent_path() / p).string();
 }
 
+std::string file_in_folder(const YamlField& field) {
+  std::string name = field.text();
+  if (name.find('/') != std::string::npos || name == "." || name == "..") {
+    field.fail("expected the name of a file in the folder of shots, without a path");
+  }
+  return name;
+}
+
 std::array<double, 3> positive_rgb(const YamlField& field) {
   std::array<double, 3> out{};
   const std::vector<double> v = field.numbers(3);

@@ -14,6 +14,7 @@ namespace scattermeter::apps {
 std::string beside(const std::string& rig_path, const std::string& file);
 
 // All throw InputError naming file, line, field and value.
+std::string file_in_folder(const YamlField& field);  // a file's name without a path
 std::array<double, 3> positive_rgb(const YamlField& field);
 std::array<double, 3> rgb_not_negative(const YamlField& field);
 Eigen::Vector3d unit_vector(const YamlField& field);  // of any length but zero; normalised

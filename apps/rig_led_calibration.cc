@@ -46,11 +46,7 @@ RigLedShot read_led_shot(const YamlField& field, const RigLedCalibration& calibr
   field.only({"file", "kind", "light", "plane", "exposure_s"});
   RigLedShot shot;
   shot.line = field.line();
-  const YamlField file = field.at("file");
-  shot.file = file.text();
-  if (shot.file.find('/') != std::string::npos || shot.file == "." || shot.file == "..") {
-    file.fail("expected the name of a file in the folder of shots, without a path");
-  }
+  shot.file = file_in_folder(field.at("file"));
   const YamlField kind = field.at("kind");
   if (kind.text() != "spheres" && kind.text() != "plane") kind.fail("expected spheres or plane");
   shot.is_plane = kind.text() == "plane";

@@ -12,7 +12,7 @@ RadianceShot radiance_shot(const YamlField& field, bool is_flat = false) {
   RadianceShot shot;
   shot.line = field.line();
   if (field.is_scalar()) {
-    shot.file = field.text();
+    shot.file = file_in_folder(field);
   } else {
     if (is_flat) {
       field.only({"file", "exposure_s", "lamp"});
@@ -20,11 +20,8 @@ RadianceShot radiance_shot(const YamlField& field, bool is_flat = false) {
     } else {
       field.only({"file", "exposure_s"});
     }
-    shot.file = field.at("file").text();
+    shot.file = file_in_folder(field.at("file"));
     if (const auto f = field.find("exposure_s")) shot.exposure_s = f->positive();
-  }
-  if (shot.file.find('/') != std::string::npos || shot.file == "." || shot.file == "..") {
-    field.fail("expected the name of a file in the folder of shots, without a path");
   }
   return shot;
 }

@@ -139,8 +139,8 @@ calib::CharucoBoard read_board(const YamlField& field) {
 }
 
 RigPose read_pose(const YamlField& field) {
-  field.only(
-      {"points", "charuco", "inlier_px", "point_std_px", "refine", "edge_std_px", "per_shot"});
+  field.only({"points", "charuco", "shot", "inlier_px", "point_std_px", "refine", "edge_std_px",
+              "per_shot"});
   RigPose pose;
   pose.line = field.line();
   const auto points = field.find("points");
@@ -168,14 +168,19 @@ RigPose read_pose(const YamlField& field) {
     if (!pose.refine_by_silhouette) f->fail("only with refine: silhouette");
     pose.edge_std_px = f->positive();
   }
-  pose.per_shot = charuco.has_value();
+  if (const auto f = field.find("shot")) {
+    if (!charuco) f->fail("is the shot of a board: only with charuco");
+    pose.board_shot = file_in_folder(*f);
+  }
+  const bool in_each = charuco && pose.board_shot.empty();
+  pose.per_shot = in_each;
   if (const auto f = field.find("per_shot")) {
     const std::string text = f->text();
     if (text != "true" && text != "false") f->fail("expected true or false");
     pose.per_shot = text == "true";
-    if (charuco && !pose.per_shot) f->fail("with a board every shot has a pose of its own");
-    if (!charuco && pose.per_shot && !pose.refine_by_silhouette) {
-      f->fail("points give one pose for all shots; per_shot needs refine: silhouette");
+    if (in_each && !pose.per_shot) f->fail("with a board every shot has a pose of its own");
+    if (!in_each && pose.per_shot && !pose.refine_by_silhouette) {
+      f->fail("there is one pose for all shots; per_shot needs refine: silhouette");
     }
   }
   return pose;
@@ -198,11 +203,7 @@ RigShot read_shot(const YamlField& field, const Rig& rig) {
   field.only({"file", "object", "material", "lights", "exposure_s"});
   RigShot shot;
   shot.line = field.line();
-  const YamlField file = field.at("file");
-  shot.file = file.text();
-  if (shot.file.find('/') != std::string::npos || shot.file == "." || shot.file == "..") {
-    file.fail("expected the name of a file in the folder of shots, without a path");
-  }
+  shot.file = file_in_folder(field.at("file"));
   const YamlField object = field.at("object");
   shot.object = object.text();
   const YamlField material = field.at("material");

@@ -41,6 +41,23 @@ ShotFolder match_shots(const Rig& rig, const std::string& folder) {
   }
   std::set<std::string> listed;
   for (const RigShot& shot : rig.shots) listed.insert(shot.file);
+  if (!rig.pose.board_shot.empty()) listed.insert(rig.pose.board_shot);
+  const RigCalibration& calibration = rig.calibration;
+  if (calibration.camera) {
+    for (const RigBoardShot& shot : calibration.camera->shots) listed.insert(shot.file);
+  }
+  if (calibration.led) {
+    for (const RigLedShot& shot : calibration.led->shots) listed.insert(shot.file);
+  }
+  if (calibration.radiance) {
+    const auto add = [&](const std::vector<RadianceShot>& shots) {
+      for (const RadianceShot& shot : shots) listed.insert(shot.file);
+    };
+    add(calibration.radiance->dark);
+    add(calibration.radiance->flats);
+    if (calibration.radiance->white) add(calibration.radiance->white->shots);
+    if (calibration.radiance->glare) add(calibration.radiance->glare->shots);
+  }
   std::set_difference(present.begin(), present.end(), listed.begin(), listed.end(),
                       std::back_inserter(out.unlisted));
   return out;

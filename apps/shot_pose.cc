@@ -1,11 +1,13 @@
 #include "apps/shot_pose.h"
 
-#include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 #include <variant>
 
 #include <fmt/core.h>
 
+#include "apps/grey_picture.h"
+#include "apps/raw_shot.h"
 #include "apps/silhouette_check.h"
 #include "calib/silhouette.h"
 #include "core/input_error.h"
@@ -21,32 +23,40 @@ calib::PoseResult pose_from_points(const Rig& rig) {
   return pose;
 }
 
+namespace {
+
+std::vector<calib::PointPair> board_corners(const calib::CharucoBoard& board,
+                                            const capture::RawFrame& frame,
+                                            const std::string& path) {
+  const GreyPicture grey = grey_picture(frame);
+  std::vector<calib::PointPair> corners = calib::find_charuco_corners(
+      board, grey.grey, grey.width_px, grey.height_px, grey.px_scale, grey.px_offset);
+  if (corners.empty()) throw InputError(path, "pose.charuco: the board is not seen in this shot");
+  return corners;
+}
+
+}  // namespace
+
 calib::PoseResult pose_from_board(const Rig& rig, const capture::RawFrame& frame,
                                   const std::string& path) {
-  // One grey pixel per 2 x 2 cell, the mean of its samples above black: any filter phase, no
-  // interpolation, corners displaced by no more than the cell's own centre (0.5, 0.5).
-  const int width = frame.width_px / 2;
-  const int height = frame.height_px / 2;
-  std::vector<float> grey(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  double black = 0.0;
-  for (double b : frame.black_counts) black += 0.25 * b;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const int sum = frame.at(2 * x, 2 * y) + frame.at(2 * x + 1, 2 * y) +
-                      frame.at(2 * x, 2 * y + 1) + frame.at(2 * x + 1, 2 * y + 1);
-      grey[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x)] = static_cast<float>(std::max(0.0, 0.25 * sum - black));
-    }
-  }
-  const std::vector<calib::PointPair> corners =
-      calib::find_charuco_corners(*rig.pose.charuco, grey, width, height, 2.0, 0.5);
-  if (corners.empty()) throw InputError(path, "pose.charuco: the board is not seen in this shot");
+  const std::vector<calib::PointPair> corners = board_corners(*rig.pose.charuco, frame, path);
   calib::PoseResult pose = calib::estimate_pose(rig.camera.intrinsics, corners, rig.pose.options);
   if (pose.status != calib::PoseStatus::kOk) {
     throw InputError(
         path, fmt::format("pose.charuco: {} corners found: {}", corners.size(), pose.message));
   }
   return pose;
+}
+
+void take_points_from_board_shot(const std::string& shots_folder, Rig& rig) {
+  if (!rig.pose.charuco || rig.pose.board_shot.empty()) return;
+  const std::string path = (std::filesystem::path(shots_folder) / rig.pose.board_shot).string();
+  if (!std::filesystem::exists(path)) {
+    throw InputError(rig.at(rig.pose.line) + ": pose.shot",
+                     "is not in the folder " + shots_folder + ": " + rig.pose.board_shot);
+  }
+  rig.pose.points = board_corners(*rig.pose.charuco, open_shot(rig, path), path);
+  rig.pose.charuco.reset();
 }
 
 namespace {

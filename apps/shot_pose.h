@@ -22,6 +22,11 @@ calib::PoseResult pose_from_points(const Rig& rig);
 calib::PoseResult pose_from_board(const Rig& rig, const capture::RawFrame& frame,
                                   const std::string& path);
 
+// Where the rig's pose comes from one shot of a board (pose.shot): its corners become the rig's
+// points, as if they had been given. Throws InputError when the shot is missing or does not show
+// the board.
+void take_points_from_board_shot(const std::string& shots_folder, Rig& rig);
+
 // `prior` (of points or board) and the objects' silhouettes together: of one shot, or of all shots
 // of a source, by one camera that stood still. Throws InputError naming the rig's line and the shot
 // (of several: the first) when the silhouette is not found or contradicts the prior.

@@ -9,13 +9,42 @@
 #include "apps/simulate_camera_calibration.h"
 #include "apps/simulate_led_calibration.h"
 #include "apps/simulate_radiance_calibration.h"
+#include "apps/virtual_sensor.h"
 #include "apps/virtual_shots.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
 
-SimulatedShots simulate(const Rig& rig, const std::string& out_folder,
+namespace {
+
+// The board of pose.shot, as the camera that takes all other shots sees it.
+std::string write_board_shot(const Rig& rig, const std::string& out_folder,
+                             const SimulateOptions& options) {
+  const calib::CharucoBoard& board = *rig.pose.charuco;
+  CameraView view = true_view(rig);
+  view.camera_from_world = view.camera_from_world * board.world_from_board;
+  const std::vector<float> counts =
+      board_counts(rig, view,
+                   {calib::BoardKind::kCharuco, board.squares_x, board.squares_y, board.square_mm,
+                    board.marker_mm, board.dictionary},
+                   rig.at(rig.pose.line) + ": pose.charuco", rig.pose.board_shot);
+  const std::string path = (std::filesystem::path(out_folder) / rig.pose.board_shot).string();
+  VirtualSensor(rig, options.noise)
+      .write(path, counts, rig.camera.exposure_s.value_or(0.1),
+             VirtualSensor::stream(options.seed, rig.pose.board_shot));
+  return path;
+}
+
+}  // namespace
+
+SimulatedShots simulate(const Rig& given, const std::string& out_folder,
                         const SimulateOptions& options) {
+  // A board that has a shot of its own is in no other.
+  Rig rig = given;
+  if (!rig.pose.board_shot.empty()) {
+    true_view(given);  // throws where the rig does not say where the camera stands
+    rig.pose.charuco.reset();
+  }
   ObjectScenes scenes;
   std::optional<VirtualShots> shots;
   if (options.scene) {
@@ -28,6 +57,9 @@ SimulatedShots simulate(const Rig& rig, const std::string& out_folder,
   std::filesystem::create_directories(out_folder, error);
   if (error) throw InputError(out_folder, "the folder cannot be made: " + error.message());
   SimulatedShots made;
+  if (!given.pose.board_shot.empty()) {
+    made.paths.push_back(write_board_shot(given, out_folder, options));
+  }
   if (shots) {
     Progress progress("exposing", static_cast<int>(shots->size()), options.quiet);
     made.monte_carlo_std = shots->monte_carlo_std();

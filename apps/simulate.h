@@ -14,8 +14,8 @@ struct SimulateOptions {
   std::uint64_t seed = 1;
   bool noise = true;
   bool quiet = false;
-  bool scene = true;        // the shots of the objects
-  bool calibration = true;  // the shots of the rig's calibration
+  bool scene = true;               // the shots of the objects
+  bool calibration = true;         // the shots of the rig's calibration
   RenderTransport transport = {};  // its seed is the one above
 };
 

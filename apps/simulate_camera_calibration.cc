@@ -51,12 +51,18 @@ std::vector<float> board_shot_counts(const Rig& rig, const RigBoardShot& shot) {
     throw InputError(where + ".position_mm",
                      "is missing: simulate needs the camera's place of " + shot.file);
   }
-  const CameraView view{rig.camera.intrinsics,
-                        look_at(shot.place->position_mm, shot.place->look_at_mm, shot.place->up)};
-  const calib::CalibrationBoard& board = rig.calibration.camera->board;
+  return board_counts(rig,
+                      {rig.camera.intrinsics,
+                       look_at(shot.place->position_mm, shot.place->look_at_mm, shot.place->up)},
+                      rig.calibration.camera->board, where, shot.file);
+}
+
+std::vector<float> board_counts(const Rig& rig, const CameraView& view,
+                                const calib::CalibrationBoard& board, const std::string& where,
+                                const std::string& file) {
   const ViewCheck check = check_view(view, board_outline(board));
   if (!check.in_front || !check.in_frame || !(view.center_in_world_mm().z() > 0)) {
-    throw InputError(where, "the board is not in view of " + shot.file +
+    throw InputError(where, "the board is not in view of " + file +
                                 ", or seen from behind (its print faces +z)");
   }
   std::vector<float> counts = board_signal(view, board);

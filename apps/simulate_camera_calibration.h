@@ -4,10 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "apps/camera_view.h"
 #include "apps/rig.h"
 #include "apps/simulate.h"
 
 namespace scattermeter::apps {
+
+// Expected counts above black of a board in the world's plane z = 0, its origin in the world's, as
+// the view shows it; else as the next. where, file: for messages.
+std::vector<float> board_counts(const Rig& rig, const CameraView& view,
+                                const calib::CalibrationBoard& board, const std::string& where,
+                                const std::string& file);
 
 // Expected counts above black of one board shot, each pixel in the channel of its filter: white in
 // full light (apps/board_signal.h) reaches 0.7 of the range in the channel that the camera answers

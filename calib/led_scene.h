@@ -31,6 +31,7 @@ struct SeenHighlight {
 struct ShadedCell {
   std::size_t view = 0;
   std::size_t plane = 0;
+  std::size_t setting = 0;                               // of LedScene::exposure_relative_std
   int column = 0, row = 0;                               // of the plane's grid of cells
   int channel = 0;                                       // 0 R, 1 G, 2 B
   Eigen::Vector2d place_mm = Eigen::Vector2d::Zero();    // mean of the samples, on the plane
@@ -46,6 +47,9 @@ struct LedScene {
   std::vector<WhitePlane> planes;
   std::vector<SeenHighlight> highlights;
   std::vector<ShadedCell> cells;
+  // How well the time of each exposure setting is known, which all cells of that setting share; an
+  // error of the time is one of the power. Empty: all exactly.
+  std::vector<double> exposure_relative_std;
 };
 
 }  // namespace scattermeter::calib

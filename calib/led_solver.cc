@@ -111,6 +111,8 @@ class CellModel {
     normal_ = plane.normal();
     albedo_over_pi_ = plane.albedo[cell.channel] / std::numbers::pi;
     albedo_std_ = plane.albedo_relative_std;
+    const std::vector<double>& exposures = frame.scene.exposure_relative_std;
+    exposure_std_ = exposures.empty() ? 0.0 : exposures.at(cell.setting);
     const Eigen::Matrix2d root = cell.spread_mm2.llt().matrixL();
     for (std::size_t k = 0; k < kPoints; ++k) {
       const Eigen::Vector2d at =
@@ -133,7 +135,7 @@ class CellModel {
   }
 
   template <typename T>
-  T radiance(const T* led, const T* pose, const T* albedo) const {
+  T radiance(const T* led, const T* pose, const T* albedo, const T* exposure) const {
     using std::exp;
     using std::pow;
     using std::sqrt;
@@ -159,14 +161,14 @@ class CellModel {
     }
     const double share = 1.0 / static_cast<double>(points_mm_.size() * ring_mm_.size());
     return T(albedo_over_pi_ * share) * (T(1.0) + T(albedo_std_) * albedo[0]) *
-           exp(led[6 + channel_]) * sum;
+           (T(1.0) + T(exposure_std_) * exposure[0]) * exp(led[6 + channel_]) * sum;
   }
 
  private:
   const Frame& frame_;
   int channel_;
   Eigen::Vector3d normal_;
-  double albedo_over_pi_, albedo_std_;
+  double albedo_over_pi_, albedo_std_, exposure_std_;
   std::array<Eigen::Vector3d, kPoints> points_mm_;
   Eigen::Matrix<double, 3, 6> shift_;
   std::vector<Eigen::Vector3d> ring_mm_;
@@ -177,8 +179,9 @@ struct CellCost {
   double measured, std;
 
   template <typename T>
-  bool operator()(const T* led, const T* pose, const T* albedo, T* residual) const {
-    residual[0] = (model.radiance(led, pose, albedo) - T(measured)) / T(std);
+  bool operator()(const T* led, const T* pose, const T* albedo, const T* exposure,
+                  T* residual) const {
+    residual[0] = (model.radiance(led, pose, albedo, exposure) - T(measured)) / T(std);
     return true;
   }
 };
@@ -196,12 +199,14 @@ struct Unknowns {
   std::array<double, kLedParameters> led;
   std::vector<std::array<double, 6>> pose;
   std::vector<std::array<double, 4>> sphere;
-  double albedo = 0;
+  std::vector<double> exposure;  // one more than settings, for scenes that have none
+  double albedo = 0;             // the last
 
   std::vector<double*> blocks() {
     std::vector<double*> all = {led.data()};
     for (auto& p : pose) all.push_back(p.data());
     for (auto& s : sphere) all.push_back(s.data());
+    for (double& e : exposure) all.push_back(&e);
     all.push_back(&albedo);
     return all;
   }
@@ -210,8 +215,9 @@ struct Unknowns {
 Eigen::MatrixXd information(ceres::Problem& problem, Unknowns& unknowns,
                             const std::vector<ceres::ResidualBlockId>& residuals,
                             const std::array<bool, kLedParameters>& free) {
-  const auto size = static_cast<Eigen::Index>(kLedParameters + 6 * unknowns.pose.size() +
-                                              4 * unknowns.sphere.size() + 1);
+  const auto size =
+      static_cast<Eigen::Index>(kLedParameters + 6 * unknowns.pose.size() +
+                                4 * unknowns.sphere.size() + unknowns.exposure.size() + 1);
   Eigen::MatrixXd info = Eigen::MatrixXd::Zero(size, size);
   if (residuals.empty()) return info;
   ceres::Problem::EvaluateOptions options;
@@ -247,6 +253,7 @@ LedSolution solve_once(const Frame& frame, const LedSolve& what) {
   x.led = frame.start();
   x.pose.assign(scene.views.size(), {});
   x.sphere.assign(scene.spheres.size(), {});
+  x.exposure.assign(scene.exposure_relative_std.size() + 1, 0.0);
   ceres::Problem::Options problem_options;
   problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::CauchyLoss cauchy(1.0);
@@ -260,6 +267,10 @@ LedSolution solve_once(const Frame& frame, const LedSolve& what) {
   for (auto& s : x.sphere) {
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<UnitPrior<4>, 4, 4>(new UnitPrior<4>),
                              nullptr, s.data());
+  }
+  for (double& e : x.exposure) {
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<UnitPrior<1>, 1, 1>(new UnitPrior<1>),
+                             nullptr, &e);
   }
   problem.AddResidualBlock(new ceres::AutoDiffCostFunction<UnitPrior<1>, 1, 1>(new UnitPrior<1>),
                            nullptr, &x.albedo);
@@ -278,9 +289,10 @@ LedSolution solve_once(const Frame& frame, const LedSolve& what) {
     const double std =
         std::hypot(cell.std_W_per_mm2_sr, what.cell_relative_std * cell.radiance_W_per_mm2_sr);
     cells.push_back(problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<CellCost, 1, kLedParameters, 6, 1>(
+        new ceres::AutoDiffCostFunction<CellCost, 1, kLedParameters, 6, 1, 1>(
             new CellCost{CellModel(frame, cell), cell.radiance_W_per_mm2_sr, std}),
-        what.robust ? &cauchy : nullptr, x.led.data(), x.pose[cell.view].data(), &x.albedo));
+        what.robust ? &cauchy : nullptr, x.led.data(), x.pose[cell.view].data(), &x.albedo,
+        &x.exposure.at(cell.setting)));
   }
   std::vector<int> held;
   for (std::size_t i = 0; i < what.free.size(); ++i) {
@@ -309,8 +321,9 @@ LedSolution solve_once(const Frame& frame, const LedSolve& what) {
                                                                x.sphere[h.sphere].data()));
   }
   for (const ShadedCell& cell : scene.cells) {
-    out.cell_radiance.push_back(
-        CellModel(frame, cell).radiance(x.led.data(), x.pose[cell.view].data(), &x.albedo));
+    out.cell_radiance.push_back(CellModel(frame, cell)
+                                    .radiance(x.led.data(), x.pose[cell.view].data(), &x.albedo,
+                                              &x.exposure.at(cell.setting)));
   }
   if (what.robust) return out;
   // The held ones count as free for the derivative and are then struck out.
@@ -334,7 +347,8 @@ double cell_radiance(const LedScene& scene, const ShadedCell& cell, const Led& l
   const std::array<double, kLedParameters> x = frame.start();
   const std::array<double, 6> pose{};
   const double albedo = 0.0;
-  return CellModel(frame, cell).radiance(x.data(), pose.data(), &albedo);
+  const double exposure = 0.0;
+  return CellModel(frame, cell).radiance(x.data(), pose.data(), &albedo, &exposure);
 }
 
 }  // namespace scattermeter::calib

@@ -1,0 +1,75 @@
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "apps/check_stations.h"
+#include "apps/led_check.h"
+
+namespace scattermeter::apps {
+
+// The shots of calibration.led that stand in the folder.
+std::vector<CheckItem> check_led_shots(const CheckedRig& checked) {
+  const Rig& rig = checked.rig;
+  if (!rig.calibration.led) return {};
+  std::vector<CheckDetail> highlights, places, planes, powers;
+  std::string where_it_stands;
+  for (const std::string& light : rig.calibration.led->lights()) {
+    bool all_there = true;
+    for (const RigLedShot& shot : rig.calibration.led->shots) {
+      if (shot.light != light) continue;
+      all_there =
+          all_there && std::filesystem::exists(std::filesystem::path(checked.folder) / shot.file);
+    }
+    if (!all_there) continue;
+    const LedCheck led = check_led(rig, light, led_frames_in(rig, checked.folder));
+    const auto add = [&](double value, double std, const std::string& what,
+                         std::vector<CheckDetail>& list) {
+      if (std::isnan(value)) return;
+      CheckDetail d;
+      d.where = light + what;
+      d.value = value;
+      d.std = std;
+      list.push_back(d);
+    };
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    add(led.highlight_worst_px, unknown, "", highlights);
+    if (led.problem.empty()) {
+      // As many deviations as all three coordinates make together.
+      add(led.displacement_length_mm,
+          led.displacement_stds > 0.0 ? led.displacement_length_mm / led.displacement_stds
+                                      : unknown,
+          "", places);
+      if (led.displacement_stds > checked.options.least_stds) {
+        where_it_stands += (where_it_stands.empty() ? "" : "; ") + led.text;
+      }
+    }
+    add(led.plane_rms_percent, unknown, "", planes);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      add(led.power_change_percent[c], unknown,
+          std::string(" ") + kRgbName.at(static_cast<std::size_t>(c)), powers);
+    }
+  }
+  const CheckOptions& o = checked.options;
+  std::vector<CheckItem> out;
+  if (!highlights.empty()) {
+    out.push_back(judged("LED highlights", "px", {o.max_pose_rms_px},
+                         "calibrate the LEDs again: one stands elsewhere than the rig says",
+                         highlights));
+  }
+  if (!places.empty()) {
+    out.push_back(judged(
+        "LED places, from their shots", "mm", {o.max_led_place_mm, false, false, o.least_stds},
+        where_it_stands.empty() ? "calibrate the LEDs again" : where_it_stands, places));
+  }
+  if (!planes.empty()) {
+    out.push_back(judged("white plane under the LEDs", "%", {o.max_plane_percent},
+                         "calibrate the LEDs again: place, axis or lobe have changed", planes));
+    // Without a responsivity only their product counts, and that is what was calibrated.
+    out.push_back(judged("LED power, from the white plane", "%", {o.max_led_power_percent},
+                         "calibrate the LEDs again: their light or the camera's has changed",
+                         powers));
+  }
+  return out;
+}
+
+}  // namespace scattermeter::apps
