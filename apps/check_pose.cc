@@ -39,8 +39,19 @@ std::vector<CheckItem> check_pose(const CheckedRig& checked) {
   CheckItem pose = judged("pose", "px", {checked.options.max_pose_rms_px},
                           "measure the points again, or calibrate the camera", residuals);
   pose.where += fmt::format("; worst point {:.3g} px", worst_px);
-  return {pose, judged("pose outliers", "% of points", {checked.options.max_pose_outlier_percent},
-                       "look for exchanged or mistyped points", outliers)};
+  std::vector<CheckItem> out = {pose};
+  if (checked.lens && !checked.lens->residuals.empty()) {
+    CheckDetail d;
+    d.where = checked.rig.camera.intrinsics_path;
+    d.value = checked.lens->rms_px;
+    CheckItem lens = judged("lens", "px (limit of rms)", {checked.options.max_lens_rms_px},
+                            "calibrate the camera again: its views do not agree", {d});
+    lens.worst = checked.lens->worst_px;
+    out.push_back(lens);
+  }
+  out.push_back(judged("pose outliers", "% of points", {checked.options.max_pose_outlier_percent},
+                       "look for exchanged or mistyped points", outliers));
+  return out;
 }
 
 }  // namespace scattermeter::apps

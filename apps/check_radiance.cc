@@ -72,10 +72,10 @@ std::vector<CheckItem> check_radiance(const CheckedRig& checked) {
   for (const RadianceResidual& r : checked.rig.camera.radiance->residuals) {
     CheckDetail d;
     d.where = "camera.radiance";
-    d.value = r.worst;
-    CheckItem item =
-        judged("calibration: " + r.what, r.unit, {r.limit}, "calibrate the radiance again", {d});
-    item.rms = r.rms;
+    d.value = r.rms;
+    CheckItem item = judged("calibration: " + r.what, r.unit + " (limit of rms)", {r.limit},
+                            "calibrate the radiance again", {d});
+    item.worst = r.worst;
     out.push_back(item);
   }
   return out;

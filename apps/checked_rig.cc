@@ -1,6 +1,7 @@
 #include "apps/checked_rig.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <utility>
 
@@ -8,10 +9,12 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/progress.h"
+#include "apps/radiance_file.h"
 #include "apps/shot_folder.h"
 #include "apps/shot_picture.h"
 #include "apps/shot_pose.h"
 #include "apps/shot_source.h"
+#include "capture/corrected_samples.h"
 #include "capture/linear_samples.h"
 
 namespace scattermeter::apps {
@@ -49,6 +52,16 @@ CheckedFrame checked_frame(const capture::RawFrame& frame, const Rig& rig, const
   // A board fills the frame with light.
   if (!rig.pose.charuco) {
     out.background = capture::background_level(frame, map.x0, map.y0, map.width, map.height);
+    if (rig.camera.radiance) {
+      // What is known to lie on the background is none of its own light.
+      const capture::RadianceCorrection& c = rig.camera.radiance->correction;
+      const std::array<double, kRgb> mean = capture::frame_mean_counts(frame, c);
+      for (std::size_t k = 0; k < kRgb; ++k) {
+        const double known = c.glare_share[k] * mean[k] + c.dark_counts_per_s[0] * frame.exposure_s;
+        out.background.darkest_counts[k] -= known;
+        out.background.median_counts[k] -= known;
+      }
+    }
   }
   out.noise =
       capture::noise_curve(capture::linear_samples(frame, rig.camera.sensor.noise, frame.exposure_s,
@@ -78,7 +91,7 @@ CheckDetail CheckedRig::of_channel(std::size_t shot_idx, std::size_t channel, do
 
 CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
                             const CheckOptions& options) {
-  CheckedRig out{rig, options, {}, {}, {}, {}, {}, {}, {}, {}};
+  CheckedRig out{rig, options, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   const ShotFolder folder = match_shots(rig, shots_folder);
   for (const std::string& name : folder.unlisted) {
     out.notes.push_back(name + ": not in the rig's list of shots, skipped");
@@ -102,13 +115,27 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
     out.frames[i] = checked_frame(frame, loose, out.shots[i], options);
     progress.step();
   });
+  SilhouetteCheckOptions outline;
+  if (!rig.camera.intrinsics_path.empty()) {
+    out.lens = calib::read_camera_calibration_file(rig.camera.intrinsics_path);
+    for (std::size_t i = 0; i < out.lens->parameters.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const double std = std::sqrt(out.lens->covariance(at, at));
+      const std::string& name = out.lens->parameters[i];
+      if (name.starts_with("f")) {
+        outline.explanation.focal_relative_std = std / rig.camera.intrinsics.fx_px;
+      } else if (name == "k1") {
+        outline.explanation.k1_std = std;
+      }
+    }
+  }
   const FrameSource& frames = std::get<FrameSource>(source.open);
   for (std::size_t i = 0; i < out.shots.size(); ++i) {
     if (out.shared_pose && i > 0) break;
     const std::vector<std::size_t> which =
         out.shared_pose ? source.shot_idxs : std::vector<std::size_t>{source.shot_idxs[i]};
     out.outlines.push_back(
-        check_silhouettes(loose, geometry->scenes, frames, which, out.shots[i].pose));
+        check_silhouettes(loose, geometry->scenes, frames, which, out.shots[i].pose, outline));
   }
   out.fit = fit_for_check(loose, source, out.shots, *geometry->library, view, options.quiet);
   if (!rig.camera.responsivity) {

@@ -13,6 +13,7 @@
 #include "apps/rig.h"
 #include "apps/shot_system.h"
 #include "apps/silhouette_check.h"
+#include "calib/camera_calibration_file.h"
 #include "calib/pose.h"
 #include "capture/background_level.h"
 #include "capture/noise_curve.h"
@@ -22,6 +23,7 @@ namespace scattermeter::apps {
 struct CheckOptions {
   double max_pose_rms_px = 1.0;
   double max_pose_outlier_percent = 25.0;
+  double max_lens_rms_px = 0.5;
   double max_clipped_percent = 1.0;     // of the samples on the object
   double min_brightest_snr = 30.0;      // of a patch
   double max_noise_percent = 30.0;      // scatter of samples above the noise model's variance
@@ -67,7 +69,9 @@ struct CheckedRig {
   CheckFit fit;
   std::vector<std::string> notes;
   std::shared_ptr<const CheckedGeometry> geometry;
-  std::string folder;                     // of the shots
+  std::string folder;  // of the shots
+  // With camera.intrinsics in a file of its own.
+  std::optional<calib::CameraCalibrationFile> lens;
   std::vector<SilhouetteCheck> outlines;  // of all shots, or, with a board, of each
 
   CheckDetail of_shot(std::size_t shot_idx, double value) const;

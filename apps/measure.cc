@@ -16,6 +16,9 @@ namespace {
 void list_inputs(const Rig& rig, const ObjectScenes& scenes, const std::vector<std::string>& paths,
                  Measurement& out) {
   std::vector<std::string> files = {rig.path};
+  for (const std::string& calibration : {rig.camera.intrinsics_path, rig.camera.radiance_path}) {
+    if (!calibration.empty()) files.push_back(calibration);
+  }
   for (const auto& [name, scene] : scenes) {
     if (std::find(files.begin(), files.end(), scene.rig->mesh_path) == files.end()) {
       files.push_back(scene.rig->mesh_path);

@@ -42,6 +42,8 @@ struct RigSensor {
 struct RigCamera {
   std::string model;  // "": any
   calib::CameraIntrinsics intrinsics;
+  std::string intrinsics_path;  // of the file that holds them; "": none
+  std::string radiance_path;
   // Counts per (W/(mm^2 sr)) and second; absent: the scale is free.
   std::optional<std::array<double, 3>> responsivity;
   double responsivity_relative_std = 0.02;

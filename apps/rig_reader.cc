@@ -74,6 +74,7 @@ RigCamera read_camera(const YamlField& field, const std::string& rig_path, bool 
   size.numbers(2);
   const YamlField intrinsics = field.at("intrinsics");
   camera.intrinsics = read_intrinsics_field(intrinsics, rig_path);
+  if (intrinsics.is_scalar()) camera.intrinsics_path = beside(rig_path, intrinsics.text());
   camera.intrinsics.width_px = size.items()[0].integer(2, 100'000);
   camera.intrinsics.height_px = size.items()[1].integer(2, 100'000);
   if (const std::string problem = calib::intrinsics_problem(camera.intrinsics); !problem.empty()) {
@@ -102,6 +103,7 @@ RigCamera read_camera(const YamlField& field, const std::string& rig_path, bool 
       camera.responsivity_relative_std = radiance->responsivity_relative_std;
     }
     camera.radiance = std::move(radiance);
+    camera.radiance_path = file;
   }
   if (const auto f = field.find("sensor")) camera.sensor = read_sensor(*f);
   if (const auto f = field.find("exposure_s")) camera.exposure_s = f->positive();

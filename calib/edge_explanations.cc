@@ -155,6 +155,10 @@ EdgeDiagnosis explain_edges(const std::vector<EdgePoint>& points,
     known.push_back(kFocal);
     known_prior(kFocal, kFocal) = 1 / std::pow(options.focal_relative_std, 2);
   }
+  if (options.k1_std > 0) {
+    known.push_back(kDistortion);
+    known_prior(kDistortion, kDistortion) = 1 / std::pow(options.k1_std, 2);
+  }
   if (options.scale_relative_std > 0) {
     for (const int b : bodies) {
       known.push_back(kScaleOfBody + b);

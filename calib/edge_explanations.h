@@ -46,6 +46,7 @@ struct EdgeDiagnosis {
 struct EdgeExplanationOptions {
   double line_std_px = 0.1;       // see SilhouetteOptions
   double focal_relative_std = 0;  // how well the rig knows it; 0: exactly
+  double k1_std = 0;              // the same of the radial distortion
   double scale_relative_std = 0;  // of each mesh
 };
 
