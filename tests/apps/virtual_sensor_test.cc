@@ -96,7 +96,7 @@ TEST_F(VirtualSensorTest, BlackDriftsFromShotToShot) {
   double sum2 = 0;
   for (std::uint64_t i = 0; i < 20; ++i) {
     const double d = mean_above_black(
-        sensor.frame(even(0), 0.1, VirtualSensor::stream(1, "a" + std::to_string(i))));
+        sensor.frame(even(0), 0.1, VirtualSensor::stream(1, std::to_string(i) + ".dng")));
     sum2 += d * d;
   }
   EXPECT_GT(sum2 / 20, 9 * 0.35);
