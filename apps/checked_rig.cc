@@ -130,12 +130,10 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
     }
   }
   const FrameSource& frames = std::get<FrameSource>(source.open);
-  for (std::size_t i = 0; i < out.shots.size(); ++i) {
-    if (out.shared_pose && i > 0) break;
-    const std::vector<std::size_t> which =
-        out.shared_pose ? source.shot_idxs : std::vector<std::size_t>{source.shot_idxs[i]};
-    out.outlines.push_back(
-        check_silhouettes(loose, geometry->scenes, frames, which, out.shots[i].pose, outline));
+  // With a board in the shot the background is no dark one, and the pose is the board's.
+  if (out.shared_pose) {
+    out.outline = check_silhouettes(loose, geometry->scenes, frames, source.shot_idxs,
+                                    *out.shared_pose, outline);
   }
   out.fit = fit_for_check(loose, source, out.shots, *geometry->library, view, options.quiet);
   if (!rig.camera.responsivity) {

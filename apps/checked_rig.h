@@ -72,7 +72,7 @@ struct CheckedRig {
   std::string folder;  // of the shots
   // With camera.intrinsics in a file of its own.
   std::optional<calib::CameraCalibrationFile> lens;
-  std::vector<SilhouetteCheck> outlines;  // of all shots, or, with a board, of each
+  std::optional<SilhouetteCheck> outline;  // none with a board in the shots
 
   CheckDetail of_shot(std::size_t shot_idx, double value) const;
   CheckDetail of_channel(std::size_t shot_idx, std::size_t channel, double value) const;
