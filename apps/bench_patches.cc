@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kLimitS = 1e-3;
 constexpr double kLimitA = 1e-2;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
 // Samples of each channel that fell on the patches of a shot's map, and the number of patches.
 struct SampleCount {
@@ -69,7 +69,7 @@ std::vector<PatchesBenchRow> bench_patches(const std::string& scene, const Rig& 
       PatchesBenchRow row;
       row.scene = scene;
       row.patch_mm = size_mm;
-      row.error_sigma_s_prime = row.error_sigma_a = kNone;
+      row.error_sigma_s_prime = row.error_sigma_a = kNoFigure;
       row.refusal = e.what();
       rows.push_back(row);
       continue;
@@ -94,8 +94,9 @@ std::vector<PatchesBenchRow> bench_patches(const std::string& scene, const Rig& 
       }
       row.samples_per_patch = samples / patches;
       row.error_sigma_s_prime =
-          e.converged ? e.sigma_s_prime_per_mm.value / truth.sigma_s_prime_per_mm - 1.0 : kNone;
-      row.error_sigma_a = e.converged ? e.sigma_a_per_mm.value / truth.sigma_a_per_mm - 1.0 : kNone;
+          e.converged ? e.sigma_s_prime_per_mm.value / truth.sigma_s_prime_per_mm - 1.0 : kNoFigure;
+      row.error_sigma_a =
+          e.converged ? e.sigma_a_per_mm.value / truth.sigma_a_per_mm - 1.0 : kNoFigure;
       row.std_sigma_s_prime = e.sigma_s_prime_per_mm.std / truth.sigma_s_prime_per_mm;
       row.std_sigma_a = e.sigma_a_per_mm.std / truth.sigma_a_per_mm;
       row.psnr_db = e.psnr_db;

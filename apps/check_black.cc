@@ -10,7 +10,7 @@ namespace {
 // Standard deviations of a block's mean that its darkest tenth may be off by chance and selection.
 constexpr double kSelection = 4.0;
 
-double median(std::vector<double> values) {
+double middle_level(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
                    values.end());
   return values[values.size() / 2];
@@ -29,7 +29,7 @@ std::vector<CheckItem> check_black(const CheckedRig& checked) {
       }
     }
     if (levels.empty()) continue;
-    const double usual = median(levels);
+    const double usual = middle_level(levels);
     for (std::size_t i = 0; i < checked.shots.size(); ++i) {
       const capture::BackgroundLevel& b = checked.frames[i].background;
       if (b.blocks == 0) continue;

@@ -15,7 +15,7 @@
 namespace scattermeter::apps {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotSeen = std::numeric_limits<double>::quiet_NaN();
 
 void hold_highlights(const Led& led, const LedShots& shots, LedCheck& check) {
   const calib::Lens lens(shots.scene.intrinsics);
@@ -28,11 +28,12 @@ void hold_highlights(const Led& led, const LedShots& shots, LedCheck& check) {
     check.highlight_residuals_px.push_back(r);
     sum += r.squaredNorm();
     // A highlight that should not be there at all has no distance: the worst of all.
-    check.highlight_worst_px = r.allFinite() ? std::max(check.highlight_worst_px, r.norm()) : kNone;
+    check.highlight_worst_px =
+        r.allFinite() ? std::max(check.highlight_worst_px, r.norm()) : kNotSeen;
   }
   const double n = static_cast<double>(shots.scene.highlights.size());
-  check.highlight_rms_px = n > 0.0 ? std::sqrt(sum / n) : kNone;
-  if (n == 0.0) check.highlight_worst_px = kNone;
+  check.highlight_rms_px = n > 0.0 ? std::sqrt(sum / n) : kNotSeen;
+  if (n == 0.0) check.highlight_worst_px = kNotSeen;
 }
 
 void hold_planes(const Led& led, const LedShots& shots, LedCheck& check) {
@@ -41,13 +42,13 @@ void hold_planes(const Led& led, const LedShots& shots, LedCheck& check) {
   std::array<std::vector<double>, 3> of_channel;
   for (const calib::ShadedCell& cell : cells) {
     const double predicted = calib::cell_radiance(shots.scene, cell, led);
-    ratio.push_back(predicted > 0.0 ? cell.radiance_W_per_mm2_sr / predicted : kNone);
+    ratio.push_back(predicted > 0.0 ? cell.radiance_W_per_mm2_sr / predicted : kNotSeen);
     if (std::isfinite(ratio.back())) {
       of_channel[static_cast<std::size_t>(cell.channel)].push_back(ratio.back());
     }
   }
-  check.power_change_percent.setConstant(kNone);
-  Eigen::Array3d median = Eigen::Array3d::Constant(kNone);
+  check.power_change_percent.setConstant(kNotSeen);
+  Eigen::Array3d median = Eigen::Array3d::Constant(kNotSeen);
   for (std::size_t c = 0; c < 3; ++c) {
     std::vector<double>& values = of_channel[c];
     if (values.empty()) continue;
@@ -71,7 +72,7 @@ void hold_planes(const Led& led, const LedShots& shots, LedCheck& check) {
       count[at] += 1.0;
     }
     for (std::size_t i = 0; i < size; ++i) {
-      map.percent.push_back(count[i] > 0.0 ? total[i] / count[i] : kNone);
+      map.percent.push_back(count[i] > 0.0 ? total[i] / count[i] : kNotSeen);
       if (!(count[i] > 0.0)) continue;
       sum += map.percent.back() * map.percent.back();
       n += 1.0;
@@ -79,8 +80,8 @@ void hold_planes(const Led& led, const LedShots& shots, LedCheck& check) {
     }
     check.maps.push_back(std::move(map));
   }
-  check.plane_rms_percent = n > 0.0 ? std::sqrt(sum / n) : kNone;
-  if (n == 0.0) check.plane_worst_percent = kNone;
+  check.plane_rms_percent = n > 0.0 ? std::sqrt(sum / n) : kNotSeen;
+  if (n == 0.0) check.plane_worst_percent = kNotSeen;
 }
 
 // Of the place in the rig.
@@ -103,10 +104,10 @@ LedCheck check_led(const Rig& rig, const std::string& light, const LedFrames& fr
   const calib::LedFit fit = calib::fit_led(shots.scene, told.led);
   if (fit.status != calib::LedStatus::kOk) {
     check.problem = fit.message;
-    check.displacement_mm.setConstant(kNone);
-    check.displacement_covariance_mm2.setConstant(kNone);
-    check.displacement_length_mm = check.displacement_std_mm = check.displacement_stds = kNone;
-    check.exponent_change = check.axis_change_rad = kNone;
+    check.displacement_mm.setConstant(kNotSeen);
+    check.displacement_covariance_mm2.setConstant(kNotSeen);
+    check.displacement_length_mm = check.displacement_std_mm = check.displacement_stds = kNotSeen;
+    check.exponent_change = check.axis_change_rad = kNotSeen;
     check.text = light + ": the shots do not tell where it stands: " + fit.message;
     return check;
   }

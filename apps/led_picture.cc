@@ -20,9 +20,9 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr double kBlurPx = 0.7;
-constexpr int kFine = 8;    // sub-samples of a pixel and side, around a highlight
-constexpr int kBorder = 5;  // sub-samples of a pixel and side, at an edge
-constexpr int kRings = 4;   // of an LED's disc: parts of equal area
+constexpr int kFineSide = 8;  // sub-samples of a pixel and side, around a highlight
+constexpr int kBorder = 5;    // sub-samples of a pixel and side, at an edge
+constexpr int kRings = 4;     // of an LED's disc: parts of equal area
 constexpr int kSpokes = 16;
 
 // Places all over a disc about the axis: equal shares of its area.
@@ -185,27 +185,27 @@ class SpherePainter {
     const int x0 = static_cast<int>(std::lround(at.x())) - half;
     const int y0 = static_cast<int>(std::lround(at.y())) - half;
     const int size = 2 * half + 1;
-    const int n = size * kFine;
+    const int n = size * kFineSide;
     std::vector<double> fine(static_cast<std::size_t>(n) * static_cast<std::size_t>(n), 0.0);
     tbb::parallel_for(0, n, [&](int j) {
       for (int i = 0; i < n; ++i) {
         fine[static_cast<std::size_t>(j) * static_cast<std::size_t>(n) +
              static_cast<std::size_t>(i)] =
-            mirrored(sphere,
-                     canvas_.ray(x0 - 0.5 + (i + 0.5) / kFine, y0 - 0.5 + (j + 0.5) / kFine));
+            mirrored(sphere, canvas_.ray(x0 - 0.5 + (i + 0.5) / kFineSide,
+                                         y0 - 0.5 + (j + 0.5) / kFineSide));
       }
     });
     // Share of a fine sample's light that falls on a pixel d pixels away.
     const auto share = [](double d) {
       const auto below = [](double t) { return 0.5 * std::erfc(-t / (kBlurPx * M_SQRT2)); };
-      return (below(d + 0.5) - below(d - 0.5)) / kFine;
+      return (below(d + 0.5) - below(d - 0.5)) / kFineSide;
     };
     std::vector<double> rows(static_cast<std::size_t>(size) * static_cast<std::size_t>(n), 0.0);
     std::vector<double> shares(static_cast<std::size_t>(size) * static_cast<std::size_t>(n));
     for (int p = 0; p < size; ++p) {
       for (int i = 0; i < n; ++i) {
         shares[static_cast<std::size_t>(p) * static_cast<std::size_t>(n) +
-               static_cast<std::size_t>(i)] = share((i + 0.5) / kFine - 0.5 - p);
+               static_cast<std::size_t>(i)] = share((i + 0.5) / kFineSide - 0.5 - p);
       }
     }
     for (std::size_t j = 0; j < static_cast<std::size_t>(n); ++j) {

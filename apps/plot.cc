@@ -24,7 +24,7 @@ constexpr const char* kColours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                     "#E69F00", "#56B4E9", "#000000", "#F0E442"};
 
 // In gnuplot's single quotes only the quote itself has a meaning; it is doubled.
-std::string quoted(const std::string& text) {
+std::string gnuplot_quoted(const std::string& text) {
   std::string out = "'";
   for (char c : text) {
     if (c == '\'') out += '\'';
@@ -40,7 +40,7 @@ std::string axis(const char* name, const PlotAxis& a, bool reversed) {
                                                : std::pair(end(a.min), end(a.max));
   // gnuplot heeds `reverse` only where it chooses an end itself.
   return fmt::format("set {0}label {1} noenhanced\n{2}set {0}range [{3}:{4}]{5}\n", name,
-                     quoted(a.label),
+                     gnuplot_quoted(a.label),
                      a.log ? fmt::format("set logscale {0}\nset format {0} '%g'\n", name) : "",
                      ends.first, ends.second, reversed && !(a.min && a.max) ? " reverse" : "");
 }
@@ -110,7 +110,7 @@ std::string style_of(const PlotSeries& s, std::size_t index) {
 
 std::string script_of(const Plot& plot, const std::string& terminal) {
   std::string script = terminal;
-  script += fmt::format("set title {} noenhanced\n", quoted(plot.title));
+  script += fmt::format("set title {} noenhanced\n", gnuplot_quoted(plot.title));
   script += axis("x", plot.x, false) + axis("y", plot.y, plot.y_down);
   script += "set grid lc rgb '#DDDDDD'\nset boxwidth 1.0 relative\n";
   script += plot.legend_outside ? "set key outside right top Left reverse noenhanced\n"
@@ -128,7 +128,7 @@ std::string script_of(const Plot& plot, const std::string& terminal) {
       curves += fmt::format("$series{} using 1:2:3 notitle with yerrorbars pt 7 ps 0 lc rgb '{}', ",
                             i, colour_of(s, i));
     }
-    const std::string title = s.name.empty() ? "notitle" : "title " + quoted(s.name);
+    const std::string title = s.name.empty() ? "notitle" : "title " + gnuplot_quoted(s.name);
     curves += fmt::format("$series{} using {} {} {}", i,
                           s.style == PlotSeries::Style::kArrows ? "1:2:3:4" : "1:2", title,
                           style_of(s, i));

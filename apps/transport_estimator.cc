@@ -111,8 +111,8 @@ class TransportFit {
         r.take(draw);
       }
       // What a far place has shown is not what holds here.
-      constexpr double kFar = 0.3;
-      if (r.step().change > kFar) part_light_.forget();
+      constexpr double kFarStep = 0.3;
+      if (r.step().change > kFarStep) part_light_.forget();
       last = {r.image(), r.blocks(), r.scatter()};
       part_light_.learn(parts_, r.image(), r.cell_covariance(), dipole(at), r.blocks());
       const ScatteringPoint to = r.step().to;

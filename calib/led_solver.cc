@@ -19,7 +19,7 @@ namespace scattermeter::calib {
 namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr int kPoints = 4;  // of a cell, and of the LED's ring
 
 Matrix6d root_of(const Matrix6d& covariance) {
@@ -226,7 +226,7 @@ Eigen::MatrixXd information(ceres::Problem& problem, Unknowns& unknowns,
   options.apply_loss_function = false;
   ceres::CRSMatrix j;
   if (!problem.Evaluate(options, nullptr, nullptr, nullptr, &j)) {
-    return Eigen::MatrixXd::Constant(size, size, kNone);
+    return Eigen::MatrixXd::Constant(size, size, kNoValue);
   }
   for (int row = 0; row < j.num_rows; ++row) {
     const int from = j.rows[static_cast<std::size_t>(row)];

@@ -12,7 +12,7 @@ namespace scattermeter::calib {
 namespace {
 
 constexpr double kStandardErrors = 0.5;
-constexpr std::size_t kMinViews = 4;
+constexpr std::size_t kLeastViewsOfChoice = 4;
 
 struct Trial {
   LensCandidate candidate;
@@ -108,7 +108,7 @@ LensChoice choose_lens(const std::vector<BoardView>& views, int width_px, int he
   std::vector<LensModel> models = all_lens_models();
   if (only) {
     models = {*only};
-  } else if (views.size() < kMinViews) {
+  } else if (views.size() < kLeastViewsOfChoice) {
     models = {{true, DistortionTerms::kK1K2}};
   } else {
     std::erase_if(models, [](const LensModel& m) { return m.terms == DistortionTerms::kK1; });

@@ -17,7 +17,7 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoPose = std::numeric_limits<double>::quiet_NaN();
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 void check_pairs(const std::vector<PointPair>& pairs) {
@@ -35,13 +35,13 @@ PoseResult fault_result(size_t pairs, const PoseFault& fault) {
   PoseResult result;
   result.status = fault.status;
   result.message = fault.message;
-  result.camera_from_world.rotation.coeffs().setConstant(kNan);
-  result.camera_from_world.translation_mm.setConstant(kNan);
-  result.covariance.setConstant(kNan);
-  result.noise_std_px = result.rms_px = result.worst_px = kNan;
-  result.residuals_px.assign(pairs, Eigen::Vector2d(kNan, kNan));
+  result.camera_from_world.rotation.coeffs().setConstant(kNoPose);
+  result.camera_from_world.translation_mm.setConstant(kNoPose);
+  result.covariance.setConstant(kNoPose);
+  result.noise_std_px = result.rms_px = result.worst_px = kNoPose;
+  result.residuals_px.assign(pairs, Eigen::Vector2d(kNoPose, kNoPose));
   result.inlier.assign(pairs, false);
-  result.center_std_mm.setConstant(kNan);
+  result.center_std_mm.setConstant(kNoPose);
   return result;
 }
 
@@ -104,7 +104,7 @@ double noise_std(const PoseFit& fit, int inliers, double point_std_px) {
 Matrix6d centroid_covariance(const PoseFit& fit, double noise_std_px) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(fit.information);
   if (!(eigen.eigenvalues()[0] > 1e-14 * eigen.eigenvalues()[5])) {
-    return Matrix6d::Constant(kNan);
+    return Matrix6d::Constant(kNoPose);
   }
   return noise_std_px * noise_std_px * eigen.eigenvectors() *
          eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();

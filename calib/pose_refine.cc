@@ -20,7 +20,7 @@ Eigen::Matrix3d exponential(const Eigen::Vector3d& w) {
   return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
 }
 
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+Eigen::Matrix3d skew_of(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return m;
@@ -47,7 +47,7 @@ void normal_equations(const PoseScene& scene, const std::vector<bool>& use, cons
     if (!use[i]) continue;
     const Eigen::Vector3d y = pose.rotation * scene.points[i];
     const Eigen::Vector2d r = scene.lens.project(y + pose.center, &by_point) - scene.image_px[i];
-    jacobian.leftCols<3>() = -by_point * cross_matrix(y);
+    jacobian.leftCols<3>() = -by_point * skew_of(y);
     jacobian.rightCols<3>() = by_point;
     *information += jacobian.transpose() * jacobian;
     *gradient += jacobian.transpose() * r;

@@ -9,9 +9,9 @@ namespace scattermeter::calib {
 namespace {
 
 constexpr std::size_t kMaxRadial = 4;
-constexpr std::size_t kTerms = kMaxRadial + Vignetting::kMapTerms;
+constexpr std::size_t kRadialTerms = kMaxRadial + Vignetting::kMapTerms;
 constexpr int kFolds = 5;
-using Terms = Eigen::Matrix<double, kTerms, 1>;
+using Terms = Eigen::Matrix<double, kRadialTerms, 1>;
 
 // Mean over the block's samples.
 Terms mean_terms(const Block& b, const Vignetting& frame) {
@@ -30,7 +30,7 @@ Terms mean_terms(const Block& b, const Vignetting& frame) {
 }
 
 struct ColourBlocks {
-  Eigen::MatrixXd terms;  // blocks x (1 + kTerms), the first column 1
+  Eigen::MatrixXd terms;  // blocks x (1 + kRadialTerms), the first column 1
   Eigen::VectorXd light, weight;
   Eigen::MatrixXd shared;  // blocks x errors, in units of light
   std::vector<int> fold;
@@ -75,9 +75,9 @@ VignettingFit fit_vignetting(const std::vector<FlatLight>& blocks, int width_px,
       if (b.colour == c && b.light > 0.0 && b.variance > 0.0) own.push_back(&b);
     }
     const auto n = static_cast<Eigen::Index>(own.size());
-    if (n < static_cast<Eigen::Index>(4 * kTerms)) return out;
+    if (n < static_cast<Eigen::Index>(4 * kRadialTerms)) return out;
     ColourBlocks& of = colours[c];
-    of.terms.resize(n, 1 + kTerms);
+    of.terms.resize(n, 1 + kRadialTerms);
     of.light.resize(n);
     of.weight.resize(n);
     of.shared.resize(n, own.front()->shared.size());
@@ -190,7 +190,7 @@ VignettingFit fit_vignetting(const std::vector<FlatLight>& blocks, int width_px,
 
 double share_std(const VignettingFit& fit, double x_px, double y_px, std::size_t colour) {
   const Vignetting& v = fit.vignetting;
-  std::array<double, kTerms> t{};
+  std::array<double, kRadialTerms> t{};
   Vignetting::terms((x_px - v.center_px.x()) / v.half_diagonal_px,
                     (y_px - v.center_px.y()) / v.half_diagonal_px, fit.n_radial, fit.n_map,
                     t.data());

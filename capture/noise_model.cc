@@ -8,14 +8,14 @@
 namespace scattermeter::capture {
 namespace {
 
-constexpr std::size_t kValues = 65536;
+constexpr std::size_t kTableValues = 65536;
 
 // Distance between neighbouring levels around each value. A value that is no level (the decoder
 // makes none) takes the gap that it lies in; beyond the ends, the last gap.
 std::vector<double> steps_of(const std::vector<std::uint16_t>& levels) {
-  std::vector<double> steps(kValues, 1.0);
+  std::vector<double> steps(kTableValues, 1.0);
   if (levels.size() < 2) return steps;
-  for (std::size_t value = 0; value < kValues; ++value) {
+  for (std::size_t value = 0; value < kTableValues; ++value) {
     const auto above = std::upper_bound(levels.begin(), levels.end(), value);
     const auto not_below = std::lower_bound(levels.begin(), levels.end(), value);
     const auto low = std::max<std::ptrdiff_t>(not_below - levels.begin() - 1, 0);
@@ -48,8 +48,8 @@ NoiseModel::NoiseModel(const SensorNoise& sensor, const RawFrame& frame) {
   const double read_variance = sensor.read_noise_counts * sensor.read_noise_counts;
   const std::vector<double> steps = steps_of(frame.curve_levels);
   for (std::size_t phase = 0; phase < table_.size(); ++phase) {
-    table_[phase].resize(kValues);
-    for (std::size_t value = 0; value < kValues; ++value) {
+    table_[phase].resize(kTableValues);
+    for (std::size_t value = 0; value < kTableValues; ++value) {
       const double signal = std::max(static_cast<double>(value) - frame.black_counts[phase], 0.0);
       table_[phase][value] = static_cast<float>(signal / sensor.gain_e_per_count + read_variance +
                                                 steps[value] * steps[value] / 12.0);

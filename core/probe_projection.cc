@@ -13,10 +13,10 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // Gauss-Legendre on [-1, 1], eight points (Abramowitz and Stegun 25.4): the positive half.
-constexpr std::array<double, 4> kNode = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
-                                         0.9602898564975363};
-constexpr std::array<double, 4> kWeight = {0.3626837833783620, 0.3137066458778873,
-                                           0.2223810344533745, 0.1012285362903763};
+constexpr std::array<double, 4> kGaussNode = {0.1834346424956498, 0.5255324099163290,
+                                              0.7966664774136267, 0.9602898564975363};
+constexpr std::array<double, 4> kGaussWeight = {0.3626837833783620, 0.3137066458778873,
+                                                0.2223810344533745, 0.1012285362903763};
 
 // Solid angle within radius r of the disc over 2 pi (the whole sphere: 2), divided by r^2.
 double enclosed_over_r2(ProbeProjection projection, double r2) {
@@ -39,10 +39,10 @@ double flow(ProbeProjection projection, double offset, double a, double b) {
   const double middle = 0.5 * (a + b);
   const double half = 0.5 * (b - a);
   double sum = 0.0;
-  for (std::size_t i = 0; i < kNode.size(); ++i) {
+  for (std::size_t i = 0; i < kGaussNode.size(); ++i) {
     for (double sign : {-1.0, 1.0}) {
-      const double t = middle + sign * half * kNode[i];
-      sum += kWeight[i] * enclosed_over_r2(projection, offset * offset + t * t);
+      const double t = middle + sign * half * kGaussNode[i];
+      sum += kGaussWeight[i] * enclosed_over_r2(projection, offset * offset + t * t);
     }
   }
   return offset * half * sum;

@@ -16,7 +16,7 @@ namespace {
 
 // To the side of an edge where nothing else can be, in sizes of the body.
 constexpr double kBeside = 2e-4;
-constexpr double kInset = 0.1;  // of a piece's half: rays at its ends fall inside the edge
+constexpr double kEdgeInset = 0.1;  // of a piece's half: rays at its ends fall inside the edge
 
 struct MeshEdge {
   std::array<Eigen::Vector3d, 2> end_mm;
@@ -173,7 +173,7 @@ std::vector<EdgePiece> visible_edges(const RayScene& scene, const Eigen::Vector3
         sides_mm.push_back(0.5 * options.clearance_rad * distance_mm);
       }
       for (const double side_mm : sides_mm) {
-        for (const double t : {0.0, -1.0 + kInset, 1.0 - kInset}) {
+        for (const double t : {0.0, -1.0 + kEdgeInset, 1.0 - kEdgeInset}) {
           const auto here = kind_at(rays, piece.center_mm + t * piece.half_mm, piece.outward,
                                     side_mm, inner, outer);
           if (!here || (kind && *kind != *here)) is_seen = false;

@@ -17,7 +17,7 @@ namespace {
 constexpr int kBlocks = 64;
 constexpr double kSmoothCosine = 0.94;  // of 20 degrees
 
-struct Tally {
+struct FieldTally {
   const SurfaceField* field;
   const PatchMesh* patches;
   const TriangleMesh* mesh;
@@ -76,13 +76,13 @@ VolumeLight volume_radiosity(const SurfaceField& field, const PatchMesh& patches
   Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(patches.size());
   Eigen::ArrayXd square = mean;
   VolumeLight out;
-  trace_blocks<Tally>(
+  trace_blocks<FieldTally>(
       world, path_options, 0, kBlocks,
       [&] {
-        return Tally{&field, &patches, &world.boundary.scene().mesh(),
-                     Eigen::VectorXd::Zero(n_nodes), Eigen::ArrayXd::Zero(patches.size())};
+        return FieldTally{&field, &patches, &world.boundary.scene().mesh(),
+                          Eigen::VectorXd::Zero(n_nodes), Eigen::ArrayXd::Zero(patches.size())};
       },
-      [&](const Tally& tally, const PathAudit& audit) {
+      [&](const FieldTally& tally, const PathAudit& audit) {
         sum += tally.at_node / kBlocks;
         mean += tally.on_patch / kBlocks;
         square += tally.on_patch.square() / kBlocks;
