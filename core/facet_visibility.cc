@@ -10,7 +10,7 @@
 namespace scattermeter {
 namespace {
 
-constexpr double kRounding = 1e-9;
+constexpr double kFacetRounding = 1e-9;
 constexpr double kWidest = 1.7;  // tangent of 60 degrees
 
 // A picture of the mesh in square cells.
@@ -66,8 +66,8 @@ class Picture {
       const Eigen::Array2d u = (uv - low_).array() * per_cell_ + round * n_;
       return Eigen::Array2i(u.floor().cast<int>().max(0).min(n_ - 1));
     };
-    const Eigen::Array2i from = cell(a.cwiseMin(b).cwiseMin(c).head<2>(), -kRounding);
-    const Eigen::Array2i to = cell(a.cwiseMax(b).cwiseMax(c).head<2>(), kRounding);
+    const Eigen::Array2i from = cell(a.cwiseMin(b).cwiseMin(c).head<2>(), -kFacetRounding);
+    const Eigen::Array2i to = cell(a.cwiseMax(b).cwiseMax(c).head<2>(), kFacetRounding);
     for (int j = from[1]; j <= to[1]; ++j) {
       for (int i = from[0]; i <= to[0]; ++i) {
         if (!call(nearest_[static_cast<std::size_t>(j) * static_cast<std::size_t>(n_) +
