@@ -153,7 +153,7 @@ void Selection::leave_out_views() {
     if (!(*worst > kBadView * typical_px_)) return;
     const auto at = states_.begin() + (worst - medians.begin());
     out_.left_out.push_back(
-        {at->all->name, say("its corners are %.2f px (middle_of) from where the other views, "
+        {at->all->name, say("its corners are %.2f px (median) from where the other views, "
                             "with %.2f px, put them",
                             *worst, typical_px_)});
     states_.erase(at);
