@@ -3,18 +3,13 @@
 #include <cmath>
 
 #include "apps/check_stations.h"
+#include "core/middle_value.h"
 
 namespace scattermeter::apps {
 namespace {
 
 // Standard deviations of a block's mean that its darkest tenth may be off by chance and selection.
 constexpr double kSelection = 4.0;
-
-double middle_level(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
 
 }  // namespace
 
@@ -29,7 +24,7 @@ std::vector<CheckItem> check_black(const CheckedRig& checked) {
       }
     }
     if (levels.empty()) continue;
-    const double usual = middle_level(levels);
+    const double usual = middle_value(levels);
     for (std::size_t i = 0; i < checked.shots.size(); ++i) {
       const capture::BackgroundLevel& b = checked.frames[i].background;
       if (b.blocks == 0) continue;

@@ -11,6 +11,7 @@
 #include "calib/led_solver.h"
 #include "calib/led_start.h"
 #include "calib/lens.h"
+#include "core/middle_value.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -50,12 +51,11 @@ void hold_planes(const Led& led, const LedShots& shots, LedCheck& check) {
   check.power_change_percent.setConstant(kNotSeen);
   Eigen::Array3d median = Eigen::Array3d::Constant(kNotSeen);
   for (std::size_t c = 0; c < 3; ++c) {
-    std::vector<double>& values = of_channel[c];
+    const std::vector<double>& values = of_channel[c];
     if (values.empty()) continue;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    median[static_cast<Eigen::Index>(c)] = *middle;
-    check.power_change_percent[static_cast<Eigen::Index>(c)] = 100.0 * (*middle - 1.0);
+    const double middle = middle_value(values);
+    median[static_cast<Eigen::Index>(c)] = middle;
+    check.power_change_percent[static_cast<Eigen::Index>(c)] = 100.0 * (middle - 1.0);
   }
   double sum = 0.0, n = 0.0;
   for (const LedPlaneGrid& grid : shots.grids) {

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "apps/radiance_file.h"
+#include "core/covariance_root.h"
 #include "core/dipole.h"
 #include "core/fresnel.h"
 #include "core/incident_light.h"
@@ -176,21 +177,11 @@ std::array<Eigen::Index, kSeen> seen_by(std::size_t channel) {
   return {0, 1, 2, 3, 4, 5, calib::kLedLogIntensity + static_cast<Eigen::Index>(channel)};
 }
 
-// A square root of a covariance: covariance = root root^T. Cholesky with pivoting holds for one
-// that is singular, too.
-template <typename Matrix>
-Matrix root_of(const Matrix& covariance) {
-  const Eigen::LDLT<Matrix> ldlt(covariance);
-  Matrix root = ldlt.matrixL();
-  root = ldlt.transpositionsP().transpose() * root;
-  return (root * ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal()).eval();
-}
-
 // Of what a calibrated LED does not share with others.
 SeenMatrix own_root(const calib::LedUncertainty& u, std::size_t channel) {
   const auto seen = seen_by(channel);
   const calib::LedMatrix own = u.covariance - u.common * u.common.transpose();
-  return root_of<SeenMatrix>(own(seen, seen));
+  return covariance_root<SeenMatrix>(own(seen, seen));
 }
 
 // Columns are combinations of the parameters, so that what the calibration could not tell apart
@@ -332,7 +323,7 @@ void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
   }
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const OpenedShot* shot = shots[i];
-    const auto root = root_of<Eigen::Matrix<double, 6, 6>>(shot->pose.covariance);
+    const auto root = covariance_root<Eigen::Matrix<double, 6, 6>>(shot->pose.covariance);
     const ChannelObservation& o = rows[i];
     for (std::size_t j = 0; j < o.l.size(); ++j) {
       if (o.state[j] != RowState::kUsed) continue;

@@ -9,17 +9,12 @@
 #include <ceres/ceres.h>
 
 #include "calib/lens.h"
+#include "core/cross_matrix.h"
 
 namespace scattermeter::calib {
 namespace {
 
 constexpr double kMaxFocalWidths = 100;  // focal length over the frame's width; beyond, no lens
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& w) {
   const double angle = w.norm();

@@ -5,10 +5,12 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include <opencv2/calib3d.hpp>
 
 #include "calib/opencv_quiet.h"
+#include "core/middle_value.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -113,9 +115,7 @@ double median_residual_px(const std::vector<BoardView>& views, const CameraBundl
       lengths.push_back(r.allFinite() ? r.norm() : std::numeric_limits<double>::infinity());
     }
   }
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
+  return middle_value(std::move(lengths));
 }
 
 CameraBundle start_camera(const std::vector<BoardView>& views, int width_px, int height_px) {

@@ -6,6 +6,7 @@
 
 #include "calib/edge_strip.h"
 #include "calib/lens.h"
+#include "core/middle_value.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -60,12 +61,6 @@ std::vector<Candidate> predict(const std::vector<EdgeShot>& shots, const Lens& l
   return out;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
@@ -100,7 +95,7 @@ std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
   for (const EdgeStrip& s : found) {
     if (s.found) blurs.push_back(s.blur_px);
   }
-  if (blurs.size() >= kBlurSample) found = locate_all(median(blurs));
+  if (blurs.size() >= kBlurSample) found = locate_all(middle_value(blurs));
   std::vector<EdgePoint> out;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!found[i].found || found[i].std_px > options.max_std_px) continue;

@@ -7,17 +7,12 @@
 #include <vector>
 
 #include "calib/lens.h"
+#include "core/middle_value.h"
 
 namespace scattermeter::calib {
 namespace {
 
 constexpr double kFoot = 0.1;  // of the peak: where a blob ends
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Sums over 2 x 2 cells of the filter array: any blob shows there whatever its colour.
 struct CellSums {
@@ -171,12 +166,12 @@ FoundHighlight find_highlight(const CfaSamples& s, const SphereImage& sphere,
     return found;
   }
   const double disc_cells = static_cast<double>(values.size());
-  const double base = median_of(values);
+  const double base = middle_value(values);
   for (double& v : values) v = std::abs(v - base);
   double noise2 = 0.0;
   for (float v : s.variance_counts2) noise2 += v;
   noise2 *= 4.0 / static_cast<double>(s.variance_counts2.size());
-  const double scatter = std::max(1.4826 * median_of(values), std::sqrt(noise2));
+  const double scatter = std::max(1.4826 * middle_value(values), std::sqrt(noise2));
   if (!(peak - base > options.min_snr * scatter)) {
     found.problem = "no highlight on the sphere: is it hidden, or the LED off?";
     return found;
@@ -224,7 +219,8 @@ FoundHighlight find_highlight(const CfaSamples& s, const SphereImage& sphere,
             s.signal_counts[at]);
       }
     });
-    for (std::size_t k = 0; k < 4; ++k) level[k] = around[k].empty() ? 0.0 : median_of(around[k]);
+    for (std::size_t k = 0; k < 4; ++k)
+      level[k] = around[k].empty() ? 0.0 : middle_value(around[k]);
     each([&](const Eigen::Vector2d& p, std::size_t at) {
       const double r = (p - center).norm();
       // Samples fade out over the last one of the window: none enters or leaves as a whole.

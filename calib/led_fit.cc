@@ -14,6 +14,7 @@
 
 #include "calib/led_solver.h"
 #include "calib/led_start.h"
+#include "core/middle_value.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -22,12 +23,6 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLitSnr = 10.0;  // of a channel's mean, for the channel to take part
 constexpr int kRounds = 6;        // of leaving cells out
 constexpr std::size_t kStartCells = 240;
-
-double middle_value(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 Eigen::Vector3d world_point(const LedScene& scene, const ShadedCell& cell) {
   const WhitePlane& plane = scene.planes[cell.plane];

@@ -13,6 +13,7 @@
 
 #include "calib/led_start.h"
 #include "calib/lens.h"
+#include "core/covariance_root.h"
 #include "core/pose_shift.h"
 
 namespace scattermeter::calib {
@@ -21,13 +22,6 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 constexpr int kPoints = 4;  // of a cell, and of the LED's ring
-
-Matrix6d root_of(const Matrix6d& covariance) {
-  const Eigen::LDLT<Matrix6d> ldlt(covariance);
-  Matrix6d root = ldlt.matrixL();
-  root = ldlt.transpositionsP().transpose() * root;
-  return root * ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
-}
 
 Rigid3d moved(const Rigid3d& pose, const Eigen::Matrix<double, 6, 1>& by) {
   Rigid3d out = pose;
@@ -52,7 +46,7 @@ struct Frame {
   Frame(const LedScene& s, const Led& start) : scene(s), lens(s.intrinsics), led(start) {
     tangents[0] = led.axis.unitOrthogonal();
     tangents[1] = led.axis.cross(tangents[0]);
-    for (const LedView& v : s.views) pose_root.push_back(root_of(v.pose_covariance));
+    for (const LedView& v : s.views) pose_root.push_back(covariance_root(v.pose_covariance));
   }
 
   Led at(const double* x) const {

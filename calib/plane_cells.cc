@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <oneapi/tbb/parallel_for.h>
+
+#include "core/middle_value.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -20,9 +23,7 @@ struct PlaneSample {
 
 double median_of_magnitudes(std::vector<double> values) {
   for (double& v : values) v = std::abs(v);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return middle_value(std::move(values));
 }
 
 // The mean of the samples without spots; `kept` says which.

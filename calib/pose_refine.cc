@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "core/cross_matrix.h"
+
 namespace scattermeter::calib {
 namespace {
 
@@ -18,12 +20,6 @@ Eigen::Matrix3d exponential(const Eigen::Vector3d& w) {
   const double angle = w.norm();
   if (angle == 0) return Eigen::Matrix3d::Identity();
   return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
-}
-
-Eigen::Matrix3d skew_of(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
 }
 
 double sum_squares(const PoseScene& scene, const std::vector<bool>& use, const ScenePose& pose) {
@@ -47,7 +43,7 @@ void normal_equations(const PoseScene& scene, const std::vector<bool>& use, cons
     if (!use[i]) continue;
     const Eigen::Vector3d y = pose.rotation * scene.points[i];
     const Eigen::Vector2d r = scene.lens.project(y + pose.center, &by_point) - scene.image_px[i];
-    jacobian.leftCols<3>() = -by_point * skew_of(y);
+    jacobian.leftCols<3>() = -by_point * cross_matrix(y);
     jacobian.rightCols<3>() = by_point;
     *information += jacobian.transpose() * jacobian;
     *gradient += jacobian.transpose() * r;

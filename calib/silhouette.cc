@@ -13,6 +13,7 @@
 #include "calib/edge_strip.h"
 #include "calib/lens.h"
 #include "core/chi_square.h"
+#include "core/middle_value.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -146,9 +147,7 @@ std::size_t line_count(const std::vector<EdgePoint>& points) {
 
 double robust_deviation(std::vector<double> residual) {
   for (double& r : residual) r = std::abs(r);
-  const auto middle = residual.begin() + static_cast<std::ptrdiff_t>(residual.size() / 2);
-  std::nth_element(residual.begin(), middle, residual.end());
-  return 1.4826 * *middle;
+  return 1.4826 * middle_value(std::move(residual));
 }
 
 Silhouette failed(SilhouetteStatus status, std::string message) {

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include <opencv2/calib3d.hpp>
 
 #include "calib/camera_start.h"
 #include "calib/opencv_quiet.h"
 #include "calib/pose_layout.h"
+#include "core/middle_value.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -30,11 +32,9 @@ std::string say(const char* format, Values... values) {
   return text;
 }
 
-double middle_of(std::vector<double> values) {
+double middle_or_none(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return middle_value(std::move(values));
 }
 
 bool same_corners(const BoardView& a, const BoardView& b) {
@@ -127,7 +127,7 @@ void Selection::fit(double cauchy_px) {
   for (std::size_t i = 0; i < states_.size(); ++i) {
     states_[i].camera_from_board = bundle.camera_from_board[i];
   }
-  typical_px_ = std::max(kFloorPx, middle_of(view_medians()));
+  typical_px_ = std::max(kFloorPx, middle_or_none(view_medians()));
 }
 
 std::vector<double> Selection::residuals(const BoardView& view, const Rigid3d& pose) const {
@@ -142,7 +142,7 @@ std::vector<double> Selection::residuals(const BoardView& view, const Rigid3d& p
 std::vector<double> Selection::view_medians() const {
   std::vector<double> medians;
   for (const ViewState& s : states_)
-    medians.push_back(middle_of(residuals(s.used, s.camera_from_board)));
+    medians.push_back(middle_or_none(residuals(s.used, s.camera_from_board)));
   return medians;
 }
 
@@ -169,7 +169,7 @@ void Selection::readmit(const std::vector<BoardView>& views) {
       return v.name == out_.left_out[i].name;
     });
     const PoseResult pose = estimate_pose(k, view->corners);
-    const bool fits = pose.rms_px > 0 && middle_of(residuals(*view, pose.camera_from_world)) <
+    const bool fits = pose.rms_px > 0 && middle_or_none(residuals(*view, pose.camera_from_world)) <
                                              0.7 * kBadView * typical_px_;
     if (!fits) {
       ++i;
@@ -187,7 +187,8 @@ bool Selection::leave_out_corners() {
   for (std::size_t i = 0; i < states_.size();) {
     ViewState& s = states_[i];
     const std::vector<double> r = residuals(*s.all, s.camera_from_board);
-    const double limit_px = kBadCorner * std::max(middle_of(r), typical_px_) / kMedianOfRayleigh;
+    const double limit_px =
+        kBadCorner * std::max(middle_or_none(r), typical_px_) / kMedianOfRayleigh;
     BoardView kept{s.all->name, {}};
     std::vector<LeftOutCorner> bad;
     for (std::size_t c = 0; c < r.size(); ++c) {

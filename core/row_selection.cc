@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/middle_value.h"
+
 namespace scattermeter {
 
 void leave_out(ChannelObservation& observation, std::size_t row, RowState reason) {
@@ -50,10 +52,8 @@ std::vector<Eigen::Index> outliers(const Eigen::VectorXd& l, const Eigen::Vector
   std::vector<Eigen::Index> out;
   if (l.size() == 0) return out;
   const Eigen::VectorXd z = (l - predicted).cwiseQuotient(std_l).cwiseAbs();
-  std::vector<double> sorted(z.begin(), z.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  const double limit = options.outlier_std * std::max(1.0, 1.4826 * *middle);
+  const double middle = middle_value(std::vector<double>(z.begin(), z.end()));
+  const double limit = options.outlier_std * std::max(1.0, 1.4826 * middle);
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     if (z[j] > limit) out.push_back(j);
   }

@@ -9,6 +9,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "core/disjoint_sets.h"
+#include "core/middle_value.h"
 #include "core/patch_scores.h"
 
 namespace scattermeter {
@@ -104,9 +105,7 @@ VolumeLight volume_radiosity(const SurfaceField& field, const PatchMesh& patches
     }
   }
   if (!relative.empty()) {
-    const auto middle = relative.begin() + static_cast<std::ptrdiff_t>(relative.size() / 2);
-    std::nth_element(relative.begin(), middle, relative.end());
-    out.median_relative_std = *middle;
+    out.median_relative_std = middle_value(std::move(relative));
   }
   return out;
 }

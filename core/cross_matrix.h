@@ -1,0 +1,15 @@
+// The cross product as a matrix.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace scattermeter {
+
+// [v]_x: cross_matrix(v) * w = v x w.
+inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+}  // namespace scattermeter
