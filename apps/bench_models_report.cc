@@ -14,8 +14,6 @@
 namespace scattermeter::apps {
 namespace {
 
-using Align = TextTable::Align;
-
 const std::vector<std::string>& model_names() {
   static const std::vector<std::string> names = {"paper", "dipole", "transport"};
   return names;
@@ -60,6 +58,7 @@ double median(std::vector<double> values) {
 }
 
 std::string rows_text(const std::vector<ModelsBenchRow>& rows) {
+  using Align = TextTable::Align;
   TextTable table({{"body", Align::kLeft},
                    {"material", Align::kLeft},
                    {"model", Align::kLeft},
@@ -126,6 +125,7 @@ std::string summary_text(const std::vector<ModelsBenchRow>& rows) {
     sum.seconds.push_back(r.seconds);
   }
   if (sums.empty()) return "";
+  using Align = TextTable::Align;
   TextTable table({{"body", Align::kLeft},
                    {"model", Align::kLeft},
                    {"ok"},

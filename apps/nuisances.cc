@@ -181,7 +181,7 @@ std::array<Eigen::Index, kSeen> seen_by(std::size_t channel) {
 SeenMatrix own_root(const calib::LedUncertainty& u, std::size_t channel) {
   const auto seen = seen_by(channel);
   const calib::LedMatrix own = u.covariance - u.common * u.common.transpose();
-  return covariance_root<SeenMatrix>(own(seen, seen));
+  return covariance_root(own(seen, seen));
 }
 
 // Columns are combinations of the parameters, so that what the calibration could not tell apart
@@ -323,7 +323,7 @@ void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
   }
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const OpenedShot* shot = shots[i];
-    const auto root = covariance_root<Eigen::Matrix<double, 6, 6>>(shot->pose.covariance);
+    const Eigen::Matrix<double, 6, 6> root = covariance_root(shot->pose.covariance);
     const ChannelObservation& o = rows[i];
     for (std::size_t j = 0; j < o.l.size(); ++j) {
       if (o.state[j] != RowState::kUsed) continue;

@@ -5,13 +5,13 @@
 #include <optional>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/core.h>
 
 #include "apps/radiance_steps.h"
 #include "calib/photon_transfer.h"
 #include "capture/noise_model.h"
 #include "capture/saturation.h"
+#include "core/covariance_root.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
@@ -313,9 +313,7 @@ void find_response_and_noise(RadianceSteps& steps) {
     }
   }
   // Independent errors of deviation 1 behind the covariance.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fit.joint_covariance);
-  const Eigen::MatrixXd shared = fit.light_rows * eigen.eigenvectors() *
-                                 eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const Eigen::MatrixXd shared = fit.light_rows * covariance_root(fit.joint_covariance);
   steps.light.resize(n_blocks);
   for (std::size_t k = 0; k < n_blocks; ++k) {
     const std::size_t place = best * n_blocks + k;

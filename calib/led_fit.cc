@@ -10,11 +10,11 @@
 #include <tuple>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "calib/led_solver.h"
 #include "calib/led_start.h"
 #include "core/middle_value.h"
+#include "core/symmetric_eigen.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -359,15 +359,12 @@ class LedFitter {
     const Eigen::MatrixXd some = info(kept, kept);
     const Eigen::VectorXd scale = some.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
     const Eigen::MatrixXd scaled = scale.asDiagonal() * some * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-    if (!scaled.allFinite() || !(eigen.eigenvalues()[0] > 1e-12)) {
+    SymmetricEigen eigen;
+    if (scaled.allFinite()) eigen = symmetric_eigen(scaled);
+    if (eigen.values.size() == 0 || !(eigen.values[0] > 1e-12)) {
       LedVector v = LedVector::Zero();
-      if (scaled.allFinite()) {
-        for (std::size_t k = 0; k < kept.size(); ++k) {
-          if (kept[k] < kLedParameters) {
-            v[kept[k]] = eigen.eigenvectors()(static_cast<Eigen::Index>(k), 0);
-          }
-        }
+      for (std::size_t k = 0; eigen.values.size() > 0 && k < kept.size(); ++k) {
+        if (kept[k] < kLedParameters) v[kept[k]] = eigen.vectors(static_cast<Eigen::Index>(k), 0);
       }
       refuse(LedStatus::kUndetermined,
              "the shots do not determine " + combination_name(v) + " apart; " + advice());
@@ -375,8 +372,7 @@ class LedFitter {
     }
     const Eigen::MatrixXd inverse =
         scale.asDiagonal() *
-        (eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() *
-         eigen.eigenvectors().transpose()) *
+        (eigen.vectors * eigen.values.cwiseInverse().asDiagonal() * eigen.vectors.transpose()) *
         scale.asDiagonal();
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
     covariance(kept, kept) = inverse;
@@ -436,8 +432,7 @@ class LedFitter {
                                  digits(fit_.distance_mm) + ", power to " +
                                  digits(100.0 * power_std) + " %, correlation " +
                                  digits(fit_.distance_power_correlation);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> place(c.topLeftCorner<3, 3>());
-    const double place_std = std::sqrt(place.eigenvalues()[2]);
+    const double place_std = std::sqrt(symmetric_eigen(c.topLeftCorner<3, 3>()).values[2]);
     const double axis_std =
         std::sqrt(std::max(c(kLedAxis, kLedAxis), c(kLedAxis + 1, kLedAxis + 1)));
     const double exponent_std = std::sqrt(c(kLedExponent, kLedExponent));

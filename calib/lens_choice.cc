@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <tbb/parallel_for.h>
 
 #include "calib/lens.h"
+#include "core/symmetric_eigen.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -39,13 +39,11 @@ bool covers_frame(const CameraIntrinsics& k) {
 // Solves symmetric equations brought to unit diagonal; false where they are singular.
 bool solve(const Eigen::MatrixXd& m, const Eigen::VectorXd& right, Eigen::VectorXd* x) {
   const Eigen::VectorXd scale = m.diagonal().cwiseSqrt().cwiseInverse();
-  if (!scale.allFinite()) return false;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * m *
-                                                             scale.asDiagonal());
-  if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[0] > 1e-13)) return false;
-  const Eigen::VectorXd scaled = eigen.eigenvectors().transpose() * scale.cwiseProduct(right);
-  *x =
-      scale.cwiseProduct(eigen.eigenvectors() * scaled.cwiseQuotient(eigen.eigenvalues()).matrix());
+  if (!scale.allFinite() || !m.allFinite()) return false;
+  const SymmetricEigen eigen = symmetric_eigen(scale.asDiagonal() * m * scale.asDiagonal());
+  if (!(eigen.values[0] > 1e-13)) return false;
+  const Eigen::VectorXd scaled = eigen.vectors.transpose() * scale.cwiseProduct(right);
+  *x = scale.cwiseProduct(eigen.vectors * scaled.cwiseQuotient(eigen.values).matrix());
   return x->allFinite();
 }
 

@@ -5,9 +5,9 @@
 #include <map>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "core/chi_square.h"
+#include "core/symmetric_eigen.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -33,11 +33,12 @@ LensUncertainty lens_uncertainty(const std::vector<BoardView>& views,
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   if (!scale.allFinite() || !(freedom > 0)) return out;
   const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  if (eigen.info() != Eigen::Success || !(eigen.eigenvalues()[0] > 1e-13)) return out;
-  const Eigen::MatrixXd inverse = scale.asDiagonal() * eigen.eigenvectors() *
-                                  eigen.eigenvalues().cwiseInverse().asDiagonal() *
-                                  eigen.eigenvectors().transpose() * scale.asDiagonal();
+  if (!scaled.allFinite()) return out;
+  const SymmetricEigen eigen = symmetric_eigen(scaled);
+  if (!(eigen.values[0] > 1e-13)) return out;
+  const Eigen::MatrixXd inverse = scale.asDiagonal() * eigen.vectors *
+                                  eigen.values.cwiseInverse().asDiagonal() *
+                                  eigen.vectors.transpose() * scale.asDiagonal();
   const double variance = sum_squares / freedom;
   out.determined = true;
   out.noise_std_px = std::sqrt(variance);

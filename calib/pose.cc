@@ -7,12 +7,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include <Eigen/Eigenvalues>
-
 #include "calib/pose_ambiguity.h"
 #include "calib/pose_layout.h"
 #include "calib/pose_refine.h"
 #include "calib/pose_search.h"
+#include "core/symmetric_eigen.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -102,12 +101,11 @@ double noise_std(const PoseFit& fit, int inliers, double point_std_px) {
 
 // Covariance about the centroid, of (w, d) in rad and units of scale_mm. NaN where singular.
 Matrix6d centroid_covariance(const PoseFit& fit, double noise_std_px) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(fit.information);
-  if (!(eigen.eigenvalues()[0] > 1e-14 * eigen.eigenvalues()[5])) {
-    return Matrix6d::Constant(kNoPose);
-  }
-  return noise_std_px * noise_std_px * eigen.eigenvectors() *
-         eigen.eigenvalues().cwiseInverse().asDiagonal() * eigen.eigenvectors().transpose();
+  if (!fit.information.allFinite()) return Matrix6d::Constant(kNoPose);
+  const SymmetricEigen eigen = symmetric_eigen(fit.information);
+  if (!(eigen.values[0] > 1e-14 * eigen.values[5])) return Matrix6d::Constant(kNoPose);
+  return noise_std_px * noise_std_px * eigen.vectors * eigen.values.cwiseInverse().asDiagonal() *
+         eigen.vectors.transpose();
 }
 
 // Covariance of (w, displacement in mm of the object's point at `lever_mm` from the centroid,
@@ -124,7 +122,7 @@ Matrix6d covariance_at(const PoseScene& scene, const Matrix6d& about_centroid,
 
 double largest_std(const Eigen::Matrix3d& covariance) {
   if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()[2]);
+  return std::sqrt(symmetric_eigen(covariance).values[2]);
 }
 
 std::optional<PoseFault> condition_fault(const PoseScene& scene, const PoseFit& fit,

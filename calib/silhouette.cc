@@ -115,8 +115,10 @@ bool turn_coarsely(const std::vector<EdgeShot>& shots, const std::vector<CfaSamp
   const Eigen::Vector3d from = lens.unproject(middle).homogeneous();
   const Eigen::Vector3d to = lens.unproject(middle + factor * shift).homogeneous();
   if (!from.allFinite() || !to.allFinite()) return false;
-  const Rigid3d turn{Eigen::Quaterniond::FromTwoVectors(from, to), Eigen::Vector3d::Zero()};
-  *pose = turn * *pose;
+  const Eigen::Vector3d axis = from.cross(to);
+  if (axis.isZero(0.0)) return true;
+  const Eigen::AngleAxisd turn(std::atan2(axis.norm(), from.dot(to)), axis.normalized());
+  *pose = Rigid3d{Eigen::Quaterniond(turn), Eigen::Vector3d::Zero()} * *pose;
   return true;
 }
 

@@ -8,9 +8,8 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr std::size_t kMaxRadial = 4;
-constexpr std::size_t kRadialTerms = kMaxRadial + Vignetting::kMapTerms;
-constexpr int kFolds = 5;
+constexpr std::size_t kRadial = 4;
+constexpr std::size_t kRadialTerms = kRadial + Vignetting::kMapTerms;
 using Terms = Eigen::Matrix<double, kRadialTerms, 1>;
 
 // Mean over the block's samples.
@@ -20,7 +19,7 @@ Terms mean_terms(const Block& b, const Vignetting& frame) {
   for (int y = b.y0; y < b.y1; y += 2) {
     for (int x = b.x0; x < b.x1; x += 2) {
       Vignetting::terms((x - frame.center_px.x()) / frame.half_diagonal_px,
-                        (y - frame.center_px.y()) / frame.half_diagonal_px, kMaxRadial,
+                        (y - frame.center_px.y()) / frame.half_diagonal_px, kRadial,
                         Vignetting::kMapTerms, t.data());
       sum += t;
       ++n;
@@ -33,33 +32,17 @@ struct ColourBlocks {
   Eigen::MatrixXd terms;  // blocks x (1 + kRadialTerms), the first column 1
   Eigen::VectorXd light, weight;
   Eigen::MatrixXd shared;  // blocks x errors, in units of light
-  std::vector<int> fold;
 };
-
-std::vector<Eigen::Index> columns_of(std::size_t n_radial, std::size_t n_map) {
-  std::vector<Eigen::Index> out = {0};
-  for (std::size_t k = 0; k < n_radial; ++k) out.push_back(static_cast<Eigen::Index>(1 + k));
-  for (std::size_t m = 0; m < n_map; ++m) {
-    out.push_back(static_cast<Eigen::Index>(1 + kMaxRadial + m));
-  }
-  return out;
-}
 
 struct LinearFit {
   Eigen::VectorXd x;
   Eigen::MatrixXd covariance;
 };
 
-// Least squares over the blocks outside of a fold (-1: all).
-LinearFit fit_blocks(const ColourBlocks& c, const std::vector<Eigen::Index>& columns, int fold) {
-  Eigen::VectorXd weight = c.weight;
-  for (Eigen::Index i = 0; i < weight.size(); ++i) {
-    if (c.fold[static_cast<std::size_t>(i)] == fold) weight[i] = 0.0;
-  }
-  const Eigen::MatrixXd a = c.terms(Eigen::all, columns);
-  const Eigen::MatrixXd normal = a.transpose() * weight.asDiagonal() * a;
+LinearFit fit_blocks(const ColourBlocks& c) {
+  const Eigen::MatrixXd normal = c.terms.transpose() * c.weight.asDiagonal() * c.terms;
   const auto ldlt = normal.ldlt();
-  return {ldlt.solve(a.transpose() * weight.cwiseProduct(c.light)),
+  return {ldlt.solve(c.terms.transpose() * c.weight.cwiseProduct(c.light)),
           ldlt.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()))};
 }
 
@@ -87,60 +70,13 @@ VignettingFit fit_vignetting(const std::vector<FlatLight>& blocks, int width_px,
       of.light[i] = b.light;
       of.weight[i] = 1.0 / b.variance;
       of.shared.row(i) = b.light * b.shared.transpose();
-      of.fold.push_back(static_cast<int>(i * 7 % (kFolds * 7) / 7 % kFolds));
     }
   }
-  // Errors of prediction of every choice, one per block: normalised squares.
-  double best = 0, best_error = 0;
-  struct Choice {
-    std::size_t n_radial, n_map;
-    double mean, error;
-  };
-  std::vector<Choice> choices;
-  for (const std::size_t n_map : {std::size_t{0}, Vignetting::kMapTerms}) {
-    for (std::size_t n_radial = 0; n_radial <= kMaxRadial; ++n_radial) {
-      const std::vector<Eigen::Index> columns = columns_of(n_radial, n_map);
-      double sum = 0, squares = 0, n = 0;
-      for (const ColourBlocks& c : colours) {
-        for (int fold = 0; fold < kFolds; ++fold) {
-          const LinearFit fit = fit_blocks(c, columns, fold);
-          for (Eigen::Index i = 0; i < c.light.size(); ++i) {
-            if (c.fold[static_cast<std::size_t>(i)] != fold) continue;
-            const double r = c.light[i] - c.terms.row(i)(columns) * fit.x;
-            const double e = c.weight[i] * r * r;
-            sum += e;
-            squares += e * e;
-            n += 1.0;
-          }
-        }
-      }
-      const double mean = sum / n;
-      const double error = std::sqrt(std::max(0.0, squares / n - mean * mean) / n);
-      choices.push_back({n_radial, n_map, mean, error});
-      if (choices.size() == 1 || mean < best) {
-        best = mean;
-        best_error = error;
-      }
-    }
-  }
-  // The differences between choices scatter far less than the errors themselves do, which share
-  // the blocks' noise: a tenth of the standard error stands for them.
-  const auto chosen =
-      std::min_element(choices.begin(), choices.end(), [&](const Choice& a, const Choice& b) {
-        const auto rank = [&](const Choice& k) {
-          const double terms = static_cast<double>(k.n_radial + k.n_map);
-          return k.mean <= best + 0.1 * best_error ? terms : 100.0 + k.mean;
-        };
-        return rank(a) < rank(b);
-      });
-  out.n_radial = chosen->n_radial;
-  out.n_map = chosen->n_map;
-  const std::vector<Eigen::Index> columns = columns_of(out.n_radial, out.n_map);
   double chi2 = 0, freedom = 0, relative = 0, n = 0;
   std::array<LinearFit, kRgb> fits;
   for (std::size_t c = 0; c < kRgb; ++c) {
-    fits[c] = fit_blocks(colours[c], columns, -1);
-    const Eigen::VectorXd predicted = colours[c].terms(Eigen::all, columns) * fits[c].x;
+    fits[c] = fit_blocks(colours[c]);
+    const Eigen::VectorXd predicted = colours[c].terms * fits[c].x;
     for (Eigen::Index i = 0; i < predicted.size(); ++i) {
       const double r = colours[c].light[i] - predicted[i];
       chi2 += colours[c].weight[i] * r * r;
@@ -148,7 +84,7 @@ VignettingFit fit_vignetting(const std::vector<FlatLight>& blocks, int width_px,
       out.worst = std::max(out.worst, std::abs(r / predicted[i]));
       n += 1.0;
     }
-    freedom += static_cast<double>(predicted.size()) - static_cast<double>(columns.size());
+    freedom += static_cast<double>(predicted.size()) - static_cast<double>(1 + kRadialTerms);
   }
   out.rms = std::sqrt(relative / n);
   out.reduced_chi2 = chi2 / freedom;
@@ -163,11 +99,11 @@ VignettingFit fit_vignetting(const std::vector<FlatLight>& blocks, int width_px,
     j << -factor / x[0], Eigen::MatrixXd::Identity(m, m) / x[0];
     // Each shared error moves the answer as it moves the light.
     const ColourBlocks& of = colours[c];
-    const Eigen::MatrixXd moved = fits[c].covariance * of.terms(Eigen::all, columns).transpose() *
-                                  of.weight.asDiagonal() * of.shared;
+    const Eigen::MatrixXd moved =
+        fits[c].covariance * of.terms.transpose() * of.weight.asDiagonal() * of.shared;
     const Eigen::MatrixXd covariance = widen * fits[c].covariance + moved * moved.transpose();
     out.covariance[c] = j * covariance * j.transpose();
-    const auto radial = static_cast<std::ptrdiff_t>(out.n_radial);
+    const auto radial = static_cast<std::ptrdiff_t>(kRadial);
     out.vignetting.radial[c].assign(factor.begin(), factor.begin() + radial);
     out.vignetting.map[c].assign(factor.begin() + radial, factor.end());
   }
@@ -192,11 +128,9 @@ double share_std(const VignettingFit& fit, double x_px, double y_px, std::size_t
   const Vignetting& v = fit.vignetting;
   std::array<double, kRadialTerms> t{};
   Vignetting::terms((x_px - v.center_px.x()) / v.half_diagonal_px,
-                    (y_px - v.center_px.y()) / v.half_diagonal_px, fit.n_radial, fit.n_map,
+                    (y_px - v.center_px.y()) / v.half_diagonal_px, kRadial, Vignetting::kMapTerms,
                     t.data());
-  const Eigen::Map<const Eigen::VectorXd> terms(
-      t.data(), static_cast<Eigen::Index>(fit.n_radial + fit.n_map));
-  if (terms.size() == 0) return 0.0;
+  const Eigen::Map<const Terms> terms(t.data());
   return std::sqrt(std::max(0.0, terms.dot(fit.covariance[colour] * terms)));
 }
 

@@ -25,8 +25,7 @@ struct FlatLight {
 
 struct VignettingFit {
   Vignetting vignetting;
-  std::size_t n_radial = 0, n_map = 0;  // what cross-validation chose
-  // Of each colour's factors: radial, then map.
+  // Of each colour's factors: four radial ones, then map's four.
   std::array<Eigen::MatrixXd, kRgb> covariance;
   double rms_std = 0;         // standard deviation of a share, rms over the frame and the colours
   double corner_std = 0;      // the largest in a corner
@@ -36,10 +35,10 @@ struct VignettingFit {
 };
 
 // light = A(colour) V(block), V averaged over the block's own samples; least squares per colour,
-// centre and radius the frame's. The number of radial terms (0 .. 4) and whether the four terms
-// that are not round take part is chosen over five folds of blocks: the fewest terms whose error of
-// prediction lies within one standard error of the best (Hastie, Tibshirani, Friedman, Elements of
-// Statistical Learning, 7.10). A flat field that is itself uneven is taken for vignetting.
+// centre and radius the frame's. All eight terms always take part: where the data chose the terms,
+// the choice scattered from one calibration to the next by more than the covariance of the terms
+// chosen tells (a quarter of the deviation, over the frame), and what the terms too many cost is a
+// hundredth of what flats resolve. A flat field that is itself uneven is taken for vignetting.
 VignettingFit fit_vignetting(const std::vector<FlatLight>& blocks, int width_px, int height_px);
 
 // Standard deviation of a share at a place.

@@ -11,13 +11,12 @@
 
 #include "core/lit_layer.h"
 #include "core/probe_irradiance.h"
+#include "core/triangle_parts.h"
 
 namespace scattermeter {
 namespace {
 
 using Part = ProbeIrradiance::Part;
-using Triangle = std::array<Eigen::Vector3d, 3>;
-
 // Interpolation may err by this many tolerances, at a shadow edge of bright pixels by more: the
 // error changes sign along the edge.
 constexpr double kSmooth = 3.0;

@@ -1,13 +1,23 @@
 #include "core/exit_site.h"
 
+#include <cmath>
 #include <cstddef>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "core/triangle_parts.h"
 
 namespace scattermeter {
+namespace {
+
+// Of a symmetric positive matrix, after Cayley and Hamilton.
+Eigen::Matrix2d square_root(const Eigen::Matrix2d& m) {
+  const double root_det = std::sqrt(m.determinant());
+  return (m + root_det * Eigen::Matrix2d::Identity()) / std::sqrt(m.trace() + 2.0 * root_det);
+}
+
+}  // namespace
 
 ExitSite exit_patch(const PatchMesh& patches, int patch_idx) {
   const Triangle t = patches.corners_mm(patch_idx);
@@ -41,11 +51,9 @@ ExitSite exit_samples(const PatchMesh& patches, int patch_idx, const Eigen::Vect
   if (!(to.determinant() > 1e-6 * to.trace() * to.trace())) return exit_point(mean_mm);
   // The symmetric map that carries one covariance to the other (of all maps the one that moves
   // points least): from^-1/2 (from^1/2 to from^1/2)^1/2 from^-1/2.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> root(from);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> inner(root.operatorSqrt() * to *
-                                                             root.operatorSqrt());
-  const Eigen::Matrix2d map =
-      root.operatorInverseSqrt() * inner.operatorSqrt() * root.operatorInverseSqrt();
+  const Eigen::Matrix2d root = square_root(from);
+  const Eigen::Matrix2d inverse = root.inverse();
+  const Eigen::Matrix2d map = inverse * square_root(root * to * root) * inverse;
   for (Eigen::Vector3d& p : site.points_mm) {
     p = mean_mm + plane * (map * (plane.transpose() * (p - site.center_mm)));
   }

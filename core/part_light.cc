@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
+#include "core/covariance_root.h"
 
 namespace scattermeter {
 
@@ -53,9 +53,7 @@ Eigen::MatrixXd PartLight::cells_alike(const ShotParts& parts) const {
 
 Eigen::MatrixXd correlated_rows(const ShotParts& parts, const Eigen::VectorXd& l,
                                 const Eigen::MatrixXd& cells) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(cells);
-  const Eigen::MatrixXd of_cell =
-      modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const Eigen::MatrixXd of_cell = covariance_root(cells);
   Eigen::MatrixXd out(l.size(), of_cell.cols());
   for (Eigen::Index j = 0; j < out.rows(); ++j) {
     out.row(j) = l[j] * of_cell.row(parts.cell_of_row(j));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "core/symmetric_eigen.h"
 
 namespace scattermeter {
 
@@ -43,15 +43,15 @@ RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_
   const Eigen::MatrixXd scaled = inverse_scale.asDiagonal() *
                                  Eigen::MatrixXd(information.selfadjointView<Eigen::Lower>()) *
                                  inverse_scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-  const Eigen::VectorXd& lambda = eigen.eigenvalues();  // ascending
+  const SymmetricEigen eigen = symmetric_eigen(scaled);
+  const Eigen::VectorXd& lambda = eigen.values;  // ascending
   const double limit = rank_tolerance * std::max(0.0, lambda[n - 1]);
   Eigen::Index first = 0;
   while (first < n && !(lambda[first] > limit)) ++first;
   const Eigen::Index rank = n - first;
   RecoveredReflectance out;
   const Eigen::VectorXd root = lambda.tail(rank).cwiseSqrt();
-  const Eigen::MatrixXd vectors = eigen.eigenvectors().rightCols(rank);
+  const Eigen::MatrixXd vectors = eigen.vectors.rightCols(rank);
   out.sqrt_information = root.asDiagonal() * vectors.transpose() * scale.asDiagonal();
   out.inverse = inverse_scale.asDiagonal() * vectors * root.cwiseInverse().asDiagonal();
   out.whitened = out.inverse.transpose() * right;

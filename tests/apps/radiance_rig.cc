@@ -5,15 +5,15 @@
 
 namespace scattermeter::apps {
 
-Rig radiance_rig() {
+Rig radiance_rig(int scale) {
   Rig rig;
   rig.path = "rig.yaml";
   calib::CameraIntrinsics& k = rig.camera.intrinsics;
-  k.width_px = 120;
-  k.height_px = 80;
-  k.fx_px = k.fy_px = 300;
-  k.cx_px = 59.5;
-  k.cy_px = 39.5;
+  k.width_px = 120 * scale;
+  k.height_px = 80 * scale;
+  k.fx_px = k.fy_px = 300.0 * scale;
+  k.cx_px = 0.5 * (k.width_px - 1);
+  k.cy_px = 0.5 * (k.height_px - 1);
   rig.camera.model = "NIKON D80";
   rig.camera.responsivity = {2.4e10, 2.9e10, 2.1e10};
   rig.camera.sensor.noise = {6.0, 1.2};
@@ -54,8 +54,11 @@ Rig radiance_rig() {
   radiance.white = white;
   RigGlare glare;
   glare.shots = {shot("glare", 1.0 / 20)};
-  glare.traps_px = {{4, 4, 24, 60}, {90, 10, 24, 60}};
-  glare.bright_px = PixelRect{40, 20, 40, 40};
+  const auto rectangle = [scale](int x, int y, int width, int height) {
+    return PixelRect{scale * x, scale * y, scale * width, scale * height};
+  };
+  glare.traps_px = {rectangle(4, 4, 24, 60), rectangle(90, 10, 24, 60)};
+  glare.bright_px = rectangle(40, 20, 40, 40);
   glare.bright_radiance_W_per_mm2_sr = {2.9e-6, 2.45e-6, 3.2e-6};
   radiance.glare = glare;
   rig.calibration.radiance = radiance;
@@ -75,6 +78,15 @@ Rig radiance_rig() {
 RadianceResult calibrated(const Rig& rig, const Rig& truth, std::uint64_t seed) {
   const RadianceShots shots(truth, true);
   return calibrate_radiance(rig, [&](const RadianceShot& s) { return shots.frame(s, seed); });
+}
+
+// log(light / recorded) of the simulated sensor.
+double true_log_ratio(const Rig& rig, double recorded) {
+  double light = recorded;
+  for (int i = 0; i < 60; ++i) {
+    light = recorded / (1.0 + rig.truth_sensor.non_linearity * light / (4095.0 - 64.0));
+  }
+  return std::log(light / recorded);
 }
 
 }  // namespace scattermeter::apps

@@ -1,0 +1,17 @@
+// Eigenvalues of symmetric matrices of any size, compiled once for all who need them.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace scattermeter {
+
+struct SymmetricEigen {
+  Eigen::VectorXd values;   // ascending
+  Eigen::MatrixXd vectors;  // their unit vectors, a column each
+};
+
+// Reads the lower triangle. Throws std::domain_error where m is not finite, or the iteration does
+// not converge.
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& m);
+
+}  // namespace scattermeter
