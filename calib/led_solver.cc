@@ -15,6 +15,7 @@
 #include "calib/lens.h"
 #include "core/covariance_root.h"
 #include "core/pose_shift.h"
+#include "core/solver_options.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -295,13 +296,10 @@ LedSolution solve_once(const Frame& frame, const LedSolve& what) {
   if (!held.empty()) {
     problem.SetManifold(x.led.data(), new ceres::SubsetManifold(kLedParameters, held));
   }
-  ceres::Solver::Options options;
+  const double gradient = ceres::Solver::Options().gradient_tolerance;
+  auto options = quiet_solver<ceres::Solver::Options>(
+      what.robust ? SolverStop{40, 1e-5, gradient, 1e-6} : SolverStop{100, 1e-9, gradient, 1e-9});
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.logging_type = ceres::SILENT;
-  options.num_threads = 1;  // the same digits on any machine
-  options.max_num_iterations = what.robust ? 40 : 100;
-  options.function_tolerance = what.robust ? 1e-5 : 1e-9;
-  options.parameter_tolerance = what.robust ? 1e-6 : 1e-9;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
 
