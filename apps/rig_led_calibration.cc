@@ -1,10 +1,10 @@
 #include "apps/rig_led_calibration.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "apps/rig_fields.h"
+#include "apps/rig_white_plane.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -17,29 +17,6 @@ calib::MirrorSphere read_sphere(const YamlField& field) {
   if (const auto f = field.find("center_std_mm")) sphere.center_std_mm = f->number(0.0, 1000.0);
   if (const auto f = field.find("radius_std_mm")) sphere.radius_std_mm = f->number(0.0, 1000.0);
   return sphere;
-}
-
-calib::WhitePlane read_plane(const YamlField& field) {
-  field.only({"origin_mm", "x_axis", "y_axis", "size_mm", "albedo", "albedo_relative_std"});
-  calib::WhitePlane plane;
-  if (const auto f = field.find("origin_mm")) plane.origin_mm = f->vector3();
-  if (const auto f = field.find("x_axis")) plane.x_axis = unit_vector(*f);
-  if (const auto f = field.find("y_axis")) plane.y_axis = unit_vector(*f);
-  if (std::abs(plane.x_axis.dot(plane.y_axis)) > 1e-6) {
-    field.fail("x_axis and y_axis are not at right angles");
-  }
-  const YamlField size = field.at("size_mm");
-  size.numbers(2);
-  plane.width_mm = size.items()[0].positive();
-  plane.height_mm = size.items()[1].positive();
-  const YamlField albedo = field.at("albedo");
-  const std::array<double, 3> rgb = positive_rgb(albedo);
-  plane.albedo = {rgb[0], rgb[1], rgb[2]};
-  if (plane.albedo.maxCoeff() > 1.0) albedo.fail("expected albedos of at most 1");
-  if (const auto f = field.find("albedo_relative_std")) {
-    plane.albedo_relative_std = f->number(0.0, 1.0);
-  }
-  return plane;
 }
 
 RigLedShot read_led_shot(const YamlField& field, const RigLedCalibration& calibration) {
@@ -85,7 +62,10 @@ RigLedCalibration read_led_calibration(const YamlField& field, const std::string
     for (const YamlField& sphere : f->items()) calibration.spheres.push_back(read_sphere(sphere));
   }
   if (const auto f = field.find("planes")) {
-    for (const YamlField& plane : f->items()) calibration.planes.push_back(read_plane(plane));
+    for (const YamlField& plane : f->items()) {
+      plane.only({"origin_mm", "x_axis", "y_axis", "size_mm", "albedo", "albedo_relative_std"});
+      calibration.planes.push_back(read_white_plane(plane, 0.0));
+    }
   }
   std::set<std::string> files;
   const YamlField shots = field.at("shots");

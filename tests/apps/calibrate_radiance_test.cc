@@ -66,7 +66,7 @@ class CalibrateRadiance : public ::testing::Test {
 // predicted. A ratio from 50 draws scatters by 10 %.
 TEST_F(CalibrateRadiance, FiftySeedsAreUnbiasedAndKnowTheirScatter) {
   Rig told = rig_;
-  told.calibration.radiance->white->albedo_relative_std = 0;  // the albedo is not drawn
+  told.calibration.radiance->white->plane.albedo_relative_std = 0;  // the albedo is not drawn
   const VirtualSensor sensor(rig_, true);
   double mean_log_time = 0;
   std::vector<double> stated;
@@ -248,7 +248,7 @@ TEST_F(CalibrateRadiance, RefusesTrapsOutOfTheFrameAndPlanesOutOfView) {
   told.calibration.radiance->glare->traps_px[0] = {45, 25, 20, 20};  // on the bright patch
   EXPECT_NE(refusal(nothing, told).find("the trap at [45, 25]"), std::string::npos);
   told = rig_;
-  told.calibration.radiance->white->origin_mm = {500, 0, 0};
+  told.calibration.radiance->white->plane.origin_mm = {500, 0, 0};
   EXPECT_NE(refusal(nothing, told).find("pixels"), std::string::npos);
 }
 
