@@ -147,10 +147,14 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
     }
   }
   const FrameSource& frames = std::get<FrameSource>(source.open);
-  // With a board in the shot the background is no dark one, and the pose is the board's.
   if (out.shared_pose) {
     out.outline = check_silhouettes(loose, geometry->scenes, frames, source.shot_idxs,
                                     *out.shared_pose, outline);
+  } else {
+    std::vector<calib::PoseResult> poses;
+    for (const OpenedShot& shot : out.shots) poses.push_back(shot.pose);
+    out.outline =
+        check_silhouettes_apart(loose, geometry->scenes, frames, source.shot_idxs, poses, outline);
   }
   out.leds = checked_leds(rig, shots_folder);
   out.fit = fit_for_check(loose, source, out.shots, *geometry->library, view, options.quiet);

@@ -74,7 +74,7 @@ struct CheckedRig {
   std::string folder;  // of the shots
   // With camera.intrinsics in a file of its own.
   std::optional<calib::CameraCalibrationFile> lens;
-  std::optional<SilhouetteCheck> outline;  // none with a board in the shots
+  std::optional<SilhouetteCheck> outline;
   std::vector<LedCheck> leds;  // whose shots of calibration.led are all there
 
   CheckDetail of_shot(std::size_t shot_idx, double value) const;
