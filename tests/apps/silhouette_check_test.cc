@@ -146,6 +146,19 @@ TEST_F(BoardInTheShotTest, GoodRigPasses) {
   RecordProperty("pieces", std::to_string(c.shots[0].pieces));
 }
 
+// pose.refine: silhouette, before a board.
+TEST_F(BoardInTheShotTest, TheOutlineRefinesTheBoardsPose) {
+  const VirtualShots shots(rig_, scenes_, {.noise = true, .quiet = true});
+  const std::string& file = rig_.shots[0].file;
+  const calib::PoseResult board = pose_from_board(rig_, shots.frame(0, 1), file);
+  const calib::PoseResult both =
+      pose_from_silhouette(rig_, scenes_, board, 0, shots.frame(0, 1), file);
+  EXPECT_LT(both.center_std_mm.norm(), board.center_std_mm.norm());
+  const Eigen::Vector3d off =
+      inverse(both.camera_from_world).translation_mm - Eigen::Vector3d(0, -100, 150);
+  EXPECT_LT(off.norm(), 4.0 * both.center_std_mm.norm());
+}
+
 // 2 % of 20 mm at 13 px/mm: 3 px and less.
 TEST_F(BoardInTheShotTest, WrongScaleIsFound) {
   const SilhouetteCheck c = checked(1.02);
