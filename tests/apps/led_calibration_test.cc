@@ -15,6 +15,7 @@
 #include "apps/camera_view.h"
 #include "apps/led_calibration_file.h"
 #include "apps/led_check.h"
+#include "apps/led_plots.h"
 #include "apps/virtual_led_shots.h"
 #include "core/input_error.h"
 #include "tests/apps/led_rig.h"
@@ -239,6 +240,11 @@ TEST_F(LedCalibrationTest, StandsAmbientLightSubtractedOrFitted) {
   EXPECT_EQ(clean.ambient_percent, 0.0);
   ASSERT_EQ(clean.maps.size(), 2U);
   ASSERT_EQ(clean.maps[0].std_percent.size(), clean.maps[0].percent.size());
+  const std::vector<PagePlot> plots = led_plane_plots({clean});
+  ASSERT_EQ(plots.size(), 4U);
+  EXPECT_THAT(plots[0].caption, HasSubstr("low_led1.dng under led1"));
+  EXPECT_EQ(plots[0].plot.colours.full_scale, plots[1].plot.colours.full_scale);
+  EXPECT_EQ(plots[0].plot.series[0].value.size(), clean.maps[0].percent.size());
 }
 
 TEST_F(LedCalibrationTest, CommandsMakeAFileThatARigTakes) {
