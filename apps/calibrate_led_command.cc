@@ -22,6 +22,7 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
       "led",
       "Place, axis, exponent and intensity of an LED from shots of mirror spheres and a white "
       "plane (the rig's calibration.led).\n"
+      "In a room that is not dark, shoot the plane with the LED off as well (kind: ambient).\n"
       "The rig's own values are where the search starts; they may be off by a fifth of the "
       "distance.\n"
       "Exit status: 0 calibrated, 1 refused (the shots do not determine it), 2 bad input.");

@@ -14,19 +14,8 @@ namespace scattermeter::apps {
 // Opens one of the rig's shots by the name that the rig gives it.
 using RadianceFrameSource = std::function<capture::RawFrame(const RadianceShot& shot)>;
 
-// Points of the fits, for pictures.
-struct RadianceCurves {
-  struct Noise {
-    double counts, variance_counts2;
-    std::size_t colour;
-  };
-  std::vector<Noise> noise;                       // photon transfer: every block of every pair
-  std::vector<double> counts, relative_residual;  // linearity: every block of every flat
-};
-
 struct RadianceResult {
   RadianceCalibration calibration;
-  RadianceCurves curves;
 };
 
 // Dark frames -> black, dark current, hot pixels, read noise; pairs of flats -> gain; the series of

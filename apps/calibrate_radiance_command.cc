@@ -2,9 +2,12 @@
 #include <memory>
 #include <ostream>
 
+#include <fmt/core.h>
+
 #include "apps/calibrate_commands.h"
 #include "apps/calibrate_radiance.h"
 #include "apps/plot.h"
+#include "apps/radiance_plots.h"
 #include "apps/raw_shot.h"
 #include "apps/result_json.h"
 #include "apps/shot_pose.h"
@@ -13,47 +16,12 @@ namespace scattermeter::apps {
 namespace {
 
 // Linearity and noise, beside the file.
-void draw_radiance(const RadianceResult& result, const std::string& stem) {
-  const capture::RadianceCorrection& c = result.calibration.correction;
-  Plot noise{"Photon transfer", {"signal [counts]"}, {"variance [counts^2]"}, {}};
-  for (std::size_t k = 0; k < kRgb; ++k) {
-    PlotSeries points{
-        std::string("pairs of flats ") + kRgbName[k], PlotSeries::Style::kPoints, {}, {}};
-    for (const RadianceCurves::Noise& n : result.curves.noise) {
-      if (n.colour != k) continue;
-      points.x.push_back(n.counts);
-      points.y.push_back(n.variance_counts2);
-    }
-    noise.series.push_back(points);
+void draw_radiance(const RadianceCalibration& calibration, const std::string& stem) {
+  for (std::size_t c = 0; c < kRgb; ++c) {
+    write_plot(photon_transfer_plot(calibration, c),
+               fmt::format("{}_noise_{}.png", stem, kRgbName[c]));
   }
-  const double top = c.response[0].knot_counts().back();
-  PlotSeries model{"model G", PlotSeries::Style::kLine, {}, {}};
-  PlotSeries departure{"departure", PlotSeries::Style::kLine, {}, {}};
-  for (int i = 0; i <= 100; ++i) {
-    const double y = top * i / 100.0;
-    const double g = c.response[1].gain_at(y);
-    model.x.push_back(y);
-    model.y.push_back((c.response[1].light_counts(y) / c.noise[1].gain_e_per_count +
-                       c.noise[1].read_noise_counts * c.noise[1].read_noise_counts) /
-                      (g * g));
-    departure.x.push_back(y);
-    departure.y.push_back(-100.0 * c.response[0].log_ratio_at(y));
-  }
-  noise.series.push_back(model);
-  write_plot(noise, stem + "_noise.png");
-  Plot linearity{"Linearity: blocks of the flats around the curve",
-                 {"signal [counts]"},
-                 {"recorded against light [%]"},
-                 {}};
-  PlotSeries blocks{"blocks", PlotSeries::Style::kPoints, {}, {}};
-  for (std::size_t i = 0; i < result.curves.counts.size(); ++i) {
-    const double y = result.curves.counts[i];
-    blocks.x.push_back(y);
-    blocks.y.push_back(100.0 *
-                       (result.curves.relative_residual[i] - c.response[0].log_ratio_at(y)));
-  }
-  linearity.series = {blocks, departure};
-  write_plot(linearity, stem + "_linearity.png");
+  write_plot(linearity_plot(calibration), stem + "_linearity.png");
 }
 
 }  // namespace
@@ -85,7 +53,7 @@ void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context) {
       const RadianceResult result = calibrate_radiance(rig, open);
       write_text_file(options->out, radiance_file_text(result.calibration));
       std::filesystem::path stem(options->out);
-      draw_radiance(result, stem.replace_extension().string());
+      draw_radiance(result.calibration, stem.replace_extension().string());
       if (!context.quiet) context.out << radiance_table(result.calibration);
       for (const RadianceResidual& r : result.calibration.residuals) {
         if (r.rms > r.limit) return 1;

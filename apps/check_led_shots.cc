@@ -1,5 +1,4 @@
 #include <cmath>
-#include <filesystem>
 #include <string>
 
 #include "apps/check_stations.h"
@@ -9,19 +8,10 @@ namespace scattermeter::apps {
 
 // The shots of calibration.led that stand in the folder.
 std::vector<CheckItem> check_led_shots(const CheckedRig& checked) {
-  const Rig& rig = checked.rig;
-  if (!rig.calibration.led) return {};
-  std::vector<CheckDetail> highlights, places, planes, powers;
+  std::vector<CheckDetail> highlights, places, planes, ambients, powers;
   std::string where_it_stands;
-  for (const std::string& light : rig.calibration.led->lights()) {
-    bool all_there = true;
-    for (const RigLedShot& shot : rig.calibration.led->shots) {
-      if (shot.light != light) continue;
-      all_there =
-          all_there && std::filesystem::exists(std::filesystem::path(checked.folder) / shot.file);
-    }
-    if (!all_there) continue;
-    const LedCheck led = check_led(rig, light, led_frames_in(rig, checked.folder));
+  for (const LedCheck& led : checked.leds) {
+    const std::string& light = led.light;
     const auto add = [&](double value, double std, const std::string& what,
                          std::vector<CheckDetail>& list) {
       if (std::isnan(value)) return;
@@ -44,6 +34,8 @@ std::vector<CheckItem> check_led_shots(const CheckedRig& checked) {
       }
     }
     add(led.plane_rms_percent, unknown, "", planes);
+    add(led.ambient_percent, led.ambient_std_percent,
+        led.ambient_file.empty() ? "" : " " + led.ambient_file, ambients);
     for (Eigen::Index c = 0; c < 3; ++c) {
       add(led.power_change_percent[c], unknown,
           std::string(" ") + kRgbName.at(static_cast<std::size_t>(c)), powers);
@@ -64,6 +56,12 @@ std::vector<CheckItem> check_led_shots(const CheckedRig& checked) {
   if (!planes.empty()) {
     out.push_back(judged("white plane under the LEDs", "%", {o.max_plane_percent},
                          "calibrate the LEDs again: place, axis or lobe have changed", planes));
+    out.push_back(
+        judged("light beside the LEDs on the white plane", "% of theirs",
+               {o.max_plane_ambient_percent, false, false, o.least_stds},
+               "shoot the planes with the LEDs off as well (calibration.led.shots of kind "
+               "ambient), or darken the room",
+               ambients));
     // Without a responsivity only their product counts, and that is what was calibrated.
     out.push_back(judged("LED power, from the white plane", "%", {o.max_led_power_percent},
                          "calibrate the LEDs again: their light or the camera's has changed",

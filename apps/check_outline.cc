@@ -20,10 +20,12 @@ std::vector<CheckItem> check_outline(const CheckedRig& checked) {
   // for what it cannot see. Significant as it may be, less than this is nothing that a measurement
   // would notice.
   constexpr double kTooSmall_px = 0.15;
-  if (!outline.diagnosis.agrees && item.rms > kTooSmall_px) {
+  constexpr double kTooRough_px = 0.5;
+  if (!outline.diagnosis.agrees && (item.rms > kTooSmall_px || outline.rms_px > kTooRough_px)) {
     item.passed = false;
     item.advice = outline.diagnosis.verdict;
   }
+  if (!checked.shared_pose) return {item};  // the board moves along with the camera
   CheckDetail d;
   d.where = "largest between shots of one object";
   d.value = outline.drift_px;

@@ -9,7 +9,9 @@
 #include <fmt/core.h>
 
 #include "apps/html_page.h"
+#include "apps/led_plots.h"
 #include "apps/page_plots.h"
+#include "apps/radiance_plots.h"
 #include "apps/version.h"
 
 namespace scattermeter::apps {
@@ -99,6 +101,7 @@ PagePlot over_shots(const CheckedRig& checked, const CheckItem& item, const std:
   PagePlot out;
   out.caption = caption;
   out.plot.title = item.what + " by shot";
+  out.plot.legend_above = true;
   const double n = static_cast<double>(checked.rig.shots.size());
   out.plot.x = {"shot, in the rig's order", false, 0.5, n + 0.5};
   out.plot.y = {item.what + " [" + item.unit + "]"};
@@ -161,12 +164,36 @@ std::vector<PagePlot> noise_plots(const CheckedRig& checked) {
     plot.plot.x = {"mean [counts above black]", true};
     plot.plot.y = {"variance [counts^2]", true};
     plot.plot.series = {line, seen};
+    plot.plot.legend_above = true;
     plot.caption = fmt::format(
         "Variance over mean in {}, each shot in half octaves of its light, against the noise model "
         "that the rig states. Points above it at the bright end: another gain, at the dark end: "
         "more read noise.",
         kRgbName[c]);
     out.push_back(plot);
+  }
+  return out;
+}
+
+// What the radiance calibration stands on.
+std::vector<PagePlot> radiance_plots(const CheckedRig& checked) {
+  if (!checked.rig.camera.radiance) return {};
+  const RadianceCalibration& calibration = *checked.rig.camera.radiance;
+  std::vector<PagePlot> out = {
+      {linearity_plot(calibration),
+       "What the camera records over what it would if it stayed as sensitive as it is without "
+       "light: the curve that is taken out of every shot, its standard deviation and the means of "
+       "the flats in half octaves of their signal. Points beyond the dashed lines by more than "
+       "their bars: the lamp drifted, or the curve is not that smooth; at the dark end a tenth of "
+       "a "
+       "count of the black shows."}};
+  for (std::size_t c = 0; c < kRgb; ++c) {
+    out.push_back({photon_transfer_plot(calibration, c),
+                   fmt::format("Variance over signal in {} of the pairs of flats, as recorded, and "
+                               "the noise model with a gain of {:.4g} e/count and a read noise of "
+                               "{:.3g} counts.",
+                               kRgbName[c], calibration.correction.noise[c].gain_e_per_count,
+                               calibration.correction.noise[c].read_noise_counts)});
   }
   return out;
 }
@@ -234,6 +261,8 @@ std::string check_page(const CheckedRig& checked, const CheckReport& report,
   section("Pose", pose_plots(checked));
   section("Over the shots", trends(checked, report));
   section("Noise", noise_plots(checked));
+  section("White planes under the LEDs", led_plane_plots(checked.leds));
+  section("Radiance calibration", radiance_plots(checked));
   body += html_element("h2", html_text("Shots"));
   body += html_element(
       "p",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <mutex>
 #include <utility>
 
@@ -73,6 +74,22 @@ CheckedFrame checked_frame(const capture::RawFrame& frame, const Rig& rig, const
   return out;
 }
 
+// The LEDs whose shots stand in the folder.
+std::vector<LedCheck> checked_leds(const Rig& rig, const std::string& folder) {
+  std::vector<LedCheck> out;
+  if (!rig.calibration.led) return out;
+  for (const std::string& light : rig.calibration.led->lights()) {
+    const bool all_there =
+        std::all_of(rig.calibration.led->shots.begin(), rig.calibration.led->shots.end(),
+                    [&](const RigLedShot& shot) {
+                      return (shot.kind != LedShotKind::kAmbient && shot.light != light) ||
+                             std::filesystem::exists(std::filesystem::path(folder) / shot.file);
+                    });
+    if (all_there) out.push_back(check_led(rig, light, led_frames_in(rig, folder)));
+  }
+  return out;
+}
+
 }  // namespace
 
 CheckDetail CheckedRig::of_shot(std::size_t shot_idx, double value) const {
@@ -91,7 +108,7 @@ CheckDetail CheckedRig::of_channel(std::size_t shot_idx, std::size_t channel, do
 
 CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
                             const CheckOptions& options) {
-  CheckedRig out{rig, options, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  CheckedRig out{rig, options, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   const ShotFolder folder = match_shots(rig, shots_folder);
   for (const std::string& name : folder.unlisted) {
     out.notes.push_back(name + ": not in the rig's list of shots, skipped");
@@ -130,11 +147,16 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
     }
   }
   const FrameSource& frames = std::get<FrameSource>(source.open);
-  // With a board in the shot the background is no dark one, and the pose is the board's.
   if (out.shared_pose) {
     out.outline = check_silhouettes(loose, geometry->scenes, frames, source.shot_idxs,
                                     *out.shared_pose, outline);
+  } else {
+    std::vector<calib::PoseResult> poses;
+    for (const OpenedShot& shot : out.shots) poses.push_back(shot.pose);
+    out.outline =
+        check_silhouettes_apart(loose, geometry->scenes, frames, source.shot_idxs, poses, outline);
   }
+  out.leds = checked_leds(rig, shots_folder);
   out.fit = fit_for_check(loose, source, out.shots, *geometry->library, view, options.quiet);
   if (!rig.camera.responsivity) {
     out.notes.emplace_back(

@@ -9,6 +9,7 @@
 
 #include "apps/check_fit.h"
 #include "apps/check_item.h"
+#include "apps/led_check.h"
 #include "apps/measure.h"
 #include "apps/rig.h"
 #include "apps/shot_system.h"
@@ -37,6 +38,7 @@ struct CheckOptions {
   double max_led_place_mm = 0.5;              // beside three times what the rig owns up to
   double max_outline_px = 1.0;                // of a shot's mean shift
   double max_plane_percent = 2.0;             // of the white plane under an LED
+  double max_plane_ambient_percent = 1.0;     // of an LED's light on it, of other light
   double max_led_power_percent = 2.0;         // of an LED, from its calibration shots
   double max_dark_counts = 2.0;               // of a dark frame, above the file's black
   double least_stds = 5.0;  // deviations from which on a departure from the model counts
@@ -72,7 +74,8 @@ struct CheckedRig {
   std::string folder;  // of the shots
   // With camera.intrinsics in a file of its own.
   std::optional<calib::CameraCalibrationFile> lens;
-  std::optional<SilhouetteCheck> outline;  // none with a board in the shots
+  std::optional<SilhouetteCheck> outline;
+  std::vector<LedCheck> leds;  // whose shots of calibration.led are all there
 
   CheckDetail of_shot(std::size_t shot_idx, double value) const;
   CheckDetail of_channel(std::size_t shot_idx, std::size_t channel, double value) const;

@@ -15,6 +15,7 @@ LedCalibration calibrate_led(const Rig& rig, const std::string& light, const Led
   out.shots = read_led_shots(rig, light, frames);
   const RigLight& told = rig.light(light);
   calib::LedFitOptions options;
+  options.ambient = rig.calibration.led->ambient;
   options.exponent_std = told.exponent_std;
   options.log_intensity_std = told.power_relative_std;
   if (told.calibrated) {
@@ -73,6 +74,15 @@ std::string led_calibration_table(const LedCalibration& calibration) {
     text += fmt::format("plane: {} of {} cells used, residual rms {:.3f} %, worst {:.3f} %\n",
                         used(fit.cell_used), fit.cell_used.size(), 100.0 * fit.plane_rms,
                         100.0 * fit.plane_worst);
+  }
+  for (const calib::FittedAmbient& a : fit.ambient) {
+    text += fmt::format("ambient light of {}:", calibration.shots.grids.at(a.shot).file);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      if (std::isnan(a.relative[c])) continue;
+      text += fmt::format(" {} {:.3f} +- {:.3f} %", "RGB"[c], 100.0 * a.relative[c],
+                          100.0 * a.relative_std[c]);
+    }
+    text += " of the LED's, fitted\n";
   }
   return text;
 }

@@ -42,6 +42,21 @@ void emit_residuals(YAML::Emitter& out, const LedCalibration& c) {
   out << YAML::EndSeq << YAML::EndMap;
 }
 
+// Over the LED's own light, by channel; of the shots that have a constant fitted.
+void emit_ambient(YAML::Emitter& out, const LedCalibration& c) {
+  if (c.fit.ambient.empty()) return;
+  out << YAML::Key << "ambient" << YAML::Value << YAML::BeginSeq;
+  for (const calib::FittedAmbient& a : c.fit.ambient) {
+    out << YAML::BeginMap << YAML::Key << "file" << YAML::Value << c.shots.grids.at(a.shot).file
+        << YAML::Key << "relative" << YAML::Value;
+    emit_row(out, a.relative);
+    out << YAML::Key << "relative_std" << YAML::Value;
+    emit_row(out, a.relative_std);
+    out << YAML::EndMap;
+  }
+  out << YAML::EndSeq;
+}
+
 }  // namespace
 
 std::string led_calibration_yaml(const LedCalibration& c) {
@@ -83,6 +98,7 @@ std::string led_calibration_yaml(const LedCalibration& c) {
   out << YAML::Comment("one deviation of the plane's albedo, part of the covariance");
   out << YAML::Key << "distance_mm" << YAML::Value << fit.distance_mm;
   out << YAML::Key << "distance_power_correlation" << YAML::Value << fit.distance_power_correlation;
+  emit_ambient(out, c);
   emit_residuals(out, c);
   out << YAML::Key << "warnings" << YAML::Value << fit.warnings;
   out << YAML::EndMap;
@@ -94,7 +110,7 @@ CalibratedLed read_led_calibration_file(const std::string& path) {
   top.only({"scattermeter_led", "light", "position_mm", "axis", "exponent", "radius_mm",
             "intensity_W_per_sr", "responsivity_counts_mm2_sr_per_W_s", "axis_tangents",
             "covariance", "common_to_plane", "distance_mm", "distance_power_correlation",
-            "residuals", "warnings"});
+            "residuals", "warnings", "ambient"});
   const YamlField version = top.at("scattermeter_led");
   if (version.number() != 1.0) version.fail("this program reads LED calibrations of version 1");
   CalibratedLed out;

@@ -12,8 +12,8 @@ namespace scattermeter::apps {
 
 // YAML: the LED (position_mm, axis, exponent, radius_mm, intensity_W_per_sr and the responsivity
 // they count for), axis_tangents, covariance (9 x 9, order of calib/led_uncertainty.h), its part
-// common to LEDs of the same plane, residuals of every highlight and cell. Precondition: the fit is
-// ok. std::invalid_argument otherwise.
+// common to LEDs of the same plane, ambient light where it was fitted, residuals of every
+// highlight. Precondition: the fit is ok. std::invalid_argument otherwise.
 std::string led_calibration_yaml(const LedCalibration& calibration);
 
 struct CalibratedLed {

@@ -37,8 +37,27 @@ void hold_highlights(const Led& led, const LedShots& shots, LedCheck& check) {
   if (n == 0.0) check.highlight_worst_px = kNotSeen;
 }
 
-void hold_planes(const Led& led, const LedShots& shots, LedCheck& check) {
-  const std::vector<calib::ShadedCell>& cells = shots.scene.cells;
+// The cells less the ambient light that the fit found.
+std::vector<calib::ShadedCell> lit_by_led(const LedShots& shots, const calib::LedFit& fit,
+                                          LedCheck& check) {
+  std::vector<calib::ShadedCell> cells = shots.scene.cells;
+  if (cells.empty()) check.ambient_percent = check.ambient_std_percent = kNotSeen;
+  for (const calib::FittedAmbient& a : fit.ambient) {
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      if (!(100.0 * a.relative[c] > check.ambient_percent)) continue;
+      check.ambient_percent = 100.0 * a.relative[c];
+      check.ambient_std_percent = 100.0 * a.relative_std[c];
+      check.ambient_file = shots.grids.at(a.shot).file;
+    }
+    for (calib::ShadedCell& cell : cells) {
+      if (cell.shot == a.shot) cell.radiance_W_per_mm2_sr -= a.radiance_W_per_mm2_sr[cell.channel];
+    }
+  }
+  return cells;
+}
+
+void hold_planes(const Led& led, const LedShots& shots, const calib::LedFit& fit, LedCheck& check) {
+  const std::vector<calib::ShadedCell> cells = lit_by_led(shots, fit, check);
   std::vector<double> ratio;
   std::array<std::vector<double>, 3> of_channel;
   for (const calib::ShadedCell& cell : cells) {
@@ -59,20 +78,23 @@ void hold_planes(const Led& led, const LedShots& shots, LedCheck& check) {
   }
   double sum = 0.0, n = 0.0;
   for (const LedPlaneGrid& grid : shots.grids) {
-    LedPlaneMap map{grid.file, grid.columns, grid.rows, {}};
+    LedPlaneMap map{grid.file, grid.columns, grid.rows, {}, {}};
     const auto size = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
-    std::vector<double> total(size, 0.0), count(size, 0.0);
+    std::vector<double> total(size, 0.0), variance(size, 0.0), count(size, 0.0);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const calib::ShadedCell& cell = cells[i];
-      if (cell.view != grid.view || cell.plane != grid.plane || !std::isfinite(ratio[i])) continue;
+      if (cell.shot != grid.shot || !std::isfinite(ratio[i])) continue;
       const double percent = 100.0 * (ratio[i] / median[cell.channel] - 1.0);
       const auto at = static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(grid.columns) +
                       static_cast<std::size_t>(cell.column);
       total[at] += percent;
+      variance[at] += std::pow(
+          100.0 * cell.std_W_per_mm2_sr / cell.radiance_W_per_mm2_sr * (1.0 + percent / 100.0), 2);
       count[at] += 1.0;
     }
     for (std::size_t i = 0; i < size; ++i) {
       map.percent.push_back(count[i] > 0.0 ? total[i] / count[i] : kNotSeen);
+      map.std_percent.push_back(count[i] > 0.0 ? std::sqrt(variance[i]) / count[i] : kNotSeen);
       if (!(count[i] > 0.0)) continue;
       sum += map.percent.back() * map.percent.back();
       n += 1.0;
@@ -100,8 +122,10 @@ LedCheck check_led(const Rig& rig, const std::string& light, const LedFrames& fr
   check.highlight_names = shots.highlight_names;
   const RigLight& told = rig.light(light);
   hold_highlights(told.led, shots, check);
-  hold_planes(told.led, shots, check);
-  const calib::LedFit fit = calib::fit_led(shots.scene, told.led);
+  calib::LedFitOptions options;
+  options.ambient = rig.calibration.led->ambient;
+  const calib::LedFit fit = calib::fit_led(shots.scene, told.led, options);
+  hold_planes(told.led, shots, fit, check);
   if (fit.status != calib::LedStatus::kOk) {
     check.problem = fit.message;
     check.displacement_mm.setConstant(kNotSeen);

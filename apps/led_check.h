@@ -17,8 +17,9 @@ struct LedPlaneMap {
   std::string file;
   int columns = 0, rows = 0;
   // Measured over predicted less one, percent, mean of the channels, each without its own median
-  // (power_change_percent); row by row, NaN where there is no cell.
-  std::vector<double> percent;
+  // (power_change_percent); row by row, NaN where there is no cell. And its standard deviation, by
+  // the noise of the samples.
+  std::vector<double> percent, std_percent;
 };
 
 struct LedCheck {
@@ -26,6 +27,11 @@ struct LedCheck {
   // Of the rig's LED, its pose taken as exact.
   double highlight_rms_px = 0, highlight_worst_px = 0;    // NaN without highlights
   double plane_rms_percent = 0, plane_worst_percent = 0;  // without the power's; NaN without planes
+  // Fitted light beside the LED on the planes, percent of its own: the brightest shot and channel,
+  // with its deviation. 0 where the shots show none or it was subtracted; NaN without planes. The
+  // figures above and the maps are without it.
+  double ambient_percent = 0, ambient_std_percent = 0;
+  std::string ambient_file;
   // Median of measured over predicted less one, per channel; NaN without planes. Of the product of
   // power and responsivity: in a rig without a responsivity only the lights among each other count.
   Eigen::Array3d power_change_percent;

@@ -86,9 +86,11 @@ class Canvas {
 };
 
 void paint_plane(const calib::CameraIntrinsics& k, const Rigid3d& pose,
-                 const calib::WhitePlane& plane, const Led& led, Canvas& canvas) {
+                 const calib::WhitePlane& plane, const std::vector<Led>& lit,
+                 const Eigen::Array3d& ambient, Canvas& canvas) {
   const calib::PlaneImage image = calib::plane_image(k, pose, plane);
-  const std::vector<Eigen::Vector3d> places = disc_places_mm(led);
+  std::vector<std::vector<Eigen::Vector3d>> places;
+  for (const Led& led : lit) places.push_back(disc_places_mm(led));
   const Eigen::Vector3d normal = plane.normal();
   const auto on_plane = [&](const std::optional<Eigen::Vector2d>& p) {
     return p && p->x() >= 0.0 && p->y() >= 0.0 && p->x() <= plane.width_mm &&
@@ -114,8 +116,12 @@ void paint_plane(const calib::CameraIntrinsics& k, const Rigid3d& pose,
       const Eigen::Vector3d point =
           plane.origin_mm + middle->x() * plane.x_axis + middle->y() * plane.y_axis;
       const int c = canvas.channel(x, y);
-      const double radiance = plane.albedo[c] / std::numbers::pi * led.intensity_W_per_sr[c] *
-                              irradiance_per_mm2(led, places, point, normal);
+      double irradiance = ambient[c];
+      for (std::size_t i = 0; i < lit.size(); ++i) {
+        irradiance +=
+            lit[i].intensity_W_per_sr[c] * irradiance_per_mm2(lit[i], places[i], point, normal);
+      }
+      const double radiance = plane.albedo[c] / std::numbers::pi * irradiance;
       canvas.at(x, y) = static_cast<float>(share * radiance + (1.0 - share) * canvas.at(x, y));
     }
   });
@@ -277,7 +283,8 @@ TriangleMesh far_away(const Eigen::Vector3d& eye_mm) {
 
 std::vector<float> led_picture(const Rig& rig, const RigLedShot& shot, const CameraView& view) {
   const RigLedCalibration& calibration = *rig.calibration.led;
-  const Led& led = rig.light(shot.light).led;
+  std::vector<Led> lit;
+  if (shot.kind != LedShotKind::kAmbient) lit = {rig.light(shot.light).led};
   Canvas canvas(rig, view);
   if (rig.pose.charuco) {
     const RayScene nothing(far_away(canvas.eye_mm));
@@ -285,15 +292,15 @@ std::vector<float> led_picture(const Rig& rig, const RigLedShot& shot, const Cam
     for (std::size_t p = 0; p < 4; ++p) {
       channel_of_phase[p] = static_cast<int>(rig.camera.sensor.cfa.phase[p]);
     }
-    add_board(view, *rig.pose.charuco, {led}, Eigen::Array3d::Zero(), nothing, channel_of_phase,
-              canvas.pixels);
+    add_board(view, *rig.pose.charuco, lit, rig.truth_ambient_irradiance_W_per_mm2, nothing,
+              channel_of_phase, canvas.pixels);
   }
-  if (shot.is_plane) {
-    paint_plane(view.intrinsics, view.camera_from_world, calibration.planes.at(shot.plane), led,
-                canvas);
+  if (shot.kind != LedShotKind::kSpheres) {
+    paint_plane(view.intrinsics, view.camera_from_world, calibration.planes.at(shot.plane), lit,
+                rig.truth_ambient_irradiance_W_per_mm2, canvas);
     return std::move(canvas.pixels);
   }
-  SpherePainter painter(calibration.spheres, led, canvas);
+  SpherePainter painter(calibration.spheres, lit.front(), canvas);
   for (const calib::MirrorSphere& sphere : calibration.spheres) {
     painter.paint_base(calib::sphere_image(view.intrinsics, view.camera_from_world, sphere));
   }

@@ -18,8 +18,8 @@ inline constexpr double kChipRadius_mm = 0.5;
 // filter; `view` is where the camera stands. Spheres: the LED's disc as each sphere mirrors it
 // (spheres hide it and each other, shadows included), blurred by the lens to a standard deviation
 // of 0.7 px, on the diffuse base; no second reflections. A plane: albedo / pi times the irradiance
-// of the LED (of its disc where it has a radius_mm), pixels at its border by the share of their
-// area. A rig with a board has the board behind.
+// of the LED (of its disc where it has a radius_mm) and the rig's ambient one, pixels at its border
+// by the share of their area. A rig with a board has the board behind.
 std::vector<float> led_picture(const Rig& rig, const RigLedShot& shot, const CameraView& view);
 
 }  // namespace scattermeter::apps

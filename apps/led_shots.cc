@@ -10,6 +10,7 @@
 #include "apps/shot_pose.h"
 #include "apps/shot_samples.h"
 #include "calib/highlight.h"
+#include "calib/led_ambient.h"
 #include "calib/plane_cells.h"
 #include "core/input_error.h"
 
@@ -48,10 +49,14 @@ void read_spheres(const Rig& rig, const RigLedShot& shot, const capture::RawFram
   }
 }
 
-void read_plane(const Rig& rig, const RigLedShot& shot, const capture::RawFrame& frame,
-                std::size_t view, std::vector<double>& exposures_s, LedShots& out) {
+struct PlaneSeen {
+  calib::PlaneCells cells;
+  double exposure_relative_std;
+};
+
+PlaneSeen seen_plane(const Rig& rig, const RigLedShot& shot, const capture::RawFrame& frame,
+                     const Rigid3d& pose, std::size_t view, const LedShots& out) {
   const calib::WhitePlane& plane = out.scene.planes.at(shot.plane);
-  const Rigid3d& pose = out.scene.views[view].camera_from_world;
   const calib::PlaneImage image = calib::plane_image(rig.camera.intrinsics, pose, plane);
   const std::string where = rig.at(shot.line) + ": calibration.led.shots." + shot.file;
   if (image.width < 2 || image.height < 2) {
@@ -60,16 +65,33 @@ void read_plane(const Rig& rig, const RigLedShot& shot, const capture::RawFrame&
   }
   const capture::CorrectedSamples light =
       samples_of(rig, shot, frame, {image.x0, image.y0, image.width, image.height});
-  calib::PlaneCells cells = calib::plane_cells(light.samples, rig.camera.intrinsics, pose, plane,
-                                               out.responsivity, view, shot.plane);
+  calib::PlaneCellOptions options;
+  options.keep_faint = shot.kind == LedShotKind::kAmbient;
+  return {calib::plane_cells(light.samples, rig.camera.intrinsics, pose, plane, out.responsivity,
+                             view, shot.plane, options),
+          light.exposure_relative_std};
+}
+
+// `ambient`: the plane with the LED off, if that was shot.
+void read_plane(const Rig& rig, const RigLedShot& shot, const capture::RawFrame& frame,
+                std::size_t view, const std::optional<calib::PlaneCells>& ambient,
+                std::vector<double>& exposures_s, LedShots& out) {
+  PlaneSeen seen = seen_plane(rig, shot, frame, out.scene.views[view].camera_from_world, view, out);
+  calib::PlaneCells& cells = seen.cells;
+  if (ambient) cells = calib::without_ambient(cells, *ambient);
   // Shots of one stated time share its error.
   const auto known = std::find(exposures_s.begin(), exposures_s.end(), frame.exposure_s);
   const auto setting = static_cast<std::size_t>(known - exposures_s.begin());
   if (known == exposures_s.end()) {
     exposures_s.push_back(frame.exposure_s);
-    out.scene.exposure_relative_std.push_back(light.exposure_relative_std);
+    out.scene.exposure_relative_std.push_back(seen.exposure_relative_std);
   }
-  for (calib::ShadedCell& cell : cells.cells) cell.setting = setting;
+  const std::size_t plane_shot = out.grids.size();
+  for (calib::ShadedCell& cell : cells.cells) {
+    cell.setting = setting;
+    cell.shot = plane_shot;
+  }
+  out.scene.ambient_subtracted.push_back(ambient.has_value());
   if (cells.cells.empty()) {
     out.notes.push_back(shot.file + (cells.clipped_cells > 0
                                          ? ": the plane is clipped all over: expose shorter"
@@ -78,7 +100,7 @@ void read_plane(const Rig& rig, const RigLedShot& shot, const capture::RawFrame&
     out.notes.push_back(fmt::format("{}: {} cells of the plane are clipped and left out", shot.file,
                                     cells.clipped_cells));
   }
-  out.grids.push_back({shot.file, view, shot.plane, cells.columns, cells.rows});
+  out.grids.push_back({shot.file, plane_shot, cells.columns, cells.rows});
   out.scene.cells.insert(out.scene.cells.end(), cells.cells.begin(), cells.cells.end());
 }
 
@@ -118,9 +140,18 @@ LedShots read_led_shots(const Rig& rig, const std::string& light, const LedFrame
   std::optional<calib::PoseResult> shared;
   std::vector<double> exposures_s;  // of the planes
   if (!rig.pose.charuco) shared = pose_from_points(rig);
+  const auto ambient_of = [&](std::size_t plane) -> std::optional<calib::PlaneCells> {
+    const auto at = led.ambient_shot(plane);
+    if (!at) return std::nullopt;
+    const RigLedShot& shot = led.shots[*at];
+    const capture::RawFrame frame = frames(*at);
+    const Rigid3d pose =
+        (shared ? *shared : pose_from_board(rig, frame, shot.file)).camera_from_world;
+    return seen_plane(rig, shot, frame, pose, 0, out).cells;
+  };
   for (std::size_t i = 0; i < led.shots.size(); ++i) {
     const RigLedShot& shot = led.shots[i];
-    if (shot.light != light) continue;
+    if (shot.kind == LedShotKind::kAmbient || shot.light != light) continue;
     if (!known()) {
       throw InputError(rig.at(shot.line) + ": calibration.led.shots." + shot.file + ".light",
                        "no such LED in lights, got " + light);
@@ -132,8 +163,8 @@ LedShots read_led_shots(const Rig& rig, const std::string& light, const LedFrame
       out.files.push_back(shot.file);
     }
     const std::size_t view = out.scene.views.size() - 1;
-    if (shot.is_plane) {
-      read_plane(rig, shot, frame, view, exposures_s, out);
+    if (shot.kind == LedShotKind::kPlane) {
+      read_plane(rig, shot, frame, view, ambient_of(shot.plane), exposures_s, out);
     } else {
       read_spheres(rig, shot, frame, view, out);
     }

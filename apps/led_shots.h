@@ -27,8 +27,7 @@ inline constexpr double kNominalResponsivity = 1e10;  // counts mm^2 sr / (W s)
 // One shot of a plane, as a grid of cells.
 struct LedPlaneGrid {
   std::string file;
-  std::size_t view = 0;
-  std::size_t plane = 0;
+  std::size_t shot = 0;  // calib::ShadedCell::shot
   int columns = 0, rows = 0;
 };
 
@@ -41,9 +40,9 @@ struct LedShots {
   std::vector<std::string> notes;        // spheres without a highlight and why; clipped planes
 };
 
-// Poses, highlights and cells of all shots of a light. Throws InputError for a light that the rig
-// does not have or that is no LED, a light without shots, a plane that no shot shows, a pose that
-// cannot be had.
+// Poses, highlights and cells of all shots of a light; a plane's ambient shot is subtracted from
+// its cells. Throws InputError for a light that the rig does not have or that is no LED, a light
+// without shots, a plane that no shot shows, a pose that cannot be had.
 LedShots read_led_shots(const Rig& rig, const std::string& light, const LedFrames& frames);
 
 }  // namespace scattermeter::apps

@@ -56,7 +56,12 @@ std::string data_block(const Plot& plot, std::size_t index, std::size_t& drawn) 
     throw std::invalid_argument(fmt::format("write_plot: series {} has {} x, {} y, {} y_std",
                                             s.name, s.x.size(), s.y.size(), s.y_std.size()));
   }
-  const bool arrows = s.style == PlotSeries::Style::kArrows;
+  const bool cells = s.style == PlotSeries::Style::kCells;
+  const bool arrows = s.style == PlotSeries::Style::kArrows || cells;
+  if (cells && s.value.size() != s.x.size()) {
+    throw std::invalid_argument(fmt::format("write_plot: series {} has {} x, {} values", s.name,
+                                            s.x.size(), s.value.size()));
+  }
   if (arrows && (s.dx.size() != s.x.size() || s.dy.size() != s.x.size())) {
     throw std::invalid_argument(fmt::format("write_plot: series {} has {} x, {} dx, {} dy", s.name,
                                             s.x.size(), s.dx.size(), s.dy.size()));
@@ -66,7 +71,11 @@ std::string data_block(const Plot& plot, std::size_t index, std::size_t& drawn) 
     if (!can_stand(plot.x, s.x[i]) || !can_stand(plot.y, s.y[i])) continue;
     if (arrows) {
       if (!std::isfinite(s.dx[i]) || !std::isfinite(s.dy[i])) continue;
-      out += fmt::format("{} {} {} {}\n", s.x[i], s.y[i], s.dx[i], s.dy[i]);
+      if (cells && !std::isfinite(s.value[i])) continue;
+      out += cells ? fmt::format("{} {} {} {} {} {} {}\n", s.x[i], s.y[i], s.x[i] - 0.5 * s.dx[i],
+                                 s.x[i] + 0.5 * s.dx[i], s.y[i] - 0.5 * s.dy[i],
+                                 s.y[i] + 0.5 * s.dy[i], s.value[i])
+                   : fmt::format("{} {} {} {}\n", s.x[i], s.y[i], s.dx[i], s.dy[i]);
       ++drawn;
       continue;
     }
@@ -104,8 +113,29 @@ std::string style_of(const PlotSeries& s, std::size_t index) {
     case PlotSeries::Style::kArrows:
       return fmt::format("with vectors head filled size screen 0.012,20 lw 1.5 lc rgb '{}'",
                          colour);
+    case PlotSeries::Style::kCells:
+      return "with boxxyerror fs solid noborder fc palette";
   }
   throw std::invalid_argument("write_plot: no such style");
+}
+
+const char* columns_of(const PlotSeries& s) {
+  if (s.style == PlotSeries::Style::kArrows) return "1:2:3:4";
+  return s.style == PlotSeries::Style::kCells ? "1:2:3:4:5:6:7" : "1:2";
+}
+
+// Diverging, from the colours of the difference maps.
+std::string colour_scale(const Plot& plot) {
+  if (std::none_of(plot.series.begin(), plot.series.end(),
+                   [](const PlotSeries& s) { return s.style == PlotSeries::Style::kCells; })) {
+    return "";
+  }
+  return fmt::format(
+      "set palette defined (-1 '#2166AC', 0 '#FFFFFF', 1 '#B2182B')\nset cbrange [{}:{}]\n"
+      "set cblabel {} noenhanced\n"
+      "set object 1 rectangle from graph 0,0 to graph 1,1 behind fs solid noborder fc rgb "
+      "'#C8C8C8'\nunset grid\n",
+      -plot.colours.full_scale, plot.colours.full_scale, gnuplot_quoted(plot.colours.label));
 }
 
 std::string script_of(const Plot& plot, const std::string& terminal) {
@@ -113,7 +143,9 @@ std::string script_of(const Plot& plot, const std::string& terminal) {
   script += fmt::format("set title {} noenhanced\n", gnuplot_quoted(plot.title));
   script += axis("x", plot.x, false) + axis("y", plot.y, plot.y_down);
   script += "set grid lc rgb '#DDDDDD'\nset boxwidth 1.0 relative\n";
+  script += colour_scale(plot);
   script += plot.legend_outside ? "set key outside right top Left reverse noenhanced\n"
+            : plot.legend_above ? "set key outside top center horizontal noenhanced\n"
                                 : "set key top right noenhanced\n";
   std::string curves;
   std::size_t drawn = 0;
@@ -129,9 +161,7 @@ std::string script_of(const Plot& plot, const std::string& terminal) {
                             i, colour_of(s, i));
     }
     const std::string title = s.name.empty() ? "notitle" : "title " + gnuplot_quoted(s.name);
-    curves += fmt::format("$series{} using {} {} {}", i,
-                          s.style == PlotSeries::Style::kArrows ? "1:2:3:4" : "1:2", title,
-                          style_of(s, i));
+    curves += fmt::format("$series{} using {} {} {}", i, columns_of(s), title, style_of(s, i));
   }
   if (drawn == 0) throw std::invalid_argument("write_plot: nothing to draw: " + plot.title);
   return script + "plot " + curves + "\n";

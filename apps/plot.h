@@ -15,7 +15,16 @@ struct PlotAxis {
 };
 
 struct PlotSeries {
-  enum class Style { kLine, kDashedLine, kPoints, kOpenPoints, kLineAndPoints, kBoxes, kArrows };
+  enum class Style {
+    kLine,
+    kDashedLine,
+    kPoints,
+    kOpenPoints,
+    kLineAndPoints,
+    kBoxes,
+    kArrows,
+    kCells,
+  };
   std::string name;  // in the legend; "": not there
   Style style = Style::kLine;
   std::vector<double> x;
@@ -27,6 +36,16 @@ struct PlotSeries {
   // Of arrows only, which lead from (x, y) to (x + dx, y + dy).
   std::vector<double> dx = {};
   std::vector<double> dy = {};
+  // Of cells only: rectangles of width dx and height dy about (x, y), coloured by their value on
+  // Plot::colours. What no cell covers is grey.
+  std::vector<double> value = {};
+};
+
+// Blue for -full_scale through white to red for +full_scale (and beyond), as a scale beside the
+// axes.
+struct PlotColours {
+  std::string label;  // with its unit in brackets
+  double full_scale = 1;
 };
 
 struct Plot {
@@ -34,10 +53,12 @@ struct Plot {
   PlotAxis x;
   PlotAxis y;
   std::vector<PlotSeries> series;
-  bool legend_outside = false;  // to the right of the axes; else in their upper right corner
+  bool legend_outside = false;  // to the right of the axes; else in their upper right corner,
+  bool legend_above = false;    // or in a line above the axes
   int width_px = 1000;
   int height_px = 640;
-  bool y_down = false;  // as in a picture
+  bool y_down = false;       // as in a picture
+  PlotColours colours = {};  // of cells
 };
 
 // Draws the plot into `path`, whose ending says the format: .png or .svg. The folder is made where

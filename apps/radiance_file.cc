@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <stdexcept>
 
 #include <fmt/core.h>
 
@@ -99,6 +101,23 @@ void read_dark(const YamlField& dark, capture::RadianceCorrection& correction) {
   std::sort(correction.defect_pixels.begin(), correction.defect_pixels.end());
 }
 
+std::vector<RadiancePoint> read_points(const YamlField& field) {
+  std::vector<RadiancePoint> out;
+  for (const YamlField& item : field.items()) {
+    const std::array<double, 3> v = number_array<3>(item);
+    out.push_back({v[0], v[1], v[2]});
+  }
+  return out;
+}
+
+std::string flow_points(const std::vector<RadiancePoint>& points) {
+  std::string out = "[";
+  for (const RadiancePoint& p : points) {
+    out += (out.size() > 1 ? ", " : "") + flow(std::array{p.counts, p.value, p.std});
+  }
+  return out + "]";
+}
+
 // Light must be left everywhere.
 void check_vignetting(const YamlField& top, const capture::RadianceCorrection& correction) {
   for (std::size_t c = 0; c < kRgb; ++c) {
@@ -115,6 +134,34 @@ void check_vignetting(const YamlField& top, const capture::RadianceCorrection& c
 }
 
 }  // namespace
+
+std::vector<RadiancePoint> radiance_points(const std::vector<double>& counts,
+                                           const std::vector<double>& values, std::size_t least) {
+  if (counts.size() != values.size()) {
+    throw std::invalid_argument(
+        fmt::format("radiance_points: {} counts, {} values", counts.size(), values.size()));
+  }
+  struct Sums {
+    double n = 0, counts = 0, value = 0, squares = 0;
+  };
+  std::map<int, Sums> bins;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (!(counts[i] > 0.0) || !std::isfinite(values[i])) continue;
+    Sums& s = bins[static_cast<int>(std::floor(2.0 * std::log2(counts[i])))];
+    s.n += 1.0;
+    s.counts += counts[i];
+    // Running mean and squares about it (B. P. Welford, Technometrics 4, 419, 1962).
+    const double off = values[i] - s.value;
+    s.value += off / s.n;
+    s.squares += off * (values[i] - s.value);
+  }
+  std::vector<RadiancePoint> out;
+  for (const auto& [bin, s] : bins) {
+    if (s.n < static_cast<double>(std::max<std::size_t>(2, least))) continue;
+    out.push_back({s.counts / s.n, s.value, std::sqrt(s.squares / (s.n - 1.0) / s.n)});
+  }
+  return out;
+}
 
 std::string radiance_file_text(const RadianceCalibration& calibration) {
   const capture::RadianceCorrection& c = calibration.correction;
@@ -159,6 +206,13 @@ std::string radiance_file_text(const RadianceCalibration& calibration) {
         "responsivity_counts_mm2_sr_per_W_s: {}\nresponsivity_relative_std: {}  # LED included\n",
         flow(*calibration.responsivity), calibration.responsivity_relative_std);
   }
+  if (!calibration.linearity.empty()) {
+    out += "curves:  # [counts, value, std of it]\n  linearity: " +
+           flow_points(calibration.linearity) + "\n";
+    for (std::size_t k = 0; k < kRgb; ++k) {
+      out += fmt::format("  noise_{}: {}\n", kRgbName[k], flow_points(calibration.noise[k]));
+    }
+  }
   out += "residuals: [";
   for (std::size_t i = 0; i < calibration.residuals.size(); ++i) {
     const RadianceResidual& r = calibration.residuals[i];
@@ -177,7 +231,7 @@ RadianceCalibration read_radiance_file(const std::string& path) {
   const YamlField top = YamlField::load(path);
   top.only({"scattermeter_radiance", "image_size_px", "iso", "f_number", "dark", "colours",
             "vignetting_std", "shutter", "responsivity_counts_mm2_sr_per_W_s",
-            "responsivity_relative_std", "residuals", "notes"});
+            "responsivity_relative_std", "curves", "residuals", "notes"});
   const YamlField version = top.at("scattermeter_radiance");
   if (version.number() != 1.0) version.fail("this program reads calibrations of version 1");
   RadianceCalibration out;
@@ -209,6 +263,13 @@ RadianceCalibration read_radiance_file(const std::string& path) {
   if (const auto f = top.find("responsivity_counts_mm2_sr_per_W_s")) {
     out.responsivity = positive_rgb(*f);
     out.responsivity_relative_std = top.at("responsivity_relative_std").number(0.0, 10.0);
+  }
+  if (const auto curves = top.find("curves")) {
+    curves->only({"linearity", "noise_R", "noise_G", "noise_B"});
+    out.linearity = read_points(curves->at("linearity"));
+    for (std::size_t c = 0; c < kRgb; ++c) {
+      out.noise[c] = read_points(curves->at(std::string("noise_") + kRgbName[c]));
+    }
   }
   for (const YamlField& item : top.at("residuals").items()) {
     item.only({"what", "rms", "worst", "limit", "unit"});

@@ -286,22 +286,29 @@ void find_response_and_noise(RadianceSteps& steps) {
       {"linearity", std::sqrt(fit.reduced_chi2), fit.worst_sigma, 1.3, "standard deviations"});
   calibration.residuals.push_back(
       {"shots of one exposure time", 100.0 * fit.shot_std, 100.0 * fit.shot_std, 0.5, "%"});
-  for (const TransferPoint& t : flats.transfer) {
-    steps.result.curves.noise.push_back({t.pair.counts, t.pair.variance_counts2, t.colour});
+  for (std::size_t c = 0; c < kRgb; ++c) {
+    std::vector<double> counts, variances;
+    for (const TransferPoint& t : flats.transfer) {
+      if (t.colour != c) continue;
+      counts.push_back(t.pair.counts);
+      variances.push_back(t.pair.variance_counts2);
+    }
+    calibration.noise[c] = radiance_points(counts, variances);
   }
 
   // The lamp that most is known of gives the vignetting.
   std::vector<double> information(n_of_place.size(), 0.0);
+  std::vector<double> counts, departures;
   for (const calib::FlatSample& f : samples) {
     information[f.place] +=
         f.counts * f.counts / (f.variance_dark + f.variance_per_count * f.counts);
     const auto setting = static_cast<Eigen::Index>(shots[f.shot].setting);
     const double expected = fit.log_light_per_s[f.place] + fit.log_true_over_stated[setting] +
                             std::log(flats.settings_s[static_cast<std::size_t>(setting)]);
-    steps.result.curves.counts.push_back(f.counts);
-    steps.result.curves.relative_residual.push_back(std::log(f.counts) +
-                                                    fit.curve.log_ratio_at(f.counts) - expected);
+    counts.push_back(f.counts);
+    departures.push_back(std::expm1(std::log(f.counts) - expected));
   }
+  calibration.linearity = radiance_points(counts, departures);
   std::size_t best = 0;
   double most = -1.0;
   for (std::size_t lamp = 0; lamp < flats.lamps.size(); ++lamp) {

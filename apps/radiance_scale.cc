@@ -8,7 +8,7 @@
 
 #include "apps/radiance_steps.h"
 #include "apps/shot_pose.h"
-#include "apps/white_plane.h"
+#include "apps/white_pixels.h"
 #include "calib/glare_fit.h"
 #include "calib/vignetting_fit.h"
 #include "calib/white_scale.h"
@@ -49,7 +49,7 @@ calib::TrapMean trap_mean(const CfaSamples& samples, std::size_t colour, double 
 // LED.
 double led_relative_std(const RigWhite& white, const RigLight& light,
                         const std::vector<WhitePixel>& pixels) {
-  const Eigen::Vector3d normal = white_normal(white);
+  const Eigen::Vector3d normal = white.plane.normal();
   const auto mean = [&](const Led& led) {
     double sum = 0;
     const std::size_t step = std::max<std::size_t>(1, pixels.size() / 500);
@@ -200,7 +200,7 @@ void find_scale(RadianceSteps& steps) {
   const RigLight& light = steps.rig.light(white->light);
   std::array<std::vector<calib::WhiteSum>, kRgb> sums;
   std::vector<WhitePixel> pixels;
-  const Eigen::Vector3d normal = white_normal(*white);
+  const Eigen::Vector3d normal = white->plane.normal();
   std::vector<std::pair<double, double>> levels;  // stated time and counts of each shot used
   std::string last_problem = "no shot of it";
   for (const RadianceShot& shot : white->shots) {
@@ -209,8 +209,8 @@ void find_scale(RadianceSteps& steps) {
       const calib::PoseResult pose = steps.rig.pose.charuco
                                          ? pose_from_board(steps.rig, frame, shot.file)
                                          : pose_from_points(steps.rig);
-      pixels = white_pixels(*white, {steps.rig.camera.intrinsics, pose.camera_from_world},
-                            0.05 * std::min(white->size_mm[0], white->size_mm[1]));
+      pixels = white_pixels(white->plane, {steps.rig.camera.intrinsics, pose.camera_from_world},
+                            0.05 * std::min(white->plane.width_mm, white->plane.height_mm));
       if (pixels.size() < 400) {
         throw InputError(
             steps.rig.at(white->line) + ": calibration.radiance.white",
@@ -233,7 +233,7 @@ void find_scale(RadianceSteps& steps) {
       sum[c].counts_per_s += static_cast<double>(s.samples.signal_counts[p.pixel]) / exposure_s;
       sum[c].variance +=
           static_cast<double>(s.samples.variance_counts2[p.pixel]) / (exposure_s * exposure_s);
-      sum[c].radiance += white->albedo[c] *
+      sum[c].radiance += white->plane.albedo[static_cast<Eigen::Index>(c)] *
                          light.led.intensity_W_per_sr[static_cast<Eigen::Index>(c)] *
                          calib::white_radiance_per_intensity(light.led, p.point_mm, normal);
       signal += static_cast<double>(s.samples.signal_counts[p.pixel]);
@@ -271,7 +271,7 @@ void find_scale(RadianceSteps& steps) {
   const double light_std = log_light_std(steps, levels, sums[1]);
   double variance = 0;
   for (const double std :
-       {statistical, white->albedo_relative_std, led_relative_std(*white, light, pixels),
+       {statistical, white->plane.albedo_relative_std, led_relative_std(*white, light, pixels),
         correction.vignetting_std, light_std}) {
     variance += std * std;
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "apps/shot_pose.h"
-#include "apps/white_plane.h"
+#include "apps/white_pixels.h"
 #include "calib/white_scale.h"
 #include "core/input_error.h"
 
@@ -33,14 +33,14 @@ std::vector<float> white_picture(const Rig& rig, const RigWhite& white) {
   }
   const Led& led = rig.light(white.light).led;
   std::vector<float> out = even_picture(rig, {0, 0, 0});
-  const Eigen::Vector3d normal = white_normal(white);
-  for (const WhitePixel& p : white_pixels(white, view, 0.0)) {
+  const Eigen::Vector3d normal = white.plane.normal();
+  for (const WhitePixel& p : white_pixels(white.plane, view, 0.0)) {
     const auto width = static_cast<std::size_t>(rig.camera.intrinsics.width_px);
     const auto c = static_cast<std::size_t>(rig.camera.sensor.cfa.at(
         static_cast<int>(p.pixel % width), static_cast<int>(p.pixel / width)));
-    out[p.pixel] =
-        static_cast<float>(white.albedo[c] * led.intensity_W_per_sr[static_cast<Eigen::Index>(c)] *
-                           calib::white_radiance_per_intensity(led, p.point_mm, normal));
+    out[p.pixel] = static_cast<float>(white.plane.albedo[static_cast<Eigen::Index>(c)] *
+                                      led.intensity_W_per_sr[static_cast<Eigen::Index>(c)] *
+                                      calib::white_radiance_per_intensity(led, p.point_mm, normal));
   }
   return out;
 }

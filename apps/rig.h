@@ -145,6 +145,8 @@ struct Rig {
       truth_materials;  // eta is the object's, not set here
   std::optional<RigTruthPose> truth_pose;
   RigSensorTruth truth_sensor;
+  // R, G, B; of light beside the LEDs on the white planes of calibration.led, the same all over.
+  Eigen::Array3d truth_ambient_irradiance_W_per_mm2 = Eigen::Array3d::Zero();
 
   const RigObject& object(const std::string& name) const;  // std::out_of_range
   const RigLight& light(const std::string& name) const;

@@ -1,10 +1,10 @@
 #include "apps/rig_led_calibration.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "apps/rig_fields.h"
+#include "apps/rig_white_plane.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -19,27 +19,20 @@ calib::MirrorSphere read_sphere(const YamlField& field) {
   return sphere;
 }
 
-calib::WhitePlane read_plane(const YamlField& field) {
-  field.only({"origin_mm", "x_axis", "y_axis", "size_mm", "albedo", "albedo_relative_std"});
-  calib::WhitePlane plane;
-  if (const auto f = field.find("origin_mm")) plane.origin_mm = f->vector3();
-  if (const auto f = field.find("x_axis")) plane.x_axis = unit_vector(*f);
-  if (const auto f = field.find("y_axis")) plane.y_axis = unit_vector(*f);
-  if (std::abs(plane.x_axis.dot(plane.y_axis)) > 1e-6) {
-    field.fail("x_axis and y_axis are not at right angles");
-  }
-  const YamlField size = field.at("size_mm");
-  size.numbers(2);
-  plane.width_mm = size.items()[0].positive();
-  plane.height_mm = size.items()[1].positive();
-  const YamlField albedo = field.at("albedo");
-  const std::array<double, 3> rgb = positive_rgb(albedo);
-  plane.albedo = {rgb[0], rgb[1], rgb[2]};
-  if (plane.albedo.maxCoeff() > 1.0) albedo.fail("expected albedos of at most 1");
-  if (const auto f = field.find("albedo_relative_std")) {
-    plane.albedo_relative_std = f->number(0.0, 1.0);
-  }
-  return plane;
+LedShotKind shot_kind(const YamlField& field) {
+  const std::string text = field.text();
+  if (text == "spheres") return LedShotKind::kSpheres;
+  if (text == "plane") return LedShotKind::kPlane;
+  if (text == "ambient") return LedShotKind::kAmbient;
+  field.fail("expected spheres, plane or ambient");
+}
+
+calib::AmbientModel ambient_model(const YamlField& field) {
+  const std::string text = field.text();
+  if (text == "where_seen") return calib::AmbientModel::kWhereSeen;
+  if (text == "fitted") return calib::AmbientModel::kFitted;
+  if (text == "none") return calib::AmbientModel::kNone;
+  field.fail("expected where_seen, fitted or none");
 }
 
 RigLedShot read_led_shot(const YamlField& field, const RigLedCalibration& calibration) {
@@ -48,18 +41,25 @@ RigLedShot read_led_shot(const YamlField& field, const RigLedCalibration& calibr
   shot.line = field.line();
   shot.file = file_in_folder(field.at("file"));
   const YamlField kind = field.at("kind");
-  if (kind.text() != "spheres" && kind.text() != "plane") kind.fail("expected spheres or plane");
-  shot.is_plane = kind.text() == "plane";
-  shot.light = field.at("light").text();
+  shot.kind = shot_kind(kind);
+  const bool has_plane = shot.kind != LedShotKind::kSpheres;
+  if (shot.kind != LedShotKind::kAmbient) {
+    shot.light = field.at("light").text();
+  } else if (const auto f = field.find("light")) {
+    f->fail("is given in an ambient shot, where every LED is off");
+  }
   if (const auto f = field.find("plane")) {
-    if (!shot.is_plane) f->fail("is given in a shot of the spheres");
+    if (!has_plane) f->fail("is given in a shot of the spheres");
     shot.plane = static_cast<std::size_t>(
         f->integer(1, std::max(1, static_cast<int>(calibration.planes.size()))) - 1);
-  } else if (shot.is_plane && calibration.planes.size() > 1) {
+  } else if (has_plane && calibration.planes.size() > 1) {
     field.fail("there are several planes: say which by plane: 1, 2 ...");
   }
-  if (shot.is_plane && calibration.planes.empty()) kind.fail("there are no planes in the rig");
-  if (!shot.is_plane && calibration.spheres.empty()) kind.fail("there are no spheres in the rig");
+  if (has_plane && calibration.planes.empty()) kind.fail("there are no planes in the rig");
+  if (!has_plane && calibration.spheres.empty()) kind.fail("there are no spheres in the rig");
+  if (shot.kind == LedShotKind::kAmbient && calibration.ambient_shot(shot.plane)) {
+    field.fail("the plane has two ambient shots");
+  }
   if (const auto f = field.find("exposure_s")) shot.exposure_s = f->positive();
   return shot;
 }
@@ -69,6 +69,7 @@ RigLedShot read_led_shot(const YamlField& field, const RigLedCalibration& calibr
 std::vector<std::string> RigLedCalibration::lights() const {
   std::vector<std::string> names;
   for (const RigLedShot& shot : shots) {
+    if (shot.kind == LedShotKind::kAmbient) continue;
     if (std::find(names.begin(), names.end(), shot.light) == names.end()) {
       names.push_back(shot.light);
     }
@@ -76,17 +77,28 @@ std::vector<std::string> RigLedCalibration::lights() const {
   return names;
 }
 
+std::optional<std::size_t> RigLedCalibration::ambient_shot(std::size_t plane) const {
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    if (shots[i].kind == LedShotKind::kAmbient && shots[i].plane == plane) return i;
+  }
+  return std::nullopt;
+}
+
 RigLedCalibration read_led_calibration(const YamlField& field, const std::string& rig_path) {
   static_cast<void>(rig_path);  // names no files
-  field.only({"spheres", "planes", "shots"});
+  field.only({"spheres", "planes", "shots", "ambient"});
   RigLedCalibration calibration;
   calibration.line = field.line();
   if (const auto f = field.find("spheres")) {
     for (const YamlField& sphere : f->items()) calibration.spheres.push_back(read_sphere(sphere));
   }
   if (const auto f = field.find("planes")) {
-    for (const YamlField& plane : f->items()) calibration.planes.push_back(read_plane(plane));
+    for (const YamlField& plane : f->items()) {
+      plane.only({"origin_mm", "x_axis", "y_axis", "size_mm", "albedo", "albedo_relative_std"});
+      calibration.planes.push_back(read_white_plane(plane, 0.0));
+    }
   }
+  if (const auto f = field.find("ambient")) calibration.ambient = ambient_model(*f);
   std::set<std::string> files;
   const YamlField shots = field.at("shots");
   for (const YamlField& shot : shots.items()) {

@@ -1,12 +1,14 @@
 #include "apps/rig_radiance_calibration.h"
 
-#include <cmath>
 #include <set>
 
 #include "apps/rig_fields.h"
+#include "apps/rig_white_plane.h"
 
 namespace scattermeter::apps {
 namespace {
+
+constexpr double kWhiteAlbedoStd = 0.005;  // of a reference that does not state it
 
 RadianceShot radiance_shot(const YamlField& field, bool is_flat = false) {
   RadianceShot shot;
@@ -65,24 +67,7 @@ RigWhite read_white(const YamlField& field) {
   white.line = field.line();
   white.shots = own_shots(field);
   white.light = field.at("light").text();
-  if (const auto f = field.find("origin_mm")) white.origin_mm = f->vector3();
-  if (const auto f = field.find("x_axis")) white.x_axis = unit_vector(*f);
-  if (const auto f = field.find("y_axis")) white.y_axis = unit_vector(*f);
-  if (std::abs(white.x_axis.dot(white.y_axis)) > 1e-6) {
-    field.fail("x_axis and y_axis are not at right angles");
-  }
-  white.size_mm = {field.at("size_mm").numbers(2)[0], field.at("size_mm").numbers(2)[1]};
-  if (!(white.size_mm[0] > 0.0) || !(white.size_mm[1] > 0.0)) {
-    field.at("size_mm").fail("expected two positive lengths");
-  }
-  const YamlField albedo = field.at("albedo");
-  white.albedo = positive_rgb(albedo);
-  for (const double a : white.albedo) {
-    if (a > 1.0) albedo.fail("expected albedos of at most 1");
-  }
-  if (const auto f = field.find("albedo_relative_std")) {
-    white.albedo_relative_std = f->number(0.0, 1.0);
-  }
+  white.plane = read_white_plane(field, kWhiteAlbedoStd);
   return white;
 }
 

@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "apps/yaml_field.h"
+#include "calib/white_plane.h"
 
 namespace scattermeter::apps {
 
@@ -30,12 +29,7 @@ struct RadianceShot {
 struct RigWhite {
   std::vector<RadianceShot> shots;  // several: an exposure bracket
   std::string light;
-  Eigen::Vector3d origin_mm = Eigen::Vector3d::Zero();  // a corner; world
-  Eigen::Vector3d x_axis = Eigen::Vector3d::UnitX();
-  Eigen::Vector3d y_axis = Eigen::Vector3d::UnitY();  // x cross y: the white side
-  std::array<double, 2> size_mm{};
-  std::array<double, 3> albedo{};  // Lambertian
-  double albedo_relative_std = 0.005;
+  calib::WhitePlane plane;
   int line = 0;
 };
 

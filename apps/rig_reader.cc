@@ -232,7 +232,11 @@ RigShot read_shot(const YamlField& field, const Rig& rig) {
 }
 
 void read_truth(const YamlField& field, Rig& rig) {
-  field.only({"materials", "pose", "sensor"});
+  field.only({"materials", "pose", "sensor", "ambient_irradiance_W_per_mm2"});
+  if (const auto ambient = field.find("ambient_irradiance_W_per_mm2")) {
+    const std::array<double, 3> rgb = rgb_not_negative(*ambient);
+    rig.truth_ambient_irradiance_W_per_mm2 = {rgb[0], rgb[1], rgb[2]};
+  }
   if (const auto sensor = field.find("sensor")) rig.truth_sensor = read_sensor_truth(*sensor);
   if (const auto materials = field.find("materials")) {
     for (const auto& [name, material] : materials->entries()) {

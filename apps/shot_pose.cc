@@ -65,6 +65,7 @@ calib::PoseResult refined(const Rig& rig, const calib::PoseResult& prior,
                           const std::vector<calib::EdgeShot>& shots, const std::string& name) {
   calib::SilhouetteOptions options;
   options.line_std_px = rig.pose.edge_std_px;
+  options.pose_is_near = rig.pose.charuco.has_value();
   const std::string where = rig.at(rig.pose.line) + ": pose.refine";
   const calib::Silhouette silhouette =
       calib::find_silhouette(shots, rig.camera.intrinsics, prior.camera_from_world, options);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 #include <Eigen/Cholesky>
 #include <fmt/core.h>
 
+#include "calib/board_mask.h"
 #include "capture/linear_samples.h"
 #include "core/chi_square.h"
 
@@ -15,6 +17,7 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr double kDriftDoubt = 1e-4;
+constexpr int kPaperBorder_px = 3;  // of a lens's blur
 
 struct Shift {
   Eigen::Vector2d px;
@@ -104,9 +107,14 @@ calib::EdgeShot edge_shot(const Rig& rig, const ObjectScenes& scenes, const RigS
       calib::silhouette_window(*scene.rays, rig.camera.intrinsics, camera_from_world, options);
   int body = 0;
   while (rig.objects[static_cast<std::size_t>(body)].name != shot.object) ++body;
-  return {scene.rays.get(), body,
-          capture::linear_samples(frame, rig.camera.sensor.noise, frame.exposure_s, w.x0, w.y0,
-                                  w.width, w.height)};
+  calib::EdgeShot out{scene.rays.get(), body,
+                      capture::linear_samples(frame, rig.camera.sensor.noise, frame.exposure_s,
+                                              w.x0, w.y0, w.width, w.height)};
+  if (rig.pose.charuco) {
+    calib::mask_paper(*rig.pose.charuco, *scene.rays, rig.camera.intrinsics, camera_from_world,
+                      kPaperBorder_px, out.samples);
+  }
+  return out;
 }
 
 SilhouetteCheck check_silhouettes(const Rig& rig, const ObjectScenes& scenes,
@@ -157,6 +165,41 @@ SilhouetteCheck check_silhouettes(const Rig& rig, const ObjectScenes& scenes,
   check.diagnosis = calib::explain_edges(points, lens, stated, names, options.explanation);
   find_drift(options.silhouette.line_std_px, check);
   return check;
+}
+
+SilhouetteCheck check_silhouettes_apart(const Rig& rig, const ObjectScenes& scenes,
+                                        const FrameSource& frames,
+                                        const std::vector<std::size_t>& shot_idxs,
+                                        const std::vector<calib::PoseResult>& stated,
+                                        const SilhouetteCheckOptions& options) {
+  if (stated.size() != shot_idxs.size()) {
+    throw std::invalid_argument(fmt::format("check_silhouettes_apart: {} shots, {} poses",
+                                            shot_idxs.size(), stated.size()));
+  }
+  SilhouetteCheckOptions near = options;
+  near.silhouette.pose_is_near = true;
+  SilhouetteCheck all;
+  double squares = 0, pieces = 0;
+  for (std::size_t i = 0; i < shot_idxs.size(); ++i) {
+    SilhouetteCheck one = check_silhouettes(rig, scenes, frames, {shot_idxs[i]}, stated[i], near);
+    if (one.shots_found > 0) {
+      // The first that contradicts the rig speaks for all.
+      if (all.shots_found == 0 || (all.diagnosis.agrees && !one.diagnosis.agrees)) {
+        all.diagnosis = one.diagnosis;
+        if (!one.diagnosis.agrees) {
+          all.diagnosis.verdict = one.shots.front().file + ": " + one.diagnosis.verdict;
+        }
+      }
+      const auto n = static_cast<double>(one.shots.front().pieces);
+      squares += n * one.rms_px * one.rms_px;
+      pieces += n;
+      all.worst_px = std::max(all.worst_px, one.worst_px);
+      all.shots_found += 1;
+    }
+    all.shots.push_back(std::move(one.shots.front()));
+  }
+  if (pieces > 0) all.rms_px = std::sqrt(squares / pieces);
+  return all;
 }
 
 }  // namespace scattermeter::apps

@@ -55,14 +55,23 @@ struct SilhouetteCheckOptions {
   calib::EdgeExplanationOptions explanation;
 };
 
-// Opens every shot of the source once more. `stated`: the pose of the rig's points (of a rig with a
-// board: that of the shot, one source with one shot at a time). Shots whose outline is not found
-// say so and are left out. Throws InputError for what cannot be read.
+// Opens every shot of the source once more. `stated`: the pose of the rig's points. Shots whose
+// outline is not found say so and are left out. Throws InputError for what cannot be read.
 SilhouetteCheck check_silhouettes(const Rig& rig, const ObjectScenes& scenes,
                                   const FrameSource& frames,
                                   const std::vector<std::size_t>& shot_idxs,
                                   const calib::PoseResult& stated,
                                   const SilhouetteCheckOptions& options = {});
+
+// Shots that stand each for itself, with a pose of its own (by a board in the shot): outlines and
+// their diagnosis one by one. The diagnosis of the answer is that of the first shot that
+// contradicts the rig, its verdict naming the file; nothing drifts. Edges before the board's paper
+// are left out (calib/board_mask.h). Precondition (std::invalid_argument): as many poses as shots.
+SilhouetteCheck check_silhouettes_apart(const Rig& rig, const ObjectScenes& scenes,
+                                        const FrameSource& frames,
+                                        const std::vector<std::size_t>& shot_idxs,
+                                        const std::vector<calib::PoseResult>& stated,
+                                        const SilhouetteCheckOptions& options = {});
 
 // The part of a frame that the search needs, ready for it. body_idx: place among the rig's objects.
 calib::EdgeShot edge_shot(const Rig& rig, const ObjectScenes& scenes, const RigShot& shot,

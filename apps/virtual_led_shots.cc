@@ -36,7 +36,7 @@ VirtualLedShots::VirtualLedShots(const Rig& rig, bool noise) : rig_(rig), sensor
       kLedExposedTo * (top - *std::max_element(s.black_counts.begin(), s.black_counts.end()));
   const int width = view.intrinsics.width_px;
   for (const RigLedShot& shot : rig.calibration.led->shots) {
-    if (!is_led_of(rig, shot.light)) {
+    if (shot.kind != LedShotKind::kAmbient && !is_led_of(rig, shot.light)) {
       throw InputError(rig.at(shot.line) + ": calibration.led.shots." + shot.file + ".light",
                        "no such LED in lights, got " + shot.light);
     }
@@ -57,9 +57,22 @@ VirtualLedShots::VirtualLedShots(const Rig& rig, bool noise) : rig_(rig), sensor
       const double unit = std::pow(10.0, std::floor(std::log10(exact_s)) - 1.0);
       exposure = std::floor(exact_s / unit) * unit;
     }
-    for (float& p : picture) p *= static_cast<float>(exposure);
     exposure_s_.push_back(exposure);
     counts_.push_back(std::move(picture));
+  }
+  // An ambient shot is exposed as the plane's.
+  const std::vector<RigLedShot>& listed = rig.calibration.led->shots;
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    if (listed[i].kind != LedShotKind::kAmbient || listed[i].exposure_s) continue;
+    const auto plane = std::find_if(listed.begin(), listed.end(), [&](const RigLedShot& shot) {
+      return shot.kind == LedShotKind::kPlane && shot.plane == listed[i].plane;
+    });
+    if (plane != listed.end()) {
+      exposure_s_[i] = exposure_s_[static_cast<std::size_t>(plane - listed.begin())];
+    }
+  }
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    for (float& p : counts_[i]) p *= static_cast<float>(exposure_s_[i]);
   }
 }
 

@@ -17,8 +17,9 @@ class VirtualLedShots {
  public:
   // Renders every shot (apps/led_picture.h). Without a responsivity the nominal one counts
   // (apps/led_shots.h). A shot without exposure_s is exposed so that its brightest sample reaches
-  // three quarters of the range. Precondition: the rig has calibration.led. Throws InputError for a
-  // light that is no LED of the rig, or a pose that it lacks.
+  // three quarters of the range, an ambient one as the first shot of its plane. Precondition: the
+  // rig has calibration.led. Throws InputError for a light that is no LED of the rig, or a pose
+  // that it lacks.
   VirtualLedShots(const Rig& rig, bool noise);
 
   std::size_t size() const { return counts_.size(); }

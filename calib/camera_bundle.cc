@@ -10,6 +10,7 @@
 
 #include "calib/lens.h"
 #include "core/cross_matrix.h"
+#include "core/solver_options.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -127,18 +128,12 @@ CameraBundle adjust_bundle(const std::vector<BoardView>& views, const LensModel&
     if (!views[i].corners.empty()) order->AddElementToGroup(poses[i].data(), 0);
   }
   order->AddElementToGroup(fitted.data(), 1);
-  ceres::Solver::Options solver;
+  auto solver = quiet_solver<ceres::Solver::Options>({100, 1e-13, 1e-14, 1e-11});
   solver.linear_solver_ordering.reset(order);
   solver.linear_solver_type = ceres::DENSE_SCHUR;
-  solver.max_num_iterations = 100;
-  solver.function_tolerance = 1e-13;
-  solver.gradient_tolerance = 1e-14;
-  solver.parameter_tolerance = 1e-11;
   // Damping of 1e-9 at least keeps the equations of a model with idle terms solvable, of which
   // Ceres would write to stderr whatever the logging type.
   solver.max_trust_region_radius = 1e9;
-  solver.logging_type = ceres::SILENT;
-  solver.num_threads = 1;
 
   CameraBundle out = start;
   // Ceres would complain on the error stream of a start that has no value.

@@ -13,6 +13,7 @@
 #include <ceres/ceres.h>
 
 #include "calib/lens.h"
+#include "core/solver_options.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -248,14 +249,8 @@ EdgeFit fit_edges(const std::vector<EdgePoint>& points, const CameraIntrinsics& 
                .eval();
     least_squares.AddResidualBlock(new PriorCost(root), nullptr, values.data());
   }
-  ceres::Solver::Options solver;
+  auto solver = quiet_solver<ceres::Solver::Options>({60, 1e-12, 1e-14, 1e-12});
   solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = 60;
-  solver.function_tolerance = 1e-12;
-  solver.parameter_tolerance = 1e-12;
-  solver.gradient_tolerance = 1e-14;
-  solver.num_threads = 1;
-  solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &least_squares, &summary);
   out.converged = summary.IsSolutionUsable();

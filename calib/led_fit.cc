@@ -11,6 +11,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "calib/led_ambient.h"
 #include "calib/led_solver.h"
 #include "calib/led_start.h"
 #include "core/middle_value.h"
@@ -108,7 +109,7 @@ void leave_cells_out(const LedScene& scene, const std::vector<bool>& lit,
   const double excess = std::max(1.0, bulk / middle_value(noises));
   // A cell that is left out takes its other channels along, and the next cells where it is off by
   // much: a shadow's edge reaches farther than it shows.
-  std::set<std::tuple<std::size_t, std::size_t, int, int>> out;
+  std::set<std::tuple<std::size_t, int, int>> out;
   for (std::size_t i = 0; i < r.size(); ++i) {
     if (!lit[i]) continue;
     const ShadedCell& cell = scene.cells[i];
@@ -118,13 +119,13 @@ void leave_cells_out(const LedScene& scene, const std::vector<bool>& lit,
     const int reach = std::abs(r[i]) > 4.0 * limit ? 1 : 0;
     for (int dy = -reach; dy <= reach; ++dy) {
       for (int dx = -reach; dx <= reach; ++dx) {
-        out.insert({cell.view, cell.plane, cell.column + dx, cell.row + dy});
+        out.insert({cell.shot, cell.column + dx, cell.row + dy});
       }
     }
   }
   for (std::size_t i = 0; i < r.size(); ++i) {
     const ShadedCell& cell = scene.cells[i];
-    use[i] = lit[i] && !out.contains({cell.view, cell.plane, cell.column, cell.row});
+    use[i] = lit[i] && !out.contains({cell.shot, cell.column, cell.row});
   }
 }
 
@@ -142,12 +143,11 @@ double cell_inflation(const LedScene& scene, const LedSolution& solution,
                       const std::vector<bool>& use, double spent) {
   double worst = 1.0;
   for (int edge : {1, 3, 6}) {
-    std::map<std::tuple<std::size_t, std::size_t, int, int, int>, std::pair<double, double>> blocks;
+    std::map<std::tuple<std::size_t, int, int, int>, std::pair<double, double>> blocks;
     for (std::size_t i = 0; i < use.size(); ++i) {
       if (!use[i]) continue;
       const ShadedCell& cell = scene.cells[i];
-      auto& [sum, n] =
-          blocks[{cell.view, cell.plane, cell.channel, cell.column / edge, cell.row / edge}];
+      auto& [sum, n] = blocks[{cell.shot, cell.channel, cell.column / edge, cell.row / edge}];
       sum += (cell.radiance_W_per_mm2_sr - solution.cell_radiance[i]) / cell.std_W_per_mm2_sr;
       n += 1.0;
     }
@@ -173,6 +173,7 @@ std::string combination_name(const Eigen::VectorXd& v) {
   add("axis", v.segment<2>(kLedAxis).squaredNorm() / all);
   add("exponent", v[kLedExponent] * v[kLedExponent] / all);
   add("power", v.segment<3>(kLedLogIntensity).squaredNorm() / all);
+  add("ambient light", v.tail(v.size() - kLedParameters).squaredNorm() / all);
   return names.empty() ? "position" : names;
 }
 
@@ -184,8 +185,12 @@ std::string digits(double value) {
 
 class LedFitter {
  public:
-  LedFitter(const LedScene& scene, const Led& start, const LedFitOptions& options)
+  LedFitter(const LedScene& scene, const Led& start, const LedFitOptions& options, bool ambient)
       : scene_(scene), options_(options), led_(start) {
+    for (std::size_t i = 0; i < scene.plane_shots(); ++i) {
+      const bool subtracted = i < scene.ambient_subtracted.size() && scene.ambient_subtracted[i];
+      what_.free_ambient.push_back(ambient && !subtracted);
+    }
     what_.use_highlight.assign(scene.highlights.size(), false);
     what_.use_cell.assign(scene.cells.size(), false);
     fit_.led = start;
@@ -334,7 +339,8 @@ class LedFitter {
   }
 
   void set_covariance() {
-    double free = 0.0;
+    const std::set<Eigen::Index> ambients = free_ambients();
+    double free = static_cast<double>(ambients.size());
     for (bool f : what_.free) free += f ? 1.0 : 0.0;
     double chi2 = 0.0, n = 0.0;
     for (std::size_t i = 0; i < scene_.highlights.size(); ++i) {
@@ -352,9 +358,13 @@ class LedFitter {
                            solution_.cell_information / fit_.plane_inflation;
     const Eigen::Index size = info.rows();
     std::vector<Eigen::Index> kept;
-    for (Eigen::Index i = 0; i < size; ++i) {
-      if (i >= kLedParameters) info(i, i) += 1.0;
-      if (i >= kLedParameters || what_.free[static_cast<std::size_t>(i)]) kept.push_back(i);
+    for (Eigen::Index i = 0; i < kLedParameters; ++i) {
+      if (what_.free[static_cast<std::size_t>(i)]) kept.push_back(i);
+    }
+    for (const Eigen::Index i : ambients) kept.push_back(i);
+    for (Eigen::Index i = solution_.nuisances_at; i < size; ++i) {
+      info(i, i) += 1.0;
+      kept.push_back(i);
     }
     const Eigen::MatrixXd some = info(kept, kept);
     const Eigen::VectorXd scale = some.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
@@ -362,10 +372,13 @@ class LedFitter {
     SymmetricEigen eigen;
     if (scaled.allFinite()) eigen = symmetric_eigen(scaled);
     if (eigen.values.size() == 0 || !(eigen.values[0] > 1e-12)) {
-      LedVector v = LedVector::Zero();
+      Eigen::VectorXd v = Eigen::VectorXd::Zero(size);
       for (std::size_t k = 0; eigen.values.size() > 0 && k < kept.size(); ++k) {
-        if (kept[k] < kLedParameters) v[kept[k]] = eigen.vectors(static_cast<Eigen::Index>(k), 0);
+        if (kept[k] < solution_.nuisances_at) {
+          v[kept[k]] = eigen.vectors(static_cast<Eigen::Index>(k), 0);
+        }
       }
+      report_ambient(Eigen::MatrixXd::Constant(size, size, kNone));
       refuse(LedStatus::kUndetermined,
              "the shots do not determine " + combination_name(v) + " apart; " + advice());
       return;
@@ -396,7 +409,43 @@ class LedFitter {
             options_.log_intensity_std * options_.log_intensity_std;
       }
     }
+    report_ambient(covariance);
     judge();
+  }
+
+  // Places among the unknowns of the ambient light of shots and channels that have cells.
+  std::set<Eigen::Index> free_ambients() const {
+    std::set<Eigen::Index> places;
+    for (std::size_t i = 0; i < what_.use_cell.size(); ++i) {
+      const ShadedCell& cell = scene_.cells[i];
+      if (!what_.use_cell[i] || !what_.free_ambient[cell.shot]) continue;
+      places.insert(solution_.ambient_at + 3 * static_cast<Eigen::Index>(cell.shot) + cell.channel);
+    }
+    return places;
+  }
+
+  void report_ambient(const Eigen::MatrixXd& covariance) {
+    std::map<std::pair<std::size_t, int>, std::vector<double>> own;
+    for (std::size_t i = 0; i < what_.use_cell.size(); ++i) {
+      const ShadedCell& cell = scene_.cells[i];
+      if (!what_.use_cell[i]) continue;
+      own[{cell.shot, cell.channel}].push_back(solution_.cell_radiance[i] -
+                                               solution_.ambient[cell.shot][cell.channel]);
+    }
+    for (std::size_t s = 0; s < what_.free_ambient.size(); ++s) {
+      if (!what_.free_ambient[s]) continue;
+      FittedAmbient found{s, solution_.ambient[s], Eigen::Array3d::Constant(kNone),
+                          Eigen::Array3d::Constant(kNone)};
+      for (int c = 0; c < 3; ++c) {
+        const auto cells = own.find({s, c});
+        if (cells == own.end()) continue;
+        const double led = middle_value(cells->second);
+        const Eigen::Index at = solution_.ambient_at + 3 * static_cast<Eigen::Index>(s) + c;
+        found.relative[c] = solution_.ambient[s][c] / led;
+        found.relative_std[c] = std::sqrt(covariance(at, at)) * solution_.ambient_unit[s][c] / led;
+      }
+      fit_.ambient.push_back(found);
+    }
   }
 
   bool albedo_is_uncertain() const {
@@ -406,7 +455,10 @@ class LedFitter {
   }
 
   std::string advice() const {
-    return "add spheres, a plane nearer to the LED or at another height, or a tilted one";
+    const bool ambient = std::any_of(what_.free_ambient.begin(), what_.free_ambient.end(),
+                                     [](bool free) { return free; });
+    return std::string(ambient ? "shoot the planes with the LED off as well, " : "") +
+           "add spheres, a plane nearer to the LED or at another height, or a tilted one";
   }
 
   void judge() {
@@ -473,7 +525,10 @@ class LedFitter {
       fit_.warnings.push_back("the plane's shading departs from the model by " +
                               digits(100.0 * fit_.plane_rms) +
                               " % rms, beyond its noise; the covariance is widened " +
-                              digits(fit_.plane_inflation) + " times");
+                              digits(fit_.plane_inflation) + " times" +
+                              (options_.ambient == AmbientModel::kNone
+                                   ? "; if the room is not dark, do not tell that it is"
+                                   : ""));
     }
   }
 
@@ -501,7 +556,27 @@ void LedFitOptions::Check() const {
 
 LedFit fit_led(const LedScene& scene, const Led& start, const LedFitOptions& options) {
   options.Check();
-  return LedFitter(scene, start, options).run();
+  LedFit without = LedFitter(scene, start, options, options.ambient == AmbientModel::kFitted).run();
+  const bool doubtful = without.plane_inflation > 1.0 || without.status == LedStatus::kMisfit;
+  if (options.ambient != AmbientModel::kWhereSeen || !doubtful) return without;
+  LedFit with = LedFitter(scene, start, options, true).run();
+  if (!ambient_is_seen(scene, without, with)) return without;
+  double brightest = 0.0;
+  for (const FittedAmbient& a : with.ambient) {
+    for (const double share : a.relative) brightest = std::fmax(brightest, share);
+  }
+  const std::string seen =
+      "the planes show light beside the LED, up to " + digits(100.0 * brightest) + " % of its own";
+  if (with.status != LedStatus::kOk) {
+    with.message = seen + ", and with that " + with.message;
+  } else {
+    with.warnings.push_back(
+        seen + ": fitted as a constant of each shot, the distance is known to " +
+        digits(with.distance_std_mm) + " mm, and to " + digits(without.distance_std_mm) +
+        " mm if there were none; a shot of the plane with the LED off says "
+        "more");
+  }
+  return with;
 }
 
 }  // namespace scattermeter::calib

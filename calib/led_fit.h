@@ -12,6 +12,14 @@
 
 namespace scattermeter::calib {
 
+// Light on the white planes that does not come from the LED, where it was not subtracted
+// (LedScene::ambient_subtracted): a constant >= 0 of each plane shot and channel.
+enum class AmbientModel {
+  kWhereSeen,  // there is none, unless the cells contradict that and not the constant
+  kFitted,     // always one
+  kNone,       // never one
+};
+
 struct LedFitOptions {
   double inlier_px = 3.0;     // a highlight farther from where the others put the LED is left out
   double outlier_stds = 6.0;  // a cell farther from the model than so many deviations of the
@@ -20,6 +28,7 @@ struct LedFitOptions {
   // Without a plane, axis, exponent and intensity stay as they are told; how well they are known.
   double exponent_std = 0;
   double log_intensity_std = 0;
+  AmbientModel ambient = AmbientModel::kWhereSeen;
   void Check() const;  // std::invalid_argument naming the field
 };
 
@@ -41,6 +50,15 @@ enum class LedStatus {
   kIllConditioned,
 };
 
+// Fitted ambient light of a plane shot over the LED's own, the median of its cells. NaN for
+// channels without the LED's light.
+struct FittedAmbient {
+  std::size_t shot = 0;  // ShadedCell::shot
+  Eigen::Array3d radiance_W_per_mm2_sr;
+  Eigen::Array3d relative;
+  Eigen::Array3d relative_std;
+};
+
 struct LedFit {
   LedStatus status = LedStatus::kTooFewData;
   std::string message;                // what is wrong and what to do; "" if ok
@@ -60,6 +78,8 @@ struct LedFit {
   std::vector<bool> cell_used;
   double highlight_rms_px = 0, highlight_worst_px = 0;  // of those used, the 2-vector's length
   double plane_rms = 0, plane_worst = 0;                // relative, of those used
+  // By plane shot, without those that have none. Its part of the uncertainty is in the covariance.
+  std::vector<FittedAmbient> ambient;
   // By how much the data scatter beyond their noise; the covariance holds them (>= 1).
   double highlight_inflation = 1, plane_inflation = 1;
 };
@@ -69,6 +89,9 @@ struct LedFit {
 // out, with the nuisances of LedScene within their priors. Covariance from the Jacobian there:
 // noise, poses, spheres and albedo. Where residuals scatter more than their noise allows, alone or
 // as means over blocks of 3 x 3 and 6 x 6 cells, the data's part is widened by that ratio.
+// Ambient light kWhereSeen: fitted without and, where that scatter shows, with constants too, and
+// ambient_is_seen() (calib/led_ambient.h) says which of the two the cells ask for: a layout that
+// cannot tell the LED from the constant is then refused as any other that says too little.
 // `start`: radius_mm is taken as it is; the place may be wrong by a fifth of the distance, axis and
 // exponent by much. Never throws on layouts that say too little: the status tells. Deterministic.
 LedFit fit_led(const LedScene& scene, const Led& start, const LedFitOptions& options = {});

@@ -1,6 +1,7 @@
 // What calibration shots show of one LED.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct SeenHighlight {
 struct ShadedCell {
   std::size_t view = 0;
   std::size_t plane = 0;
+  std::size_t shot = 0;                                  // cells of a shot share its ambient light
   std::size_t setting = 0;                               // of LedScene::exposure_relative_std
   int column = 0, row = 0;                               // of the plane's grid of cells
   int channel = 0;                                       // 0 R, 1 G, 2 B
@@ -50,6 +52,17 @@ struct LedScene {
   // How well the time of each exposure setting is known, which all cells of that setting share; an
   // error of the time is one of the power. Empty: all exactly.
   std::vector<double> exposure_relative_std;
+  // By ShadedCell::shot: the shot's ambient light was measured with the LED off and subtracted from
+  // its cells. Empty: none was.
+  std::vector<bool> ambient_subtracted;
+
+  std::size_t plane_shots() const;  // one more than the largest ShadedCell::shot; 0 without cells
 };
+
+inline std::size_t LedScene::plane_shots() const {
+  std::size_t n = 0;
+  for (const ShadedCell& cell : cells) n = std::max(n, cell.shot + 1);
+  return n;
+}
 
 }  // namespace scattermeter::calib

@@ -15,6 +15,7 @@
 #include "calib/lens.h"
 #include "core/covariance_root.h"
 #include "core/pose_shift.h"
+#include "core/solver_options.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -42,11 +43,21 @@ struct Frame {
   Led led;
   std::array<Eigen::Vector3d, 2> tangents;
   std::vector<Matrix6d> pose_root;
+  std::vector<Eigen::Array3d> ambient_unit;  // by plane shot
 
   Frame(const LedScene& s, const Led& start) : scene(s), lens(s.intrinsics), led(start) {
     tangents[0] = led.axis.unitOrthogonal();
     tangents[1] = led.axis.cross(tangents[0]);
     for (const LedView& v : s.views) pose_root.push_back(covariance_root(v.pose_covariance));
+    ambient_unit.assign(s.plane_shots(), Eigen::Array3d::Zero());
+    std::vector<Eigen::Array3d> n(ambient_unit);
+    for (const ShadedCell& cell : s.cells) {
+      ambient_unit[cell.shot][cell.channel] += cell.radiance_W_per_mm2_sr;
+      n[cell.shot][cell.channel] += 1.0;
+    }
+    for (std::size_t i = 0; i < n.size(); ++i) {
+      ambient_unit[i] = (ambient_unit[i] / n[i].max(1.0)).max(1e-300);
+    }
   }
 
   Led at(const double* x) const {
@@ -170,12 +181,14 @@ class CellModel {
 
 struct CellCost {
   CellModel model;
-  double measured, std;
+  double measured, std, ambient_unit;
 
   template <typename T>
-  bool operator()(const T* led, const T* pose, const T* albedo, const T* exposure,
+  bool operator()(const T* led, const T* pose, const T* albedo, const T* exposure, const T* ambient,
                   T* residual) const {
-    residual[0] = (model.radiance(led, pose, albedo, exposure) - T(measured)) / T(std);
+    residual[0] =
+        (model.radiance(led, pose, albedo, exposure) + T(ambient_unit) * ambient[0] - T(measured)) /
+        T(std);
     return true;
   }
 };
@@ -191,6 +204,7 @@ struct UnitPrior {
 
 struct Unknowns {
   std::array<double, kLedParameters> led;
+  std::vector<std::array<double, 3>> ambient;  // by plane shot
   std::vector<std::array<double, 6>> pose;
   std::vector<std::array<double, 4>> sphere;
   std::vector<double> exposure;  // one more than settings, for scenes that have none
@@ -198,6 +212,9 @@ struct Unknowns {
 
   std::vector<double*> blocks() {
     std::vector<double*> all = {led.data()};
+    for (auto& a : ambient) {
+      for (double& channel : a) all.push_back(&channel);
+    }
     for (auto& p : pose) all.push_back(p.data());
     for (auto& s : sphere) all.push_back(s.data());
     for (double& e : exposure) all.push_back(&e);
@@ -209,9 +226,9 @@ struct Unknowns {
 Eigen::MatrixXd information(ceres::Problem& problem, Unknowns& unknowns,
                             const std::vector<ceres::ResidualBlockId>& residuals,
                             const std::array<bool, kLedParameters>& free) {
-  const auto size =
-      static_cast<Eigen::Index>(kLedParameters + 6 * unknowns.pose.size() +
-                                4 * unknowns.sphere.size() + unknowns.exposure.size() + 1);
+  const auto size = static_cast<Eigen::Index>(
+      kLedParameters + 3 * unknowns.ambient.size() + 6 * unknowns.pose.size() +
+      4 * unknowns.sphere.size() + unknowns.exposure.size() + 1);
   Eigen::MatrixXd info = Eigen::MatrixXd::Zero(size, size);
   if (residuals.empty()) return info;
   ceres::Problem::EvaluateOptions options;
@@ -245,6 +262,7 @@ LedSolution solve_once(const Frame& frame, const LedSolve& what) {
   const LedScene& scene = frame.scene;
   Unknowns x;
   x.led = frame.start();
+  x.ambient.assign(scene.plane_shots(), {});
   x.pose.assign(scene.views.size(), {});
   x.sphere.assign(scene.spheres.size(), {});
   x.exposure.assign(scene.exposure_relative_std.size() + 1, 0.0);
@@ -254,6 +272,18 @@ LedSolution solve_once(const Frame& frame, const LedSolve& what) {
   ceres::Problem problem(problem_options);
   problem.AddParameterBlock(x.led.data(), kLedParameters);
   problem.SetParameterLowerBound(x.led.data(), kLedExponent, 0.0);
+  for (auto& shot : x.ambient) {
+    for (double& a : shot) {
+      problem.AddParameterBlock(&a, 1);
+      problem.SetParameterLowerBound(&a, 0, 0.0);
+    }
+  }
+  double no_ambient = 0.0;
+  problem.AddParameterBlock(&no_ambient, 1);
+  problem.SetParameterBlockConstant(&no_ambient);
+  const auto has_ambient = [&](const ShadedCell& cell) {
+    return cell.shot < what.free_ambient.size() && what.free_ambient[cell.shot];
+  };
   for (auto& p : x.pose) {
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<UnitPrior<6>, 6, 6>(new UnitPrior<6>),
                              nullptr, p.data());
@@ -283,10 +313,13 @@ LedSolution solve_once(const Frame& frame, const LedSolve& what) {
     const double std =
         std::hypot(cell.std_W_per_mm2_sr, what.cell_relative_std * cell.radiance_W_per_mm2_sr);
     cells.push_back(problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<CellCost, 1, kLedParameters, 6, 1, 1>(
-            new CellCost{CellModel(frame, cell), cell.radiance_W_per_mm2_sr, std}),
+        new ceres::AutoDiffCostFunction<CellCost, 1, kLedParameters, 6, 1, 1, 1>(
+            new CellCost{CellModel(frame, cell), cell.radiance_W_per_mm2_sr, std,
+                         frame.ambient_unit[cell.shot][cell.channel]}),
         what.robust ? &cauchy : nullptr, x.led.data(), x.pose[cell.view].data(), &x.albedo,
-        &x.exposure.at(cell.setting)));
+        &x.exposure.at(cell.setting),
+        has_ambient(cell) ? &x.ambient[cell.shot][static_cast<std::size_t>(cell.channel)]
+                          : &no_ambient));
   }
   std::vector<int> held;
   for (std::size_t i = 0; i < what.free.size(); ++i) {
@@ -295,13 +328,10 @@ LedSolution solve_once(const Frame& frame, const LedSolve& what) {
   if (!held.empty()) {
     problem.SetManifold(x.led.data(), new ceres::SubsetManifold(kLedParameters, held));
   }
-  ceres::Solver::Options options;
+  const double gradient = ceres::Solver::Options().gradient_tolerance;
+  auto options = quiet_solver<ceres::Solver::Options>(
+      what.robust ? SolverStop{40, 1e-5, gradient, 1e-6} : SolverStop{100, 1e-9, gradient, 1e-9});
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.logging_type = ceres::SILENT;
-  options.num_threads = 1;  // the same digits on any machine
-  options.max_num_iterations = what.robust ? 40 : 100;
-  options.function_tolerance = what.robust ? 1e-5 : 1e-9;
-  options.parameter_tolerance = what.robust ? 1e-6 : 1e-9;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
 
@@ -314,10 +344,17 @@ LedSolution solve_once(const Frame& frame, const LedSolve& what) {
     out.highlight_px.push_back(HighlightCost{frame, h}.predict(x.led.data(), x.pose[h.view].data(),
                                                                x.sphere[h.sphere].data()));
   }
+  out.ambient_unit = frame.ambient_unit;
+  for (std::size_t s = 0; s < x.ambient.size(); ++s) {
+    out.ambient.emplace_back(Eigen::Map<const Eigen::Array3d>(x.ambient[s].data()) *
+                             frame.ambient_unit[s]);
+  }
+  out.nuisances_at = out.ambient_at + static_cast<Eigen::Index>(3 * x.ambient.size());
   for (const ShadedCell& cell : scene.cells) {
     out.cell_radiance.push_back(CellModel(frame, cell)
                                     .radiance(x.led.data(), x.pose[cell.view].data(), &x.albedo,
-                                              &x.exposure.at(cell.setting)));
+                                              &x.exposure.at(cell.setting)) +
+                                out.ambient[cell.shot][cell.channel]);
   }
   if (what.robust) return out;
   // The held ones count as free for the derivative and are then struck out.

@@ -16,6 +16,9 @@ namespace {
 constexpr double kSpotStds = 5.0;
 constexpr double kStuckShare = 0.005;  // of a cell's samples that may be clipped: stuck ones
 constexpr std::size_t kLeastSamples = 12;
+// The floor lies four deviations of the read noise up; normal noise cut at its mean of 0 has a mean
+// of 1 / sqrt(2 pi) of its deviation.
+constexpr double kCutNoise = 0.3989 / 4.0;
 
 struct PlaneSample {
   float x_mm, y_mm, signal, variance;
@@ -195,7 +198,12 @@ PlaneCells plane_cells(const CfaSamples& samples, const CameraIntrinsics& intrin
     }
     if (bins[b].size() < kLeastSamples) return;
     means[b] = robust_mean(bins[b], options.max_left_out);
-    if (means[b] && means[b]->signal < samples.floor_counts) means[b].reset();
+    if (!means[b] || !(means[b]->signal < samples.floor_counts)) return;
+    if (options.keep_faint) {
+      means[b]->variance += std::pow(kCutNoise * samples.floor_counts, 2);
+    } else {
+      means[b].reset();
+    }
   });
   for (std::size_t b = 0; b < bins.size(); ++b) {
     out.clipped_cells += static_cast<std::size_t>(is_clipped[b]);

@@ -19,6 +19,9 @@ struct PlaneCellOptions {
   double min_cell_px = 10;    // smallest edge of a cell in the image
   double border_px = 4;       // samples nearer to the plane's edge are left out
   double max_left_out = 0.2;  // share of a cell's samples; with more, the cell is dropped
+  // Cells below the camera's floor stay, the bias of noise cut at zero counted with their noise:
+  // for light that is to be subtracted.
+  bool keep_faint = false;
 };
 
 // Rectangle (even x0, y0; cut to the frame) that holds the plane's image; width 0: out of view, or

@@ -207,7 +207,7 @@ Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntri
   Rigid3d pose = camera_from_world;
   const int coarse = coarse_factor(intrinsics.width_px);
   // (1)
-  {
+  if (!options.pose_is_near) {
     std::vector<CfaSamples> cells;
     for (const EdgeShot& shot : shots) cells.push_back(cell_means(shot.samples, coarse));
     if (!turn_coarsely(shots, cells, lens, intrinsics, coarse, options, &pose)) {
@@ -239,9 +239,9 @@ Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntri
   const std::string too_few =
       "too few lit straight edges of the body's outline are found: a darker background, longer "
       "exposure, or light from another side";
-  bool found = settle(coarse, 2.5, 3.0, 3);
+  bool found = settle(coarse, 2.5, 3.0, 3) || options.pose_is_near;
   for (int factor = coarse / 2; found && factor >= 2; factor /= 2) {
-    found = settle(factor, 2.0, 4.0, 2);
+    found = settle(factor, 2.0, 4.0, 2) || options.pose_is_near;
   }
   found = found && settle(1, 2.0, 5.0, 1) && settle(1, 1.0, 5.0, 1);
   if (!found) return failed(SilhouetteStatus::kTooFewPieces, too_few);

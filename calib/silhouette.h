@@ -19,6 +19,10 @@ struct SilhouetteOptions {
   // At least this is what mesh, lens and profile depart from the truth, common to a straight edge,
   // standard deviation, px. A larger one found in the residuals takes its place. >= 0.
   double line_std_px = 0.1;
+  // The pose is right to a few px, and parts of the shots may be masked (CfaSamples::clipped): the
+  // coarse turn, step (1), is left out, and so is a level of step (2) that finds too little but for
+  // the last.
+  bool pose_is_near = false;
   void Check() const;  // std::invalid_argument naming the field
 };
 

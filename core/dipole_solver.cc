@@ -9,6 +9,7 @@
 
 #include "core/dipole_curve.h"
 #include "core/dipole_starts.h"
+#include "core/solver_options.h"
 
 namespace scattermeter {
 namespace {
@@ -174,14 +175,8 @@ void solve(ceres::Problem& problem, const std::vector<Nuisance>& fitted, const S
   // A search that fails is told by `converged`, not on the terminal.
   static const int kQuiet = FLAGS_minloglevel = google::GLOG_FATAL;
   static_cast<void>(kQuiet);
-  ceres::Solver::Options solver;
+  auto solver = quiet_solver<ceres::Solver::Options>({200, 1e-14, 1e-14, 1e-12});
   solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = 200;
-  solver.function_tolerance = 1e-14;
-  solver.gradient_tolerance = 1e-14;
-  solver.parameter_tolerance = 1e-12;
-  solver.num_threads = 1;
-  solver.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   p.converged = summary.termination_type == ceres::CONVERGENCE;

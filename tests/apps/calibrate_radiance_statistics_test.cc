@@ -35,7 +35,7 @@ struct Draws {
 TEST(CalibrateRadiance, FiftySeedsAreUnbiasedAndKnowTheirScatter) {
   const Rig rig = radiance_rig(2);
   Rig told = rig;
-  told.calibration.radiance->white->albedo_relative_std = 0;  // the albedo is not drawn
+  told.calibration.radiance->white->plane.albedo_relative_std = 0;  // the albedo is not drawn
   const VirtualSensor sensor(rig, true);
   double mean_log_time = 0;
   std::vector<double> stated;

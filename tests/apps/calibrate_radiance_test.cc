@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/radiance_plots.h"
 #include "apps/virtual_sensor.h"
 #include "core/input_error.h"
 #include "tests/apps/radiance_rig.h"
@@ -64,11 +65,34 @@ TEST_F(CalibrateRadiance, FileComesBack) {
   const RadianceCalibration read = read_radiance_file(folder / "r.yaml");
   EXPECT_EQ(radiance_file_text(read), radiance_file_text(c));
   EXPECT_EQ(read.correction.defect_pixels, c.correction.defect_pixels);
+  // The points lie about the curve that was fitted to them.
+  ASSERT_GT(read.linearity.size(), 3U);
+  const Plot plot = linearity_plot(read);
+  ASSERT_EQ(plot.series.size(), 4U);
+  for (const RadiancePoint& p : read.linearity) {
+    const double curve = std::expm1(-c.correction.response[0].log_ratio_at(p.counts));
+    EXPECT_NEAR(p.value, curve, 0.002 + 5.0 * p.std) << p.counts;
+  }
+  for (std::size_t k = 0; k < kRgb; ++k) {
+    EXPECT_GT(read.noise[k].size(), 3U);
+    EXPECT_EQ(photon_transfer_plot(read, k).series.size(), 2U);
+  }
   EXPECT_NE(radiance_table(c).find("gain R"), std::string::npos);
   std::string other = radiance_file_text(c);
   other.replace(other.find(": 1"), 3, ": 2");
   write_file(folder / "r.yaml", other);
   EXPECT_THROW(read_radiance_file(folder / "r.yaml"), InputError);
+}
+
+TEST(RadiancePoints, AreMeansOfHalfOctaves) {
+  // 100 and 110 share half an octave, 200 is alone.
+  const std::vector<RadiancePoint> points =
+      radiance_points({100, 110, 100, 110, 200, -5}, {1, 3, 1, 3, 9, 9}, 2);
+  ASSERT_EQ(points.size(), 1U);
+  EXPECT_DOUBLE_EQ(points[0].counts, 105);
+  EXPECT_DOUBLE_EQ(points[0].value, 2);
+  EXPECT_NEAR(points[0].std, std::sqrt(4.0 / 3.0 / 4.0), 1e-12);
+  EXPECT_THROW(radiance_points({1}, {}), std::invalid_argument);
 }
 
 TEST_F(CalibrateRadiance, RefusesDarkFramesWithLight) {
@@ -155,7 +179,7 @@ TEST_F(CalibrateRadiance, RefusesTrapsOutOfTheFrameAndPlanesOutOfView) {
   told.calibration.radiance->glare->traps_px[0] = {45, 25, 20, 20};  // on the bright patch
   EXPECT_NE(refusal(nothing, told).find("the trap at [45, 25]"), std::string::npos);
   told = rig_;
-  told.calibration.radiance->white->origin_mm = {500, 0, 0};
+  told.calibration.radiance->white->plane.origin_mm = {500, 0, 0};
   EXPECT_NE(refusal(nothing, told).find("pixels"), std::string::npos);
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/chi_square.h"
+#include "tests/apps/html_check.h"
 #include "tests/apps/small_rig.h"
 #include "tests/temporary_folder.h"
 
@@ -67,6 +68,13 @@ TEST_F(FromScratch, CalibratesChecksAndMeasures) {
   calibrate();
   const Answer checked = check();
   EXPECT_EQ(checked.status, 0) << checked.out << checked.err;
+  // The page shows what the calibrations stand on.
+  const std::string page = slurp((*this)("check/check.html"));
+  EXPECT_EQ(html_problem(page), "");
+  for (const char* text : {"White planes under the LEDs", "plane1_led1.dng under led1: rms",
+                           "means of the flats in half octaves", "noise model with a gain of"}) {
+    EXPECT_THAT(page, HasSubstr(text));
+  }
   const Answer measured = run({"measure", (*this)("shots"), "--rig", (*this)("rig.yaml"), "--out",
                                (*this)("result"), "--model", "dipole"});
   EXPECT_EQ(measured.status, 0) << measured.out << measured.err;

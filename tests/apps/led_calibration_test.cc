@@ -7,6 +7,7 @@
 #include <random>
 #include <sstream>
 
+#include <Eigen/Cholesky>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -14,6 +15,7 @@
 #include "apps/camera_view.h"
 #include "apps/led_calibration_file.h"
 #include "apps/led_check.h"
+#include "apps/led_plots.h"
 #include "apps/virtual_led_shots.h"
 #include "core/input_error.h"
 #include "tests/apps/led_rig.h"
@@ -172,6 +174,79 @@ TEST_F(LedCalibrationTest, CheckFindsAMovedLed) {
             static_cast<std::size_t>(found.maps[0].columns * found.maps[0].rows));
 }
 
+// The LED's own irradiance in the middle of the low plane is 3.9e-6 W/mm^2 in G.
+const std::string kAmbientTruth =
+    "truth:\n  ambient_irradiance_W_per_mm2: [1.7e-7, 1.9e-7, 1.6e-7]\n";
+
+TEST_F(LedCalibrationTest, StandsAmbientLightSubtractedOrFitted) {
+  LedRigText text;
+  text.truth = kAmbientTruth;
+  const Rig lit = read_rig(write_rig(folder_, "lit.yaml", text));
+  const VirtualLedShots lit_shots(lit, true);
+  text.shots += "      - {file: low_off.dng, kind: ambient, plane: 1}\n";
+  text.shots += "      - {file: high_off.dng, kind: ambient, plane: 2}\n";
+  const Rig dark = read_rig(write_rig(folder_, "off.yaml", text));
+  const VirtualLedShots dark_shots(dark, true);
+  ASSERT_EQ(dark_shots.size(), 5U);
+  EXPECT_EQ(dark_shots.exposure_s(3), dark_shots.exposure_s(1));
+  const auto told = [&](const Rig& rig, calib::AmbientModel model) {
+    Rig out = wrong_;
+    out.calibration.led = rig.calibration.led;
+    out.calibration.led->ambient = model;
+    return out;
+  };
+  const Led& truth = truth_.light("led1").led;
+  const auto stds_off = [&](const calib::LedFit& fit) {
+    const Eigen::Vector3d d = fit.led.position_mm - truth.position_mm;
+    const Eigen::Matrix3d c = fit.uncertainty.covariance.topLeftCorner<3, 3>();
+    return std::sqrt(d.dot(c.ldlt().solve(d)));
+  };
+  // Three dimensions: beyond 4.5 deviations once in 7000.
+  const LedCalibration subtracted =
+      calibrate_led(told(dark, calib::AmbientModel::kWhereSeen), "led1", frames(dark_shots, 1));
+  ASSERT_EQ(subtracted.fit.status, calib::LedStatus::kOk) << subtracted.fit.message;
+  EXPECT_TRUE(subtracted.fit.ambient.empty());
+  EXPECT_LT(stds_off(subtracted.fit), 4.5);
+  EXPECT_LT((subtracted.fit.led.position_mm - truth.position_mm).norm(), 0.2);
+  const LedCalibration fitted =
+      calibrate_led(told(lit, calib::AmbientModel::kWhereSeen), "led1", frames(lit_shots, 1));
+  ASSERT_EQ(fitted.fit.status, calib::LedStatus::kOk) << fitted.fit.message;
+  ASSERT_EQ(fitted.fit.ambient.size(), 2U);
+  EXPECT_LT(stds_off(fitted.fit), 4.5);
+  EXPECT_THAT(led_calibration_table(fitted), HasSubstr("ambient light of low_led1.dng: R"));
+  EXPECT_THAT(led_calibration_yaml(fitted), HasSubstr("ambient:"));
+  // What it costs shows.
+  EXPECT_GT(fitted.fit.uncertainty.covariance(calib::kLedExponent, calib::kLedExponent),
+            subtracted.fit.uncertainty.covariance(calib::kLedExponent, calib::kLedExponent));
+  const LedCalibration blind =
+      calibrate_led(told(lit, calib::AmbientModel::kNone), "led1", frames(lit_shots, 1));
+  EXPECT_GT(blind.fit.plane_inflation, 4.0);
+  EXPECT_FALSE(blind.fit.warnings.empty());
+  RecordProperty("subtracted_stds", std::to_string(stds_off(subtracted.fit)));
+  RecordProperty("fitted_stds", std::to_string(stds_off(fitted.fit)));
+  RecordProperty("blind_stds", std::to_string(stds_off(blind.fit)));
+  for (const auto& [name, fit] :
+       {std::pair{"subtracted", &subtracted.fit}, {"fitted", &fitted.fit}, {"blind", &blind.fit}}) {
+    RecordProperty(std::string(name) + "_mm",
+                   std::to_string((fit->led.position_mm - truth.position_mm).norm()));
+    RecordProperty(std::string(name) + "_exponent", std::to_string(fit->led.exponent));
+  }
+  // check says so; of a plane that was shot with the LED off, there is nothing to say.
+  const LedCheck seen = check_led(lit, "led1", frames(lit_shots, 2));
+  EXPECT_NEAR(seen.ambient_percent, 4.5, 2.0);
+  EXPECT_GT(seen.ambient_percent, 5.0 * seen.ambient_std_percent);
+  EXPECT_NE(seen.ambient_file, "");
+  const LedCheck clean = check_led(dark, "led1", frames(dark_shots, 2));
+  EXPECT_EQ(clean.ambient_percent, 0.0);
+  ASSERT_EQ(clean.maps.size(), 2U);
+  ASSERT_EQ(clean.maps[0].std_percent.size(), clean.maps[0].percent.size());
+  const std::vector<PagePlot> plots = led_plane_plots({clean});
+  ASSERT_EQ(plots.size(), 4U);
+  EXPECT_THAT(plots[0].caption, HasSubstr("low_led1.dng under led1"));
+  EXPECT_EQ(plots[0].plot.colours.full_scale, plots[1].plot.colours.full_scale);
+  EXPECT_EQ(plots[0].plot.series[0].value.size(), clean.maps[0].percent.size());
+}
+
 TEST_F(LedCalibrationTest, CommandsMakeAFileThatARigTakes) {
   const std::string shots = folder_ / "shots";
   ASSERT_EQ(
@@ -232,6 +307,18 @@ TEST_F(LedCalibrationTest, BadInputIsNamed) {
   EXPECT_THAT(error(first_replaced(good, "plane: 2,", "plane: 3,")), HasSubstr("plane"));
   EXPECT_THAT(error(first_replaced(good, "plane: 2,", "")), HasSubstr("several planes"));
   EXPECT_THAT(error(first_replaced(good, "kind: spheres", "kind: balls")), HasSubstr("balls"));
+  const std::string off = "kind: ambient, plane: 1}";
+  const std::string spheres = "kind: spheres, light: led1}";
+  EXPECT_THAT(error(first_replaced(good, spheres, "kind: ambient, plane: 1, light: led1}")),
+              HasSubstr("every LED is off"));
+  EXPECT_THAT(error(first_replaced(good, spheres, off + "\n      - {file: off2.dng, " + off)),
+              HasSubstr("two ambient shots"));
+  EXPECT_THAT(error(first_replaced(good, spheres, "kind: ambient}")), HasSubstr("several planes"));
+  LedRigText model;
+  model.more = "    ambient: some\n";
+  EXPECT_THAT(error(led_rig_yaml(model)), HasSubstr("some"));
+  EXPECT_THAT(error(good + "truth: {ambient_irradiance_W_per_mm2: [1, -1, 1]}\n"),
+              HasSubstr("ambient_irradiance_W_per_mm2"));
   EXPECT_THAT(error(first_replaced(good, "low_led1.dng", "high_led1.dng")), HasSubstr("same name"));
   EXPECT_THAT(error(first_replaced(good, "{type: led, ", "{type: led, calibration: x.yaml, ")),
               HasSubstr("given twice"));

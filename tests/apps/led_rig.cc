@@ -49,7 +49,7 @@ calibration:
       - {center_mm: [-22, 16, 10], radius_mm: 8, center_std_mm: 0.006}
       - {center_mm: [23, 15, 8], radius_mm: 8, center_std_mm: 0.006}
     planes:)"
-      << text.planes << "    shots:" << text.shots;
+      << text.planes << "    shots:" << text.shots << text.more << text.truth;
   return out.str();
 }
 

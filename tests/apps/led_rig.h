@@ -14,6 +14,8 @@ struct LedRigText {
       - {origin_mm: [-30, -22, 0], size_mm: [60, 44], albedo: [0.9, 0.92, 0.88], albedo_relative_std: 0.005}
       - {origin_mm: [-30, -22, 15], size_mm: [60, 44], albedo: [0.9, 0.92, 0.88], albedo_relative_std: 0.005}
 )";
+  std::string more;   // further lines of calibration.led, indented by four
+  std::string truth;  // the whole section
   std::string shots = R"(
       - {file: spheres_led1.dng, kind: spheres, light: led1}
       - {file: low_led1.dng, kind: plane, plane: 1, light: led1}

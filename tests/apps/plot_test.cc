@@ -77,6 +77,23 @@ TEST(Plot, Boxes) {
   EXPECT_THAT(slurp(folder / "boxes.svg"), HasSubstr("</svg>"));
 }
 
+TEST(Plot, CellsHaveAColourEach) {
+  Plot plot;
+  PlotSeries cells{"", PlotSeries::Style::kCells, {0.5, 1.5, 2.5}, {0.5, 0.5, 0.5}};
+  cells.dx = cells.dy = {1, 1, 1};
+  cells.value = {-2, 2, std::numeric_limits<double>::quiet_NaN()};
+  plot.series = {cells};
+  plot.colours = {"it's [%]", 2};
+  const std::string svg = plot_svg(plot);
+  // The ends of the scale, the ground where no cell is, the scale's label.
+  for (const char* text :
+       {"rgb( 33, 102, 172)", "rgb(178,  24,  43)", "rgb(200, 200, 200)", "it's [%]"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+  plot.series[0].value.pop_back();
+  EXPECT_THROW(plot_svg(plot), std::invalid_argument);
+}
+
 TEST(Plot, RefusesWhatCannotBeDrawn) {
   const TemporaryFolder folder;
   EXPECT_THROW(write_plot(example(), folder / "a.gif"), std::invalid_argument);

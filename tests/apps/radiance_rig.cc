@@ -47,10 +47,11 @@ Rig radiance_rig(int scale) {
   RigWhite white;
   white.shots = {shot("white", 1.0 / 30), shot("white", 1.0 / 60)};
   white.light = "led1";
-  white.origin_mm = {-15, -10, 0};
-  white.size_mm = {30, 20};
-  white.albedo = {0.95, 0.96, 0.94};
-  white.albedo_relative_std = 0.003;
+  white.plane.origin_mm = {-15, -10, 0};
+  white.plane.width_mm = 30;
+  white.plane.height_mm = 20;
+  white.plane.albedo = {0.95, 0.96, 0.94};
+  white.plane.albedo_relative_std = 0.003;
   radiance.white = white;
   RigGlare glare;
   glare.shots = {shot("glare", 1.0 / 20)};

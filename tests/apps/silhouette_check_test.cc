@@ -1,5 +1,9 @@
 #include "apps/silhouette_check.h"
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 #include "apps/camera_view.h"
@@ -87,6 +91,89 @@ TEST_F(SilhouetteCheckTest, CameraDrifts) {
   EXPECT_TRUE(c.drifts);
   EXPECT_NEAR(c.drift_px, 2.1, 0.5);
   EXPECT_NE(c.verdict().find("PP_pyramid_2.dng"), std::string::npos) << c.verdict();
+}
+
+// The pyramid stands in the middle of a board, before paper and ink; the board gives each shot's
+// pose.
+class BoardInTheShotTest : public ::testing::Test {
+ protected:
+  BoardInTheShotTest() {
+    files_.keep_shots("PE_pyramid");
+    const std::size_t begin = files_.text().find("  points:");
+    const std::size_t end = files_.text().find("objects:");
+    files_.write(files_.text().substr(0, begin) +
+                 "  charuco: {squares: [10, 8], square_mm: 6, marker_mm: 4.5, dictionary: "
+                 "DICT_4X4_100, origin_mm: [-30, -22, 0]}\n" +
+                 files_.text().substr(end) +
+                 "  pose: {position_mm: [0, -100, 150], look_at_mm: [0, 0, 9]}\n");
+    files_.write(replaced(replaced(files_.text(), "[484, 324]", "[968, 648]"),
+                          "{fx_px: 1229.5, fy_px: 1229.5, cx_px: 241.8, cy_px: 161.2}",
+                          "{fx_px: 2459, fy_px: 2459, cx_px: 483.6, cy_px: 322.4}"));
+    rig_ = read_rig(files_.rig());
+    scenes_ = open_objects(rig_);
+  }
+
+  SilhouetteCheck checked(double scale) const {
+    const ObjectScenes true_scenes = open_objects(rig_, [&](const RigObject& object) {
+      TriangleMesh mesh = scenes_.at(object.name).mesh();
+      for (Eigen::Vector3d& v : mesh.vertices_mm) v *= scale;
+      return mesh;
+    });
+    const VirtualShots shots(rig_, true_scenes, {.noise = true, .quiet = true});
+    std::vector<calib::PoseResult> poses;
+    const std::vector<std::size_t> idxs = all_shots(rig_);
+    for (const std::size_t i : idxs) {
+      poses.push_back(pose_from_board(rig_, shots.frame(i, 1), rig_.shots[i].file));
+    }
+    return check_silhouettes_apart(
+        rig_, scenes_, [&](std::size_t i) { return shots.frame(i, 1); }, idxs, poses);
+  }
+
+  SmallRig files_;
+  Rig rig_;
+  ObjectScenes scenes_;
+};
+
+TEST_F(BoardInTheShotTest, GoodRigPasses) {
+  const SilhouetteCheck c = checked(1.0);
+  ASSERT_EQ(c.shots_found, 2U) << c.verdict();
+  EXPECT_TRUE(c.passed()) << c.verdict();
+  // The board alone leaves the top of the body some tenths of a pixel; within what it knows of the
+  // pose the outline fits as that of a rig with marks.
+  ASSERT_FALSE(c.diagnosis.explanations.empty());
+  EXPECT_LT(c.diagnosis.explanations.front().rms_px, 0.15);
+  RecordProperty("rms_px", std::to_string(c.rms_px));
+  RecordProperty("pieces", std::to_string(c.shots[0].pieces));
+}
+
+// pose.refine: silhouette, before a board.
+TEST_F(BoardInTheShotTest, TheOutlineRefinesTheBoardsPose) {
+  const VirtualShots shots(rig_, scenes_, {.noise = true, .quiet = true});
+  const std::string& file = rig_.shots[0].file;
+  const calib::PoseResult board = pose_from_board(rig_, shots.frame(0, 1), file);
+  const calib::PoseResult both =
+      pose_from_silhouette(rig_, scenes_, board, 0, shots.frame(0, 1), file);
+  EXPECT_LT(both.center_std_mm.norm(), board.center_std_mm.norm());
+  const Eigen::Vector3d off =
+      inverse(both.camera_from_world).translation_mm - Eigen::Vector3d(0, -100, 150);
+  EXPECT_LT(off.norm(), 4.0 * both.center_std_mm.norm());
+}
+
+// 2 % of 20 mm at 13 px/mm: 3 px and less.
+TEST_F(BoardInTheShotTest, WrongScaleIsFound) {
+  const SilhouetteCheck c = checked(1.02);
+  ASSERT_GT(c.shots_found, 0U) << c.verdict();
+  EXPECT_FALSE(c.passed()) << c.verdict();
+  EXPECT_GT(c.rms_px, 0.5);
+  const auto scaled = [](const calib::EdgeExplanation& e) {
+    return (e.cause == calib::EdgeCause::kMeshScale ||
+            e.cause == calib::EdgeCause::kAllMeshScales) &&
+           std::abs(std::abs(e.value) - 0.02) < 0.005;
+  };
+  EXPECT_TRUE(std::any_of(c.diagnosis.explanations.begin(), c.diagnosis.explanations.end(), scaled))
+      << c.verdict();
+  EXPECT_NE(c.verdict().find(".dng"), std::string::npos) << c.verdict();
+  EXPECT_THROW(check_silhouettes_apart(rig_, scenes_, {}, {0}, {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ LedScene draw_led_scene(const Led& truth, const LedSceneOptions& o, std::uint64_
       const double dx = plane.width_mm / kColumns;
       const double dy = plane.height_mm / kRows;
       ShadedCell cell;
-      cell.plane = static_cast<std::size_t>(p);
+      cell.plane = cell.shot = static_cast<std::size_t>(p);
       cell.column = i % kColumns;
       cell.row = i / kColumns;
       cell.place_mm = {(cell.column + 0.5) * dx, (cell.row + 0.5) * dy};
@@ -119,7 +119,8 @@ LedScene draw_led_scene(const Led& truth, const LedSceneOptions& o, std::uint64_
       for (int c = 0; c < 3; ++c) {
         cell.channel = c;
         const double radiance =
-            whiter * plane.albedo[c] / std::numbers::pi * truth.intensity_W_per_sr[c] * sum;
+            whiter * plane.albedo[c] / std::numbers::pi *
+            (truth.intensity_W_per_sr[c] * sum + o.ambient_irradiance_W_per_mm2[c]);
         cell.radiance_W_per_mm2_sr = radiance * (1.0 + o.cell_relative_std * normal(generator));
         cell.std_W_per_mm2_sr = std::max(1e-7, o.cell_relative_std) * radiance;
         scene.cells.push_back(cell);

@@ -26,11 +26,12 @@ struct LedSceneOptions {
   double albedo_std = 0.005;
   double highlight_std_px = 0.03;
   double cell_relative_std = 5e-4;
+  Eigen::Array3d ambient_irradiance_W_per_mm2 = Eigen::Array3d::Zero();
 };
 
 // What a camera that stands a little off where it is believed to stand, spheres that do and a plane
-// that is a little whiter show. The scene holds what is believed, with the right standard
-// deviations. Cells are means of 5 x 5 points.
+// that is a little whiter show, under the LED and a constant ambient irradiance. The scene holds
+// what is believed, with the right standard deviations. Cells are means of 5 x 5 points.
 LedScene draw_led_scene(const Led& truth, const LedSceneOptions& options, std::uint64_t seed);
 
 }  // namespace scattermeter::calib

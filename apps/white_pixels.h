@@ -1,12 +1,13 @@
-// A white reference as the camera sees it.
+// A white plane's pixels.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "apps/camera_view.h"
-#include "apps/rig_radiance_calibration.h"
-#include "core/led.h"
+#include "calib/white_plane.h"
 
 namespace scattermeter::apps {
 
@@ -17,9 +18,7 @@ struct WhitePixel {
 
 // The pixels whose ray meets the white side of the plane at least margin_mm inside its edges (below
 // 0: outside).
-std::vector<WhitePixel> white_pixels(const RigWhite& white, const CameraView& view,
+std::vector<WhitePixel> white_pixels(const calib::WhitePlane& plane, const CameraView& view,
                                      double margin_mm);
-
-Eigen::Vector3d white_normal(const RigWhite& white);
 
 }  // namespace scattermeter::apps
