@@ -117,7 +117,8 @@ class Merging {
       const CfaSamples& s = from_[k];
       weight_[k] = 0.0;
       const double expected = counts / time_s * s.exposure_s;
-      const bool is_cut = expected < s.floor_counts && s.exposure_s < longest_s;
+      const bool is_cut =
+          s.floor_counts > 0.0 && expected < s.floor_counts && s.exposure_s < longest_s;
       if (near_clipped_[k][i] != 0 || is_cut) continue;
       variance_[k] = variance_at(s, i, expected);
       weight_[k] = s.exposure_s * s.exposure_s / variance_[k];
