@@ -105,8 +105,9 @@ std::vector<MaterialsBenchRow> bench_materials(const std::vector<ListedMaterial>
       MeasureOptions measure_options;
       measure_options.quiet = true;
       Instrument instrument(told, scenes, measure_options);
-      const Measurement m = instrument.measure(shots_from(
-          told, all_shots(told), FrameSource([&](std::size_t i) { return exposed.at(i); })));
+      const Measurement m = instrument.measure(
+          shots_from(told, all_shots(told),
+                     FrameSource([&](std::size_t i, std::size_t) { return exposed.at(i); })));
       for (const ListedMaterial& material : channels) {
         rows.push_back(judged(material, scale_std,
                               m.results.at(std::string("RGB").find(material.channel)).estimate));

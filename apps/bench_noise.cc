@@ -45,7 +45,9 @@ std::vector<NoiseBenchRow> bench_noise(const Rig& rig, const ObjectScenes& scene
   Progress progress("seeds", options.seeds, options.quiet);
   for (int i = 0; i < options.seeds; ++i) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-    const FrameSource frames = [&](std::size_t shot) { return shots.frame(shot, seed); };
+    const FrameSource frames = [&](std::size_t shot, std::size_t k) {
+      return shots.frame(shot, seed, k);
+    };
     const Measurement m = instrument.measure(shots_from(rig, all_shots(rig), frames));
     answers.resize(m.results.size());
     rows.resize(m.results.size());

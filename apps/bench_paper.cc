@@ -59,8 +59,9 @@ PaperBench bench_paper(const PaperBenchOptions& options) {
   const VirtualShots shots(rig, scenes, {.noise = options.noise, .quiet = options.quiet});
   const ShotSource source =
       options.noise
-          ? shots_from(rig, all_shots(rig),
-                       FrameSource([&](std::size_t i) { return shots.frame(i, options.seed); }))
+          ? shots_from(rig, all_shots(rig), FrameSource([&](std::size_t i, std::size_t k) {
+                         return shots.frame(i, options.seed, k);
+                       }))
           : shots_from(
                 rig, all_shots(rig), SampleSource([&](std::size_t i, const SampleMap& where) {
                   return shots.ideal_samples(i, where.x0, where.y0, where.width, where.height);

@@ -138,7 +138,7 @@ RigBench bench_rig(const RigBenchOptions& options) {
     tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) {
       exposed[i] = shots.frame(i, options.seed + static_cast<std::uint64_t>(draw));
     });
-    const FrameSource frames = [&](std::size_t i) { return exposed.at(i); };
+    const FrameSource frames = [&](std::size_t i, std::size_t) { return exposed.at(i); };
     MeasureOptions measure_options;
     measure_options.quiet = true;
     Instrument instrument(rigs.told, scenes, measure_options);

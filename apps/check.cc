@@ -15,8 +15,9 @@ bool CheckReport::passed() const {
 
 const std::vector<CheckStation>& check_stations() {
   static const std::vector<CheckStation> kStations = {
-      check_settings, check_pose,     check_outline, check_exposure,   check_noise,    check_black,
-      check_radiance, check_identity, check_light,   check_led_places, check_led_shots};
+      check_settings, check_pose,  check_outline,    check_exposure,
+      check_bracket,  check_noise, check_black,      check_radiance,
+      check_identity, check_light, check_led_places, check_led_shots};
   return kStations;
 }
 

@@ -8,7 +8,6 @@
 
 #include "apps/estimation_task.h"
 #include "apps/stopwatch.h"
-#include "capture/linear_samples.h"
 #include "core/dipole_curve.h"
 #include "core/row_selection.h"
 
@@ -116,10 +115,11 @@ class Likeness {
     }
     if (!(out.own > kDoubtful) || !shared_) return out;
     if (const FrameSource* frames = std::get_if<FrameSource>(&source_.open)) {
-      const capture::RawFrame frame = (*frames)(source_.shot_idxs[i]);
+      const std::vector<capture::RawFrame> exposures =
+          frames_of(*shot.rig, source_.shot_idxs[i], *frames);
       for (const auto& [name, seen] : shared_->objects) {
         if (name == shot.rig->object) continue;
-        const Observation seen_there = observe_as(frame, *seen);
+        const Observation seen_there = observe_as(i, exposures, *seen);
         for (const auto& lights : settings_) {
           offer(misfit(*seen, seen_there.channel[c], lights, c),
                 "of object " + name + ", lit by " + joined(lights), out);
@@ -173,10 +173,12 @@ class Likeness {
         e_.weights);
   }
 
-  Observation observe_as(const capture::RawFrame& frame, const SeenObject& seen) const {
+  Observation observe_as(std::size_t i, const std::vector<capture::RawFrame>& exposures,
+                         const SeenObject& seen) const {
     const SampleMap& map = seen.map;
-    return observe(capture::linear_samples(frame, e_.rig.camera.sensor.noise, frame.exposure_s,
-                                           map.x0, map.y0, map.width, map.height),
+    return observe(shot_samples(e_.rig, *shots_[i].rig, exposures, source_.names.at(i), map.x0,
+                                map.y0, map.width, map.height)
+                       .samples,
                    map, e_.rig.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0}));
   }
 

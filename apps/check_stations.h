@@ -14,6 +14,8 @@ std::vector<CheckItem> check_settings(const CheckedRig& checked);
 std::vector<CheckItem> check_pose(const CheckedRig& checked);
 // Clipped samples, dark shots.
 std::vector<CheckItem> check_exposure(const CheckedRig& checked);
+// Of shots of several files: each file's light against that of the others, by their times.
+std::vector<CheckItem> check_bracket(const CheckedRig& checked);
 // Scatter of the samples over the noise model.
 std::vector<CheckItem> check_noise(const CheckedRig& checked);
 // The darkest background against the file's black, and its change over the shots.

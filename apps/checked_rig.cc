@@ -128,13 +128,13 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   out.frames.resize(out.shots.size());
   Progress progress("looking at shots", static_cast<int>(out.shots.size()), options.quiet);
   tbb::parallel_for(std::size_t{0}, out.shots.size(), [&](std::size_t i) {
-    const capture::RawFrame frame = std::get<FrameSource>(source.open)(source.shot_idxs[i]);
+    const capture::RawFrame frame = std::get<FrameSource>(source.open)(source.shot_idxs[i], 0);
     out.frames[i] = checked_frame(frame, loose, out.shots[i], options);
     progress.step();
   });
   SilhouetteCheckOptions outline;
-  if (!rig.camera.intrinsics_path.empty()) {
-    out.lens = calib::read_camera_calibration_file(rig.camera.intrinsics_path);
+  if (rig.camera.lens) {
+    out.lens = *rig.camera.lens;
     for (std::size_t i = 0; i < out.lens->parameters.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
       const double std = std::sqrt(out.lens->covariance(at, at));

@@ -26,6 +26,7 @@ struct CheckOptions {
   double max_pose_outlier_percent = 25.0;
   double max_lens_rms_px = 0.5;
   double max_clipped_percent = 1.0;     // of the samples on the object
+  double max_bracket_percent = 1.0;     // of an exposure's light, from the others of its bracket
   double min_brightest_snr = 30.0;      // of a patch
   double max_noise_percent = 30.0;      // scatter of samples above the noise model's variance
   double max_background_percent = 1.0;  // of the brightest patch

@@ -24,6 +24,29 @@ double distance_to_camera_mm(const Rig& rig, const ObjectScenes& scenes,
   return distance_mm;
 }
 
+std::vector<MergedBracket> brackets_of(const std::vector<OpenedShot>& shots) {
+  std::vector<MergedBracket> out;
+  for (const OpenedShot& shot : shots) {
+    if (shot.exposures.size() < 2) continue;
+    MergedBracket& bracket = out.emplace_back();
+    bracket.shot = shot.rig->file;
+    for (std::size_t c = 0; c < kRgb; ++c) {
+      bracket.samples[c] = shot.observation.channel[c].samples;
+      bracket.samples_clipped[c] = shot.observation.channel[c].samples_clipped;
+    }
+    for (std::size_t k = 0; k < shot.exposures.size(); ++k) {
+      MergedBracket::File& file = bracket.files.emplace_back();
+      file.file = shot.exposures[k].file;
+      file.exposure_s = shot.exposures[k].true_s;
+      file.departure = shot.exposures[k].departure;
+      for (std::size_t c = 0; c < kRgb; ++c) {
+        file.samples[c] = shot.observation.channel[c].exposures[k].samples;
+      }
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 Instrument::Instrument(const Rig& rig, const ObjectScenes& scenes, const MeasureOptions& options)
@@ -62,6 +85,7 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
   const std::vector<OpenedShot> shots =
       open_shots(rig_, source, scenes_, library_, view, options_.quiet);
   watch.lap("shots");
+  out.brackets = brackets_of(shots);
   const std::vector<Task> tasks = tasks_of(rig_, shots);
   for (const Task& task : tasks) {
     ChannelResult result;

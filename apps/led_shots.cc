@@ -23,7 +23,7 @@ struct Rectangle {
 
 capture::CorrectedSamples samples_of(const Rig& rig, const RigLedShot& shot,
                                      const capture::RawFrame& frame, const Rectangle& r) {
-  return shot_samples(rig, frame, shot.file, r.x0, r.y0, r.width, r.height);
+  return frame_samples(rig, frame, shot.file, r.x0, r.y0, r.width, r.height);
 }
 
 void read_spheres(const Rig& rig, const RigLedShot& shot, const capture::RawFrame& frame,

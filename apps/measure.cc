@@ -13,8 +13,8 @@
 namespace scattermeter::apps {
 namespace {
 
-void list_inputs(const Rig& rig, const ObjectScenes& scenes, const std::vector<std::string>& paths,
-                 Measurement& out) {
+void list_inputs(const Rig& rig, const ObjectScenes& scenes,
+                 const std::vector<std::vector<std::string>>& paths, Measurement& out) {
   std::vector<std::string> files = {rig.path};
   for (const std::string& calibration : {rig.camera.intrinsics_path, rig.camera.radiance_path}) {
     if (!calibration.empty()) files.push_back(calibration);
@@ -37,7 +37,9 @@ void list_inputs(const Rig& rig, const ObjectScenes& scenes, const std::vector<s
       }
     }
   }
-  files.insert(files.end(), paths.begin(), paths.end());
+  for (const std::vector<std::string>& of_shot : paths) {
+    files.insert(files.end(), of_shot.begin(), of_shot.end());
+  }
   out.inputs.resize(files.size());
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
     out.inputs[i] = {files[i], sha256_of_file(files[i])};

@@ -11,6 +11,7 @@
 
 #include "apps/rig.h"
 #include "calib/pose.h"
+#include "capture/exposure_departure.h"
 #include "core/dipole_misfit.h"
 #include "core/estimate.h"
 #include "core/observation.h"
@@ -75,6 +76,20 @@ struct ChannelResult {
   bool refused() const { return !estimate.reasons.empty(); }
 };
 
+// A shot that was merged from several files. Samples are those on whole patches of the object.
+struct MergedBracket {
+  struct File {
+    std::string file;
+    double exposure_s = 0;                       // true, as far as known
+    std::array<std::size_t, kRgb> samples = {};  // that hold any part of it
+    capture::ExposureDeparture departure = {};   // of its light from that of the others
+  };
+  std::string shot;  // the first file
+  std::vector<File> files;
+  std::array<std::size_t, kRgb> samples = {};          // of the shot
+  std::array<std::size_t, kRgb> samples_clipped = {};  // of these, in all files
+};
+
 struct InputFile {
   std::string path;
   std::string sha256;
@@ -86,6 +101,7 @@ struct Measurement {
   std::vector<std::string> notes;                        // for the user: skipped files and the like
   std::vector<std::pair<std::string, double>> timing_s;  // stages in order, then "total"
   std::vector<InputFile> inputs;                         // rig, meshes, probes, shots
+  std::vector<MergedBracket> brackets;                   // in the rig's order
   std::map<std::string, double> patch_size_mm;           // by object
   bool any_refused() const;
 };

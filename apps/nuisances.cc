@@ -7,6 +7,8 @@
 #include <fmt/core.h>
 
 #include "apps/radiance_file.h"
+#include "apps/rig_lens.h"
+#include "calib/lens_reaction.h"
 #include "core/covariance_root.h"
 #include "core/dipole.h"
 #include "core/fresnel.h"
@@ -166,6 +168,7 @@ struct RowContext {
   std::size_t row;
   Eigen::Matrix<double, 6, 6> pose_root;  // pose covariance = root root^T
   const std::map<std::string, Eigen::Matrix<double, 7, 7>>& led_root;  // of calibrated LEDs
+  const LensRoot& lens_root;
 };
 
 // The rows of an LED's covariance that one channel sees.
@@ -240,41 +243,64 @@ void add_radiance(const RowContext& c, const ChannelObservation& o, std::size_t 
   const OpenedShot& shot = c.shot;
   if (!c.rig.camera.radiance) return;
   const capture::RadianceCorrection& correction = c.rig.camera.radiance->correction;
-  if (shot.black_std_counts > 0.0) {
-    entries.emplace_back(
-        columns.at("black " + shot.rig->file, "black level", shot.black_std_counts),
-        o.l_per_count[c.row]);
+  for (std::size_t k = 0; k < shot.exposures.size(); ++k) {
+    const ShotExposure& e = shot.exposures[k];
+    // What part of the row's l comes from this exposure.
+    const double part = o.exposures.empty() ? 1.0 : o.exposures[k].of_row[c.row];
+    if (e.black_std_counts > 0.0) {
+      entries.emplace_back(columns.at("black " + e.file, "black level", e.black_std_counts),
+                           part * shot.exposure_s / e.true_s * o.l_per_count[c.row]);
+    }
+    if (e.relative_std > 0.0) {
+      entries.emplace_back(
+          columns.at(fmt::format("exposure {:.4g}", e.stated_s), "exposure time", e.relative_std),
+          part * l_predicted);
+    }
   }
   if (correction.glare_std[channel] > 0.0) {
     entries.emplace_back(columns.at("glare", "veiling glare", correction.glare_std[channel]),
                          o.l_per_count[c.row] * shot.frame_mean_counts[channel]);
   }
-  if (shot.exposure_relative_std > 0.0) {
-    entries.emplace_back(columns.at(fmt::format("exposure {:.4g}", shot.stated_exposure_s),
-                                    "exposure time", shot.exposure_relative_std),
-                         l_predicted);
+}
+
+// Changes of l by shifts of what the row's samples see: one column a nuisance of deviation 1, named
+// `name` and counted.
+void add_shifts(const RowContext& c, const Eigen::Matrix3Xd& shifts_mm, const std::string& name,
+                const std::string& group, double intensity, const TaskSensitivity& task,
+                Columns& columns, Entries& entries) {
+  const auto row = static_cast<Eigen::Index>(c.row);
+  const SeenObject& seen = *c.shot.seen;
+  const auto along = tangents(seen.patches->normal(seen.map.patch_of_row[c.row]));
+  for (Eigen::Index k = 0; k < shifts_mm.cols(); ++k) {
+    double change = 0.0;
+    for (std::size_t t = 0; t < 2; ++t) {
+      change +=
+          task.sensitivity->per_tangent_mm[t](row, task.medium) * along[t].dot(shifts_mm.col(k));
+    }
+    entries.emplace_back(columns.at(name + std::to_string(k), group, 1.0), intensity * change);
   }
 }
 
-void add_pose(const RowContext& c, double intensity, const TaskSensitivity& task, Columns& columns,
+// What pose and lens do to the row. The lens is one for all shots; where it was wrong, the pose was
+// fitted through the wrong lens, too, and has taken up part of it (PoseResult::per_lens_parameter):
+// the two go together. What the pose's own marks leave open is independent of that.
+void add_view(const RowContext& c, double intensity, const TaskSensitivity& task, Columns& columns,
               Entries& entries) {
-  const auto row = static_cast<Eigen::Index>(c.row);
   const SeenObject& seen = *c.shot.seen;
+  const Rigid3d& pose = c.shot.pose.camera_from_world;
+  const Eigen::Vector3d& site_mm = seen.sites[c.row].center_mm;
   const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[c.row]);
-  const auto along = tangents(normal);
-  const Eigen::Matrix<double, 3, 6> shift =
-      surface_shift_by_pose(c.shot.pose.camera_from_world, seen.sites[c.row].center_mm, normal) *
-      c.pose_root;
+  const Eigen::Matrix<double, 3, 6> by_pose = surface_shift_by_pose(pose, site_mm, normal);
   // One pose for all shots, or one a shot.
   const std::string name =
       c.rig.pose.charuco || c.rig.pose.per_shot ? "pose " + c.shot.rig->file : "pose";
-  for (int k = 0; k < 6; ++k) {
-    double change = 0.0;
-    for (std::size_t t = 0; t < 2; ++t) {
-      change += task.sensitivity->per_tangent_mm[t](row, task.medium) * along[t].dot(shift.col(k));
-    }
-    entries.emplace_back(columns.at(name + std::to_string(k), "pose", 1.0), intensity * change);
-  }
+  add_shifts(c, by_pose * c.pose_root, name, "pose", intensity, task, columns, entries);
+  if (c.lens_root.cols() == 0) return;
+  const Eigen::Matrix<double, 3, calib::kLensParameters> by_lens =
+      surface_shift_by_ray(pose, site_mm, normal) *
+          calib::ray_per_lens_parameter(c.rig.camera.intrinsics, (pose * site_mm).hnormalized()) +
+      by_pose * c.shot.pose.per_lens_parameter;
+  add_shifts(c, by_lens * c.lens_root, "lens", "lens", intensity, task, columns, entries);
 }
 
 Entries row_entries(const RowContext& c, const ChannelObservation& o, std::size_t channel,
@@ -299,7 +325,7 @@ Entries row_entries(const RowContext& c, const ChannelObservation& o, std::size_
     } else {
       add_light(c, light, intensity, task, columns, entries);
     }
-    add_pose(c, intensity, task, columns, entries);
+    add_view(c, intensity, task, columns, entries);
     if (eta_std > 0.0) {
       entries.emplace_back(
           columns.at("eta", "eta", eta_std),
@@ -318,6 +344,7 @@ void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
   Columns columns;
   std::vector<Entries> entries;
   std::map<std::string, SeenMatrix> led_root;
+  const LensRoot of_lens = lens_root(rig.camera);
   for (const RigLight& light : rig.lights) {
     if (light.calibrated) led_root[light.name] = own_root(*light.calibrated, channel);
   }
@@ -327,8 +354,8 @@ void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
     const ChannelObservation& o = rows[i];
     for (std::size_t j = 0; j < o.l.size(); ++j) {
       if (o.state[j] != RowState::kUsed) continue;
-      entries.push_back(
-          row_entries({rig, *shot, j, root, led_root}, o, channel, sensitivities, columns));
+      entries.push_back(row_entries({rig, *shot, j, root, led_root, of_lens}, o, channel,
+                                    sensitivities, columns));
     }
   }
   system.nuisances = columns.list();

@@ -72,9 +72,13 @@ struct TaskSensitivity {
 // observation a shot), in the order of stack(): place, exponent and power of every LED in use, or,
 // where a calibration gives their covariance, seven independent combinations of them and the axis
 // ("LED calibration"), and one common to all LEDs that were calibrated with a white plane; power of
-// every environment, pose (six independent combinations of each pose's covariance), eta; with a
-// radiance calibration each shot's black, the glare and the exposure times (shots of one stated
-// time share theirs); those with a standard deviation of 0 are left out.
+// every environment, pose (six independent combinations of each pose's covariance), lens (as many
+// as its calibration has parameters, alike in all shots; each takes along what the pose, which was
+// fitted through that lens, would have become; what LEDs and scale owe to the same lens is not
+// followed), eta; with a
+// radiance calibration each file's black, the glare and the exposure times (files of one stated
+// time share theirs; in a bracket each moves the part of a row that comes from it); those with a
+// standard deviation of 0 are left out.
 void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
                    const std::vector<ChannelObservation>& rows, std::size_t channel,
                    const std::map<LightKey, TaskSensitivity>& sensitivities, DenseSystem& system);

@@ -91,6 +91,31 @@ Json reflectance_json(const ChannelResult& r) {
   return j;
 }
 
+Json by_channel(const std::array<std::size_t, kRgb>& counts) {
+  Json j;
+  for (std::size_t c = 0; c < kRgb; ++c) j[std::string(1, kRgbName[c])] = counts[c];
+  return j;
+}
+
+Json brackets_json(const Measurement& m) {
+  Json list = Json::array();
+  for (const MergedBracket& b : m.brackets) {
+    Json files = Json::array();
+    for (const MergedBracket::File& f : b.files) {
+      files.push_back({{"file", f.file},
+                       {"exposure_s", number(f.exposure_s)},
+                       {"samples", by_channel(f.samples)},
+                       {"log_light_over_others", number(f.departure.log_ratio)},
+                       {"log_light_over_others_std", number(f.departure.noise_std)}});
+    }
+    list.push_back({{"shot", b.shot},
+                    {"files", files},
+                    {"samples", by_channel(b.samples)},
+                    {"samples_clipped_in_all", by_channel(b.samples_clipped)}});
+  }
+  return list;
+}
+
 Json channel_json(const ChannelResult& r) {
   const Estimate& e = r.estimate;
   const bool known = e.converged;
@@ -135,6 +160,7 @@ std::string result_json(const Measurement& m, const std::string& command_line) {
   for (const ChannelResult& r : m.results) j["results"].push_back(channel_json(r));
   j["patch_size_mm"] = Json::object();
   for (const auto& [object, size] : m.patch_size_mm) j["patch_size_mm"][object] = size;
+  if (!m.brackets.empty()) j["brackets"] = brackets_json(m);
   j["notes"] = m.notes;
   j["timing_s"] = Json::object();
   for (const auto& [stage, seconds] : m.timing_s) j["timing_s"][stage] = seconds;

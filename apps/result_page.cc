@@ -212,6 +212,9 @@ std::string result_page(const Measurement& m, const std::string& command_line) {
   body += overview(m);
   body += reasons(m);
   for (const std::string& note : m.notes) body += html_element("p", html_text(note), "dim");
+  for (const MergedBracket& b : m.brackets) {
+    body += html_element("p", html_text("Bracket " + bracket_text(b) + "."), "dim");
+  }
   body += html_element(
       "p",
       html_text("On the shots, places at silhouettes and creases, which take no part, are dark; "

@@ -34,6 +34,19 @@ std::string patches_text(const std::array<std::size_t, kRowStates>& by_state, st
   return out;
 }
 
+std::string bracket_text(const MergedBracket& bracket) {
+  const auto sum = [](const std::array<std::size_t, kRgb>& counts) {
+    return static_cast<double>(counts[0] + counts[1] + counts[2]);
+  };
+  const double percent = 100.0 / std::max(1.0, sum(bracket.samples));
+  std::string out = fmt::format("{}: {} files merged", bracket.shot, bracket.files.size());
+  for (const MergedBracket::File& f : bracket.files) {
+    out += fmt::format(", {} ({:g} s) in {:.1f} %", f.file, f.exposure_s, percent * sum(f.samples));
+  }
+  return out + fmt::format(" of the samples on the object; {:.1f} % clipped in all",
+                           percent * sum(bracket.samples_clipped));
+}
+
 namespace {
 
 std::string with_deviation(const Quantity& q, bool known) {
@@ -98,7 +111,9 @@ std::string result_table(const Measurement& m) {
                           far->sigma_a_per_mm)
             : "refused");
   }
-  std::string out = table.text() + left_out(m) + agreement(m);
+  std::string out = table.text() + left_out(m);
+  for (const MergedBracket& b : m.brackets) out += "bracket " + bracket_text(b) + "\n";
+  out += agreement(m);
   for (const ChannelResult& r : m.results) {
     for (const std::string& reason : r.estimate.reasons) {
       out += fmt::format("refused: {} {}: {}\n", r.material, r.channel, reason);

@@ -19,6 +19,12 @@ const Named& by_name(const std::vector<Named>& all, const std::string& name) {
 const RigObject& Rig::object(const std::string& name) const { return by_name(objects, name); }
 const RigLight& Rig::light(const std::string& name) const { return by_name(lights, name); }
 
+std::vector<std::string> RigShot::files() const {
+  std::vector<std::string> all = {file};
+  all.insert(all.end(), more_files.begin(), more_files.end());
+  return all;
+}
+
 std::vector<std::string> Rig::materials() const {
   std::vector<std::string> out;
   for (const RigShot& shot : shots) {

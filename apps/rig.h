@@ -25,6 +25,10 @@
 #include "core/medium.h"
 #include "core/probe_projection.h"
 
+namespace scattermeter::calib {
+struct CameraCalibrationFile;  // calib/camera_calibration_file.h
+}
+
 namespace scattermeter::apps {
 
 struct RadianceCalibration;  // apps/radiance_file.h
@@ -43,6 +47,8 @@ struct RigCamera {
   std::string model;  // "": any
   calib::CameraIntrinsics intrinsics;
   std::string intrinsics_path;  // of the file that holds them; "": none
+  // All that this file says of the lens; null: none, the lens counts as exact.
+  std::shared_ptr<const calib::CameraCalibrationFile> lens;
   std::string radiance_path;
   // Counts per (W/(mm^2 sr)) and second; absent: the scale is free.
   std::optional<std::array<double, 3>> responsivity;
@@ -120,10 +126,13 @@ struct RigShot {
   std::string material;
   std::vector<std::string> lights;
   std::optional<double> exposure_s;  // simulate only
-  // A bracket: further exposures of the same scene, merged with the first.
+  // A bracket: further exposures of the same scene, merged with the first, which names the shot and
+  // in whose counts it is told.
   std::vector<std::string> more_files;
-  std::vector<double> more_exposures_s;  // of these; simulate only
+  std::vector<double> more_exposures_s;  // of these, or empty; simulate only
   int line = 0;
+
+  std::vector<std::string> files() const;  // the first and the others
 };
 
 struct RigTruthPose {

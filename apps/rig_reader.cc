@@ -7,6 +7,7 @@
 #include "apps/rig_fields.h"
 #include "apps/rig_light_reader.h"
 #include "apps/yaml_field.h"
+#include "calib/camera_calibration_file.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
@@ -74,7 +75,11 @@ RigCamera read_camera(const YamlField& field, const std::string& rig_path, bool 
   size.numbers(2);
   const YamlField intrinsics = field.at("intrinsics");
   camera.intrinsics = read_intrinsics_field(intrinsics, rig_path);
-  if (intrinsics.is_scalar()) camera.intrinsics_path = beside(rig_path, intrinsics.text());
+  if (intrinsics.is_scalar()) {
+    camera.intrinsics_path = beside(rig_path, intrinsics.text());
+    camera.lens = std::make_shared<const calib::CameraCalibrationFile>(
+        calib::read_camera_calibration_file(camera.intrinsics_path));
+  }
   camera.intrinsics.width_px = size.items()[0].integer(2, 100'000);
   camera.intrinsics.height_px = size.items()[1].integer(2, 100'000);
   if (const std::string problem = calib::intrinsics_problem(camera.intrinsics); !problem.empty()) {
@@ -201,11 +206,45 @@ RigObject read_object(const std::string& name, const YamlField& field,
   return object;
 }
 
+// One file, or a bracket of several, with as many times.
+void read_shot_files(const YamlField& field, RigShot& shot) {
+  const YamlField file = field.at("file");
+  const auto exposure = field.find("exposure_s");
+  if (file.is_scalar()) {
+    shot.file = file_in_folder(file);
+    if (exposure) shot.exposure_s = exposure->positive();
+    return;
+  }
+  for (const YamlField& item : file.items()) {
+    std::string name = file_in_folder(item);
+    if (name == shot.file ||
+        std::find(shot.more_files.begin(), shot.more_files.end(), name) != shot.more_files.end()) {
+      item.fail("the file is listed twice in one bracket");
+    }
+    if (shot.file.empty()) {
+      shot.file = std::move(name);
+    } else {
+      shot.more_files.push_back(std::move(name));
+    }
+  }
+  if (shot.file.empty()) file.fail("expected a file, or a list of the files of a bracket");
+  if (!exposure) return;
+  const std::size_t n = 1 + shot.more_files.size();
+  if (exposure->is_scalar()) {
+    exposure->fail("expected a list of " + std::to_string(n) +
+                   " times, one for each file of the bracket");
+  }
+  exposure->numbers(n);
+  const std::vector<YamlField> times = exposure->items();
+  shot.exposure_s = times[0].positive();
+  for (std::size_t i = 1; i < n; ++i) shot.more_exposures_s.push_back(times[i].positive());
+}
+
 RigShot read_shot(const YamlField& field, const Rig& rig) {
   field.only({"file", "object", "material", "lights", "exposure_s"});
   RigShot shot;
   shot.line = field.line();
-  shot.file = file_in_folder(field.at("file"));
+  read_shot_files(field, shot);
   const YamlField object = field.at("object");
   shot.object = object.text();
   const YamlField material = field.at("material");
@@ -227,7 +266,6 @@ RigShot read_shot(const YamlField& field, const Rig& rig) {
     shot.lights.push_back(name);
   }
   if (shot.lights.empty()) lights.fail("expected at least one light");
-  if (const auto f = field.find("exposure_s")) shot.exposure_s = f->positive();
   return shot;
 }
 
@@ -313,8 +351,10 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   const YamlField shots = top.at("shots");
   for (const YamlField& field : shots.items()) {
     rig.shots.push_back(read_shot(field, rig));
-    if (!files.insert(rig.shots.back().file).second) {
-      field.at("file").fail("two shots of the same name");
+    for (const std::string& file : rig.shots.back().files()) {
+      if (!files.insert(file).second) {
+        field.at("file").fail("two shots of the same name: " + file);
+      }
     }
   }
   if (rig.shots.empty()) shots.fail("expected at least one shot");

@@ -29,18 +29,23 @@ ShotFolder match_shots(const Rig& rig, const std::string& folder) {
   std::string missing;
   int first_line = 0;
   for (const RigShot& shot : rig.shots) {
-    if (!present.contains(shot.file)) {
-      missing += (missing.empty() ? "" : ", ") + shot.file;
-      if (first_line == 0) first_line = shot.line;
+    std::vector<std::string>& paths = out.paths.emplace_back();
+    for (const std::string& file : shot.files()) {
+      if (!present.contains(file)) {
+        missing += (missing.empty() ? "" : ", ") + file;
+        if (first_line == 0) first_line = shot.line;
+      }
+      paths.push_back((fs::path(folder) / file).string());
     }
-    out.paths.push_back((fs::path(folder) / shot.file).string());
   }
   if (!missing.empty()) {
     throw InputError(rig.at(first_line) + ": shots.file",
                      "listed, but not in the folder " + folder + ": " + missing);
   }
   std::set<std::string> listed;
-  for (const RigShot& shot : rig.shots) listed.insert(shot.file);
+  for (const RigShot& shot : rig.shots) {
+    for (const std::string& file : shot.files()) listed.insert(file);
+  }
   if (!rig.pose.board_shot.empty()) listed.insert(rig.pose.board_shot);
   const RigCalibration& calibration = rig.calibration;
   if (calibration.camera) {

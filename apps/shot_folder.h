@@ -9,7 +9,8 @@
 namespace scattermeter::apps {
 
 struct ShotFolder {
-  std::vector<std::string> paths;     // of the rig's shots, in the rig's order
+  // Of the rig's shots, in the rig's order, each with the files of its bracket.
+  std::vector<std::vector<std::string>> paths;
   std::vector<std::string> unlisted;  // file names in the folder that the rig does not list, sorted
 };
 

@@ -8,7 +8,9 @@
 
 #include "apps/grey_picture.h"
 #include "apps/raw_shot.h"
+#include "apps/rig_lens.h"
 #include "apps/silhouette_check.h"
+#include "calib/lens_reaction.h"
 #include "calib/silhouette.h"
 #include "core/input_error.h"
 
@@ -74,6 +76,8 @@ calib::PoseResult refined(const Rig& rig, const calib::PoseResult& prior,
   }
   calib::PoseResult pose = calib::combine(silhouette, rig.camera.intrinsics, prior);
   if (pose.status != calib::PoseStatus::kOk) throw InputError(where, name + ": " + pose.message);
+  pose.per_lens_parameter = calib::combined_per_lens_parameter(
+      silhouette, rig.camera.intrinsics, prior, lens_root(rig.camera).rowwise().norm());
   return pose;
 }
 
@@ -100,10 +104,10 @@ calib::PoseResult pose_from_silhouettes(const Rig& rig, const ObjectScenes& scen
   options.line_std_px = rig.pose.edge_std_px;
   std::vector<calib::EdgeShot> shots;
   for (const std::size_t idx : source.shot_idxs) {
-    shots.push_back(edge_shot(rig, scenes, rig.shots.at(idx), (*frames)(idx),
+    shots.push_back(edge_shot(rig, scenes, rig.shots.at(idx), (*frames)(idx, 0),
                               prior.camera_from_world, options));
   }
-  return refined(rig, prior, shots, source.names.at(0));
+  return refined(rig, prior, shots, source.names.at(0).at(0));
 }
 
 }  // namespace scattermeter::apps

@@ -14,19 +14,23 @@
 
 namespace scattermeter::apps {
 
-// Both are called from several threads at once. `shot_idx`: place in the rig's list of shots.
-using FrameSource = std::function<capture::RawFrame(std::size_t shot_idx)>;
+// Both are called from several threads at once. `shot_idx`: place in the rig's list of shots;
+// `exposure_idx`: in RigShot::files(), 0 but in a bracket.
+using FrameSource =
+    std::function<capture::RawFrame(std::size_t shot_idx, std::size_t exposure_idx)>;
 // The samples of the map's rectangle, past any raw frame: only for a pose from the rig's points.
 using SampleSource = std::function<CfaSamples(std::size_t shot_idx, const SampleMap& where)>;
 
 struct ShotSource {
   std::vector<std::size_t> shot_idxs;  // which of the rig's shots
-  std::vector<std::string> names;      // of the same, for messages: a path, or the rig's file name
+  // Of the same and each one's exposures, for messages: a path, or the rig's file name.
+  std::vector<std::vector<std::string>> names;
   std::variant<FrameSource, SampleSource> open;
 };
 
-// All shots of the rig from raw files. paths: one per shot of the rig, in its order.
-ShotSource shots_in_files(const Rig& rig, const std::vector<std::string>& paths);
+// All shots of the rig from raw files. paths: of each shot of the rig, in its order, one for each
+// of its exposures.
+ShotSource shots_in_files(const Rig& rig, const std::vector<std::vector<std::string>>& paths);
 
 // Some shots of the rig, each named as in the rig.
 ShotSource shots_from(const Rig& rig, std::vector<std::size_t> shot_idxs,

@@ -9,7 +9,6 @@
 
 #include "apps/progress.h"
 #include "apps/shot_pose.h"
-#include "apps/shot_samples.h"
 #include "core/environment_light.h"
 #include "core/input_error.h"
 
@@ -34,19 +33,6 @@ std::shared_ptr<const SeenObject> see(const Rig& rig, const ObjectScenes& scenes
                                        seen->map.mean_mm[row], seen->map.spread_mm2[row]));
   }
   return seen;
-}
-
-// The map's rectangle, through the rig's radiance calibration where it has one. Fills what the shot
-// keeps of it.
-CfaSamples samples_of(const Rig& rig, const capture::RawFrame& frame, const std::string& name,
-                      const SampleMap& map, OpenedShot& shot) {
-  capture::CorrectedSamples corrected =
-      shot_samples(rig, frame, name, map.x0, map.y0, map.width, map.height);
-  shot.stated_exposure_s = frame.exposure_s;
-  shot.black_std_counts = corrected.black_std_counts;
-  shot.frame_mean_counts = corrected.frame_mean_counts;
-  shot.exposure_relative_std = corrected.exposure_relative_std;
-  return std::move(corrected.samples);
 }
 
 }  // namespace
@@ -137,6 +123,13 @@ SharedView see_all(const Rig& rig, const ObjectScenes& scenes, const ObjectLibra
   return view;
 }
 
+std::vector<capture::RawFrame> frames_of(const RigShot& shot, std::size_t shot_idx,
+                                         const FrameSource& frames) {
+  std::vector<capture::RawFrame> out;
+  for (std::size_t k = 0; k <= shot.more_files.size(); ++k) out.push_back(frames(shot_idx, k));
+  return out;
+}
+
 std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
                                    const ObjectScenes& scenes, const ObjectLibrary& library,
                                    const std::optional<SharedView>& shared, bool quiet) {
@@ -162,18 +155,24 @@ std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
     }
     CfaSamples samples;
     if (frames != nullptr) {
-      const capture::RawFrame frame = (*frames)(idx);
+      const std::vector<capture::RawFrame> exposures = frames_of(*shot.rig, idx, *frames);
+      const capture::RawFrame& frame = exposures.front();
+      const std::vector<std::string>& names = source.names.at(i);
       shot.iso = frame.iso;
       shot.f_number = frame.f_number;
       if (!shared) {
-        shot.pose = points ? *points : pose_from_board(rig, frame, source.names.at(i));
+        shot.pose = points ? *points : pose_from_board(rig, frame, names.at(0));
         if (rig.pose.refine_by_silhouette) {
-          shot.pose = pose_from_silhouette(rig, scenes, shot.pose, idx, frame, source.names.at(i));
+          shot.pose = pose_from_silhouette(rig, scenes, shot.pose, idx, frame, names.at(0));
         }
         shot.seen = see(rig, scenes, library, shot.rig->object, shot.pose);
       }
       const SampleMap& map = shot.seen->map;
-      samples = samples_of(rig, frame, source.names.at(i), map, shot);
+      ShotSamples of_shot =
+          shot_samples(rig, *shot.rig, exposures, names, map.x0, map.y0, map.width, map.height);
+      shot.exposures = std::move(of_shot.exposures);
+      shot.frame_mean_counts = of_shot.frame_mean_counts;
+      samples = std::move(of_shot.samples);
     } else {
       shot.iso = rig.camera.iso;
       shot.f_number = rig.camera.f_number;

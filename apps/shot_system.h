@@ -14,6 +14,7 @@
 #include "apps/object_scene.h"
 #include "apps/rig.h"
 #include "apps/rig_probes.h"
+#include "apps/shot_samples.h"
 #include "apps/shot_source.h"
 #include "calib/pose.h"
 #include "core/distance_weights.h"
@@ -38,14 +39,11 @@ struct OpenedShot {
   std::shared_ptr<const SeenObject> seen;
   Observation observation;
   calib::PoseResult pose;
-  double exposure_s = 0;
+  double exposure_s = 0;  // in whose counts the shot is told; of a bracket the first one's
   double iso = 0;
   double f_number = 0;
-  // With a radiance calibration: what all samples of the shot share.
-  double black_std_counts = 0;
+  std::vector<ShotExposure> exposures;           // as observation's; empty for a SampleSource
   std::array<double, kRgb> frame_mean_counts{};  // of which glare is a share
-  double exposure_relative_std = 0;
-  double stated_exposure_s = 0;
 };
 
 // Patches and light of the rig's objects, shared by the shots.
@@ -91,6 +89,10 @@ struct SharedView {
 // Throws InputError when an object is out of view.
 SharedView see_all(const Rig& rig, const ObjectScenes& scenes, const ObjectLibrary& library,
                    const calib::PoseResult& pose);
+
+// All frames of a shot, in the order of RigShot::files().
+std::vector<capture::RawFrame> frames_of(const RigShot& shot, std::size_t shot_idx,
+                                         const FrameSource& frames);
 
 // Gets every shot of the source and reduces it to one l per visible patch and channel. With the
 // pose of all shots (`shared`), shots of one object share their map; without, each has a pose of

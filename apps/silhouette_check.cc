@@ -132,7 +132,7 @@ SilhouetteCheck check_silhouettes(const Rig& rig, const ObjectScenes& scenes,
     shot.file = rig_shot.file;
     shot.object = rig_shot.object;
     const calib::Silhouette found =
-        calib::find_silhouette({edge_shot(rig, scenes, rig_shot, frames(idx),
+        calib::find_silhouette({edge_shot(rig, scenes, rig_shot, frames(idx, 0),
                                           stated.camera_from_world, options.silhouette)},
                                lens, stated.camera_from_world, options.silhouette);
     shot.found = found.status == calib::SilhouetteStatus::kOk;

@@ -64,8 +64,11 @@ SimulatedShots simulate(const Rig& given, const std::string& out_folder,
     Progress progress("exposing", static_cast<int>(shots->size()), options.quiet);
     made.monte_carlo_std = shots->monte_carlo_std();
     for (std::size_t i = 0; i < shots->size(); ++i) {
-      made.paths.push_back((std::filesystem::path(out_folder) / rig.shots[i].file).string());
-      shots->write(i, options.seed, made.paths.back());
+      const std::vector<std::string> files = rig.shots[i].files();
+      for (std::size_t k = 0; k < files.size(); ++k) {
+        made.paths.push_back((std::filesystem::path(out_folder) / files[k]).string());
+        shots->write(i, options.seed, made.paths.back(), k);
+      }
       progress.step();
     }
   }

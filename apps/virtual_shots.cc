@@ -8,6 +8,7 @@
 #include "apps/progress.h"
 #include "capture/ideal_samples.h"
 #include "capture/tone_curve.h"
+#include "core/input_error.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -19,6 +20,11 @@ constexpr double kExposedTo = 0.75;  // of the range, for a chosen exposure
 VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& scenes,
                            const VirtualShotOptions& options)
     : rig_(rig), options_(options), sensor_(rig, options.noise) {
+  for (const RigShot& shot : rig.shots) {
+    if (shot.more_exposures_s.size() == shot.more_files.size()) continue;
+    throw InputError(rig.at(shot.line) + ": shots.exposure_s",
+                     "is missing: simulate needs a time for each file of the bracket " + shot.file);
+  }
   ShotRenderer renderer(rig, scenes, options.transport);
   Eigen::Array3d brightest = Eigen::Array3d::Zero();
   Progress progress("rendering", static_cast<int>(rig.shots.size()), options.quiet);
@@ -70,7 +76,12 @@ void VirtualShots::choose_exposure(const Eigen::Array3d& brightest) {
   }
 }
 
-std::vector<float> VirtualShots::whole_signal_counts(std::size_t shot) const {
+double VirtualShots::exposure_s(std::size_t shot, std::size_t exposure) const {
+  return exposure == 0 ? exposure_s_.at(shot)
+                       : rig_.shots.at(shot).more_exposures_s.at(exposure - 1);
+}
+
+std::vector<float> VirtualShots::whole_signal_counts(std::size_t shot, std::size_t exposure) const {
   const LinearPicture& p = picture(shot);
   const auto width = static_cast<std::ptrdiff_t>(rig_.camera.intrinsics.width_px);
   std::vector<float> whole(static_cast<std::size_t>(width * rig_.camera.intrinsics.height_px),
@@ -78,22 +89,36 @@ std::vector<float> VirtualShots::whole_signal_counts(std::size_t shot) const {
   for (std::ptrdiff_t y = 0; y < p.height; ++y) {
     std::copy_n(p.counts.begin() + y * p.width, p.width, whole.begin() + (p.y0 + y) * width + p.x0);
   }
+  if (exposure > 0) {
+    const auto longer = static_cast<float>(exposure_s(shot, exposure) / exposure_s(shot));
+    for (float& counts : whole) counts *= longer;
+  }
   return whole;
 }
 
-std::vector<std::uint16_t> VirtualShots::codes(std::size_t shot, std::uint64_t seed) const {
-  return sensor_.codes(whole_signal_counts(shot), exposure_s(shot),
-                       VirtualSensor::stream(seed, shot));
+std::uint64_t VirtualShots::stream(std::size_t shot, std::uint64_t seed,
+                                   std::size_t exposure) const {
+  return exposure == 0
+             ? VirtualSensor::stream(seed, shot)
+             : VirtualSensor::stream(seed, rig_.shots.at(shot).more_files.at(exposure - 1));
 }
 
-capture::RawFrame VirtualShots::frame(std::size_t shot, std::uint64_t seed) const {
-  return sensor_.frame(whole_signal_counts(shot), exposure_s(shot),
-                       VirtualSensor::stream(seed, shot));
+std::vector<std::uint16_t> VirtualShots::codes(std::size_t shot, std::uint64_t seed,
+                                               std::size_t exposure) const {
+  return sensor_.codes(whole_signal_counts(shot, exposure), exposure_s(shot, exposure),
+                       stream(shot, seed, exposure));
 }
 
-void VirtualShots::write(std::size_t shot, std::uint64_t seed, const std::string& path) const {
-  sensor_.write(path, whole_signal_counts(shot), exposure_s(shot),
-                VirtualSensor::stream(seed, shot));
+capture::RawFrame VirtualShots::frame(std::size_t shot, std::uint64_t seed,
+                                      std::size_t exposure) const {
+  return sensor_.frame(whole_signal_counts(shot, exposure), exposure_s(shot, exposure),
+                       stream(shot, seed, exposure));
+}
+
+void VirtualShots::write(std::size_t shot, std::uint64_t seed, const std::string& path,
+                         std::size_t exposure) const {
+  sensor_.write(path, whole_signal_counts(shot, exposure), exposure_s(shot, exposure),
+                stream(shot, seed, exposure));
 }
 
 CfaSamples VirtualShots::ideal_samples(std::size_t shot, int x0, int y0, int width,

@@ -34,33 +34,37 @@ class VirtualShots {
   // at truth.pose, or where the pose points put it. Without an exposure time in the rig one is
   // chosen for all shots so that the brightest sample reaches three quarters of the range; without
   // a responsivity 0.1 s is taken and the responsivity chosen instead. Throws InputError for what
-  // the rig lacks or an object out of view.
+  // the rig lacks (a bracket without its times is one) or an object out of view.
   VirtualShots(const Rig& rig, const ObjectScenes& scenes, const VirtualShotOptions& options);
 
   std::size_t size() const { return pictures_.size(); }
   // See ShotRenderer.
   double monte_carlo_std() const { return monte_carlo_std_; }
-  double exposure_s(std::size_t shot) const { return exposure_s_.at(shot); }
+  // `exposure`: place in RigShot::files(), here and below.
+  double exposure_s(std::size_t shot, std::size_t exposure = 0) const;
   // Counts per (W/(mm^2 sr)) and second, the rig's or the one that was chosen.
   const std::array<double, 3>& responsivity() const { return responsivity_; }
 
   // Without noise: the rectangle around the object (with a board in the shot, the whole frame), and
   // the same spread over the frame, zero elsewhere.
   const LinearPicture& picture(std::size_t shot) const { return pictures_.at(shot); }
-  std::vector<float> whole_signal_counts(std::size_t shot) const;
+  std::vector<float> whole_signal_counts(std::size_t shot, std::size_t exposure = 0) const;
 
-  // One exposure. Each shot draws from a stream of the seed of its own: the same seed gives the
-  // same codes, in memory and in a file.
-  std::vector<std::uint16_t> codes(std::size_t shot, std::uint64_t seed) const;
+  // One exposure. Each draws from a stream of the seed of its own: the same seed gives the same
+  // codes, in memory and in a file.
+  std::vector<std::uint16_t> codes(std::size_t shot, std::uint64_t seed,
+                                   std::size_t exposure = 0) const;
   // As the raw reader delivers the written file (exceptions: capture/decoded_frame.h).
-  capture::RawFrame frame(std::size_t shot, std::uint64_t seed) const;
+  capture::RawFrame frame(std::size_t shot, std::uint64_t seed, std::size_t exposure = 0) const;
   // Writes the 12-bit DNG; it appears complete or not at all. Throws InputError naming the file.
-  void write(std::size_t shot, std::uint64_t seed, const std::string& path) const;
+  void write(std::size_t shot, std::uint64_t seed, const std::string& path,
+             std::size_t exposure = 0) const;
 
   // A rectangle of the frame as a sensor without noise, rounding and truth.sensor sees it.
   CfaSamples ideal_samples(std::size_t shot, int x0, int y0, int width, int height) const;
 
  private:
+  std::uint64_t stream(std::size_t shot, std::uint64_t seed, std::size_t exposure) const;
   void choose_exposure(const Eigen::Array3d& brightest);
 
   const Rig& rig_;

@@ -37,6 +37,7 @@ PoseResult fault_result(size_t pairs, const PoseFault& fault) {
   result.camera_from_world.rotation.coeffs().setConstant(kNoPose);
   result.camera_from_world.translation_mm.setConstant(kNoPose);
   result.covariance.setConstant(kNoPose);
+  result.per_lens_parameter.setConstant(kNoPose);
   result.noise_std_px = result.rms_px = result.worst_px = kNoPose;
   result.residuals_px.assign(pairs, Eigen::Vector2d(kNoPose, kNoPose));
   result.inlier.assign(pairs, false);
@@ -108,14 +109,21 @@ Matrix6d centroid_covariance(const PoseFit& fit, double noise_std_px) {
          eigen.vectors.transpose();
 }
 
-// Covariance of (w, displacement in mm of the object's point at `lever_mm` from the centroid,
-// camera axes): the motion takes y to y + w x y + d, so the displacement is d - [lever]_x w.
-Matrix6d covariance_at(const PoseScene& scene, const Matrix6d& about_centroid,
-                       const Eigen::Vector3d& lever_mm) {
+// From a motion (w, d) about the centroid, in rad and units of scale_mm, to (w, displacement in mm
+// of the object's point at `lever_mm` from the centroid, camera axes): the motion takes y to
+// y + w x y + d, so the displacement is d - [lever]_x w.
+Matrix6d motion_at(const PoseScene& scene, const Eigen::Vector3d& lever_mm) {
   const Eigen::Vector3d& l = lever_mm;
   Matrix6d move = Matrix6d::Identity();
   move.block<3, 3>(3, 0) << 0, l.z(), -l.y(), -l.z(), 0, l.x(), l.y(), -l.x(), 0;
   move.block<3, 3>(3, 3) *= scene.scale_mm;
+  return move;
+}
+
+// Covariance of that.
+Matrix6d covariance_at(const PoseScene& scene, const Matrix6d& about_centroid,
+                       const Eigen::Vector3d& lever_mm) {
+  const Matrix6d move = motion_at(scene, lever_mm);
   const Matrix6d covariance = move * about_centroid * move.transpose();
   return 0.5 * (covariance + covariance.transpose());
 }
@@ -207,6 +215,9 @@ PoseResult estimate_pose(const CameraIntrinsics& intrinsics, const std::vector<P
   const Matrix6d about_centroid = centroid_covariance(fit, noise_std_px);
   const Eigen::Vector3d origin_mm = -(fit.pose.rotation * scene.centroid_mm);
   result.covariance = covariance_at(scene, about_centroid, origin_mm);
+  result.per_lens_parameter =
+      -motion_at(scene, origin_mm) * fit.information.ldlt().solve(gradient_per_lens_parameter(
+                                         scene, inlier, fit.pose, lens_parameters(intrinsics)));
   // The camera as a point of the object: where it would go if the object took it along. The camera
   // moves by the opposite in the world.
   const Eigen::Vector3d camera_mm = -scene.scale_mm * fit.pose.center;

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "calib/camera_model.h"
+#include "calib/lens_parameters.h"
 #include "core/rigid3d.h"
 
 namespace scattermeter::calib {
@@ -55,6 +56,9 @@ enum class PoseStatus {
   kPlanarAmbiguity,
 };
 
+// Change of a pose, (w, dt) as in PoseResult::covariance, per unit of each lens parameter.
+using PosePerLens = Eigen::Matrix<double, 6, kLensParameters>;
+
 struct PoseResult {
   PoseStatus status = PoseStatus::kTooFewPoints;
   std::string
@@ -70,6 +74,10 @@ struct PoseResult {
   // second-order motion of the points, |w|^2 |y| / 2 seen from the camera, is below noise_std_px,
   // which a world origin on or near the object keeps so.
   Eigen::Matrix<double, 6, 6> covariance;
+  // What the pose would have become through another lens, the points where they are in the image:
+  // -(J^T J)^-1 J^T J_lens over the inliers. A pose that was fitted through a lens takes up much of
+  // the lens's error: a focal length 1 % too long puts the camera 1 % too far away.
+  PosePerLens per_lens_parameter = PosePerLens::Zero();
   // Standard deviation per image coordinate on which the covariance stands, px: the larger of
   // point_std_px and sqrt(sum r^2 / (2 n - 6)) over the n inliers.
   double noise_std_px = 0;

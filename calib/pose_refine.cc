@@ -32,19 +32,26 @@ double sum_squares(const PoseScene& scene, const std::vector<bool>& use, const S
   return std::isfinite(sum) ? sum : kInfinity;
 }
 
-// J^T J and J^T r. With y = R p: d(R p)/dw = -[y]_x, d(center)/dd = I.
+// Image of a pair's point, and J of it. With y = R p: d(R p)/dw = -[y]_x, d(center)/dd = I.
+Eigen::Vector2d seen_at(const PoseScene& scene, size_t i, const ScenePose& pose,
+                        Eigen::Matrix<double, 2, 6>* jacobian) {
+  Eigen::Matrix<double, 2, 3> by_point;
+  const Eigen::Vector3d y = pose.rotation * scene.points[i];
+  const Eigen::Vector2d px = scene.lens.project(y + pose.center, &by_point);
+  jacobian->leftCols<3>() = -by_point * cross_matrix(y);
+  jacobian->rightCols<3>() = by_point;
+  return px;
+}
+
+// J^T J and J^T r.
 void normal_equations(const PoseScene& scene, const std::vector<bool>& use, const ScenePose& pose,
                       Matrix6d* information, Vector6d* gradient) {
   information->setZero();
   gradient->setZero();
-  Eigen::Matrix<double, 2, 3> by_point;
   Eigen::Matrix<double, 2, 6> jacobian;
   for (size_t i = 0; i < use.size(); ++i) {
     if (!use[i]) continue;
-    const Eigen::Vector3d y = pose.rotation * scene.points[i];
-    const Eigen::Vector2d r = scene.lens.project(y + pose.center, &by_point) - scene.image_px[i];
-    jacobian.leftCols<3>() = -by_point * cross_matrix(y);
-    jacobian.rightCols<3>() = by_point;
+    const Eigen::Vector2d r = seen_at(scene, i, pose, &jacobian) - scene.image_px[i];
     *information += jacobian.transpose() * jacobian;
     *gradient += jacobian.transpose() * r;
   }
@@ -129,6 +136,19 @@ PoseFit refine_pose(const PoseScene& scene, const std::vector<bool>& use, const 
   }
   fit.pose.rotation = Eigen::Quaterniond(fit.pose.rotation).normalized().toRotationMatrix();
   return fit;
+}
+
+PosePerLens gradient_per_lens_parameter(const PoseScene& scene, const std::vector<bool>& use,
+                                        const ScenePose& pose, const LensParameters& lens) {
+  PosePerLens out = PosePerLens::Zero();
+  Eigen::Matrix<double, 2, 6> jacobian;
+  for (size_t i = 0; i < use.size(); ++i) {
+    if (!use[i]) continue;
+    seen_at(scene, i, pose, &jacobian);
+    const Eigen::Vector3d x = pose.rotation * scene.points[i] + pose.center;
+    out += jacobian.transpose() * shift_per_lens_parameter(lens, x.hnormalized());
+  }
+  return out;
 }
 
 Eigen::Matrix<double, 6, 1> pose_difference(const ScenePose& from, const ScenePose& to) {

@@ -49,6 +49,11 @@ struct PoseFit {
 PoseFit refine_pose(const PoseScene& scene, const std::vector<bool>& use, const ScenePose& start,
                     int max_iterations = 200);
 
+// sum J^T J_lens over the pairs used: how the gradient J^T r grows with each lens parameter, J as
+// of PoseFit::information. lens: the scene's.
+PosePerLens gradient_per_lens_parameter(const PoseScene& scene, const std::vector<bool>& use,
+                                        const ScenePose& pose, const LensParameters& lens);
+
 // (w, d) that leads from `from` to `to`: to.rotation = exp([w]_x) from.rotation.
 Eigen::Matrix<double, 6, 1> pose_difference(const ScenePose& from, const ScenePose& to);
 

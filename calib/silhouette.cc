@@ -287,6 +287,18 @@ Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntri
   return out;
 }
 
+EdgeFit fit_with_pose(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
+                      const PoseResult& prior) {
+  const Eigen::Index size = edge_parameters(silhouette.points);
+  EdgeFitOptions fit;
+  fit.free = pose_parameters();
+  fit.line_std_px = silhouette.line_std_px;
+  fit.piece_std_px = silhouette.piece_std_px;
+  fit.prior = Eigen::MatrixXd::Zero(size, size);
+  fit.prior.topLeftCorner<6, 6>() = prior.covariance.ldlt().solve(Eigen::MatrixXd::Identity(6, 6));
+  return fit_edges(silhouette.points, intrinsics, prior.camera_from_world, fit);
+}
+
 PoseResult combine(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
                    const PoseResult& prior) {
   PoseResult out = prior;
@@ -299,9 +311,7 @@ PoseResult combine(const Silhouette& silhouette, const CameraIntrinsics& intrins
   // the two, a chi-square of six.
   fit.prior = loose_prior(size, prior.camera_from_world.translation_mm.norm());
   const EdgeFit alone = fit_edges(silhouette.points, intrinsics, silhouette.camera_from_world, fit);
-  fit.prior = Eigen::MatrixXd::Zero(size, size);
-  fit.prior.topLeftCorner<6, 6>() = prior.covariance.ldlt().solve(Eigen::MatrixXd::Identity(6, 6));
-  const EdgeFit both = fit_edges(silhouette.points, intrinsics, prior.camera_from_world, fit);
+  const EdgeFit both = fit_with_pose(silhouette, intrinsics, prior);
   if (!alone.converged || !both.converged) {
     out.status = PoseStatus::kIllConditioned;
     out.message = "the silhouette's least squares do not settle";

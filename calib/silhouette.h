@@ -68,6 +68,11 @@ PixelRect silhouette_window(const RayScene& scene, const CameraIntrinsics& intri
 Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntrinsics& intrinsics,
                            const Rigid3d& camera_from_world, const SilhouetteOptions& options = {});
 
+// Least squares of the silhouette's pieces and the pose `prior` together, which combine() judges;
+// not converged where they fail.
+EdgeFit fit_with_pose(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
+                      const PoseResult& prior);
+
 // The pose that silhouette and another, independent one give together: informations add. The
 // covariance's frame is that of PoseResult. Status kNoConsensus when the two contradict each other
 // (p below 1e-6 with six degrees of freedom), kIllConditioned when the fit fails. inlier and

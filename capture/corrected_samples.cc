@@ -110,8 +110,9 @@ std::array<double, kRgb> frame_mean_counts(const RawFrame& frame,
   return mean_of(frame, correction, value_tables(frame, correction));
 }
 
-CorrectedSamples corrected_samples(const RawFrame& frame, const RadianceCorrection& correction,
-                                   int x0, int y0, int width, int height) {
+CorrectedSamples corrected_samples(
+    const RawFrame& frame, const RadianceCorrection& correction, int x0, int y0, int width,
+    int height, const std::optional<std::array<double, kRgb>>& frame_mean_counts) {
   if (x0 < 0 || y0 < 0 || width < 0 || height < 0 || x0 + width > frame.width_px ||
       y0 + height > frame.height_px) {
     throw std::invalid_argument("corrected_samples: the rectangle leaves the frame");
@@ -125,7 +126,8 @@ CorrectedSamples corrected_samples(const RawFrame& frame, const RadianceCorrecti
   const std::array<ValueTable, 4> tables = value_tables(frame, correction);
   CorrectedSamples out;
   out.black_std_counts = correction.black_std_counts;
-  out.frame_mean_counts = mean_of(frame, correction, tables);
+  out.frame_mean_counts =
+      frame_mean_counts ? *frame_mean_counts : mean_of(frame, correction, tables);
   const ShutterSetting shutter = correction.setting(frame.exposure_s);
   out.exposure_relative_std = shutter.relative_std;
   CfaSamples& s = out.samples;
@@ -155,6 +157,7 @@ CorrectedSamples corrected_samples(const RawFrame& frame, const RadianceCorrecti
   const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   s.signal_counts.resize(n);
   s.variance_counts2.resize(n);
+  s.variance_per_count_of.resize(n);
   s.clipped.assign(n, 0);
   const bool even = correction.vignetting.is_identity();
   double per_count = 0.0;
@@ -172,6 +175,8 @@ CorrectedSamples corrected_samples(const RawFrame& frame, const RadianceCorrecti
       s.variance_counts2[i] =
           static_cast<float>(factor * factor * noise[c].variance_counts2(v, static_cast<int>(p)));
       if (static_cast<double>(v) >= tables[p].clip) s.clipped[i] = kSampleClipped;
+      s.variance_per_count_of[i] =
+          static_cast<float>(factor / correction.noise[c].gain_e_per_count);
       per_count += factor / correction.noise[c].gain_e_per_count;
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "capture/radiance_correction.h"
@@ -25,10 +26,13 @@ struct CorrectedSamples {
 // Variances: noise model with the calibration's gain and read noise, taken through the same.
 // Defect pixels are marked kSampleDefect; clipped is what clip_levels() says, and what lies more
 // than 5 % beyond the last knot of the response curve.
+// frame_mean_counts: in place of the frame's own mean, where another one is known better: the
+// clipped samples of a long exposure hide how bright they are, a shorter one of the scene does not.
 // std::invalid_argument: the rectangle leaves the frame, no exposure time, or a frame whose size,
 // ISO or aperture is not the calibration's (see correction_problem()).
-CorrectedSamples corrected_samples(const RawFrame& frame, const RadianceCorrection& correction,
-                                   int x0, int y0, int width, int height);
+CorrectedSamples corrected_samples(
+    const RawFrame& frame, const RadianceCorrection& correction, int x0, int y0, int width,
+    int height, const std::optional<std::array<double, kRgb>>& frame_mean_counts = std::nullopt);
 
 // Why the calibration does not hold for the frame, with both values; empty: it does. ISO and
 // aperture that a file does not state are not compared.

@@ -34,6 +34,11 @@ struct CfaSamples {
   // Photon noise: the variance grows by this many counts^2 for every count of signal (one over the
   // gain in electrons per count).
   double variance_per_count = 0;
+  // The same of each sample by itself, row by row; empty: alike in all.
+  std::vector<float> variance_per_count_of;
+  // Of a bracket (capture/merged_samples.h), else empty. By exposure: the part of each sample's
+  // signal that comes from it. The parts of a sample add up to 1; all are 0 in a defect one.
+  std::vector<std::vector<float>> part_of_exposure;
 
   int channel(int x, int y) const { return channel_of_phase[cfa_phase(x, y)]; }
 };

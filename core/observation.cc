@@ -13,8 +13,39 @@ namespace {
 struct Sum {
   RowSum l;
   double counts = 0, factor = 0;
+  double growth = 0;  // factor times variance_per_count
   std::size_t clipped = 0;
 };
+
+// What each exposure of a bracket has to do with each row: its parts of the samples, weighted as
+// their counts are in l.
+void add_exposure_parts(const CfaSamples& samples, const SampleMap& map, Observation& out) {
+  const std::size_t n_rows = map.patch_of_row.size();
+  for (const std::vector<float>& part : samples.part_of_exposure) {
+    std::array<std::vector<double>, kRgb> factor;
+    for (std::size_t c = 0; c < kRgb; ++c) {
+      out.channel[c].exposures.push_back({std::vector<double>(n_rows, 0.0), 0});
+      factor[c].assign(n_rows, 0.0);
+    }
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (map.row_of_sample[i] < 0 || samples.clipped[i] == kSampleDefect) continue;
+      const auto row = static_cast<std::size_t>(map.row_of_sample[i]);
+      const auto width = static_cast<std::size_t>(map.width);
+      const auto c = static_cast<std::size_t>(samples.channel(
+          map.x0 + static_cast<int>(i % width), map.y0 + static_cast<int>(i / width)));
+      const auto weight = static_cast<double>(map.pi_over_transmittance[i]);
+      ExposurePart& of = out.channel[c].exposures.back();
+      of.of_row[row] += weight * static_cast<double>(part[i]);
+      factor[c][row] += weight;
+      if (part[i] > 0.0F) ++of.samples;
+    }
+    for (std::size_t c = 0; c < kRgb; ++c) {
+      for (std::size_t row = 0; row < n_rows; ++row) {
+        if (factor[c][row] > 0.0) out.channel[c].exposures.back().of_row[row] /= factor[c][row];
+      }
+    }
+  }
+}
 
 }  // namespace
 
@@ -58,6 +89,9 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
       const auto counts = static_cast<double>(samples.signal_counts[i]);
       s.counts += counts;
       s.factor += factor;
+      s.growth += factor * (samples.variance_per_count_of.empty()
+                                ? samples.variance_per_count
+                                : static_cast<double>(samples.variance_per_count_of[i]));
       s.l.add(from_origin, factor * counts,
               factor * factor * static_cast<double>(samples.variance_counts2[i]));
       // Three samples of one phase in line on one patch: the second difference is free of the
@@ -113,8 +147,7 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
       channel.l[row] = unit * mean.value;
       channel.variance[row] = unit * unit * mean.variance;
       // Samples of l / (unit factor) counts: sum of factor^2 variance_per_count l / (unit factor).
-      channel.variance_per_l[row] =
-          unit * samples.variance_per_count * s.factor / (n * n) * mean.spread;
+      channel.variance_per_l[row] = unit * s.growth / (n * n) * mean.spread;
       channel.l_per_count[row] = unit * s.factor / n;
       channel.state[row] = RowState::kUsed;
       channel.brightest_snr =
@@ -122,6 +155,7 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
       ++channel.rows_used;
     }
   }
+  add_exposure_parts(samples, map, out);
   return out;
 }
 

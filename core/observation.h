@@ -23,6 +23,12 @@ enum class RowState : unsigned char {
 };
 inline constexpr std::size_t kRowStates = 8;
 
+// One exposure of a bracket, in one channel.
+struct ExposurePart {
+  std::vector<double> of_row;  // what part of the row's l comes from it
+  std::size_t samples = 0;     // in rows, that hold anything of it
+};
+
 // One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), the mean over the samples of all
 // channels on the patch (those that SampleMap::mean_mm and spread_mm2 describe) of a quadratic
 // through the channel's own and those of the patches beside it (core/row_mean.h).
@@ -42,6 +48,7 @@ struct ChannelObservation {
   // Mean squared second difference of neighbouring samples of one filter phase over its expectation
   // from their variances: 1 where the noise model is right. 0 without three samples in line.
   double noise_ratio = 0;
+  std::vector<ExposurePart> exposures;  // of a bracket, in its order; else empty
 };
 
 struct Observation {

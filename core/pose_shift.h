@@ -17,4 +17,10 @@ Eigen::Matrix<double, 3, 6> surface_shift_by_pose(const Rigid3d& camera_from_wor
                                                   const Eigen::Vector3d& point_mm,
                                                   const Eigen::Vector3d& normal);
 
+// The same per unit of a small change of the ray (X / Z, Y / Z) that falls on the sample, at a
+// fixed pose: 3 x 2. The point moves by Z (dx, dy, 0) and along the ray back into its plane.
+Eigen::Matrix<double, 3, 2> surface_shift_by_ray(const Rigid3d& camera_from_world,
+                                                 const Eigen::Vector3d& point_mm,
+                                                 const Eigen::Vector3d& normal);
+
 }  // namespace scattermeter

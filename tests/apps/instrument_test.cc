@@ -26,7 +26,7 @@ class InstrumentTest : public ::testing::Test {
   }
 
   FrameSource frames(std::uint64_t seed) const {
-    return [this, seed](std::size_t i) { return shots_->frame(i, seed); };
+    return [this, seed](std::size_t i, std::size_t k) { return shots_->frame(i, seed, k); };
   }
   static Json results(const Measurement& m) { return Json::parse(result_json(m, ""))["results"]; }
 
@@ -59,9 +59,11 @@ TEST_F(InstrumentTest, PartOfTheShots) {
   Rig alone = rig_;
   alone.shots = {rig_.shots[1]};
   Instrument other(alone, scenes_, options_);
-  EXPECT_EQ(results(other.measure(shots_from(
-                alone, {0}, FrameSource([this](std::size_t) { return shots_->frame(1, 3); })))),
-            results(one));
+  EXPECT_EQ(
+      results(other.measure(shots_from(alone, {0}, FrameSource([this](std::size_t, std::size_t) {
+                                         return shots_->frame(1, 3);
+                                       })))),
+      results(one));
 }
 
 // Neither noise nor rounding: what is left is the method's own error.

@@ -8,7 +8,11 @@
 #include "apps/bodies_rig.h"
 #include "apps/instrument.h"
 #include "apps/plastics_rig.h"
+#include "apps/shot_pose.h"
 #include "apps/virtual_shots.h"
+#include "calib/camera_calibration_file.h"
+#include "calib/lens.h"
+#include "calib/lens_parameters.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -38,7 +42,7 @@ class CalibratedNuisances : public ::testing::Test {
     options.quiet = true;
     options.model = Model::kDipole;
     Instrument instrument(rig, scenes_, options);
-    const FrameSource frames = [&](std::size_t i) { return shots_.frame(i, 1); };
+    const FrameSource frames = [&](std::size_t i, std::size_t k) { return shots_.frame(i, 1, k); };
     return instrument.measure(shots_from(rig, {0}, frames)).results.at(1).estimate;
   }
 
@@ -100,6 +104,108 @@ TEST_F(CalibratedNuisances, CorrelationIsKept) {
   const Estimate apart = measured(open);
   ASSERT_TRUE(together.converged && apart.converged);
   EXPECT_LT(part(together, "LED calibration"), 0.5 * part(apart, "LED calibration"));
+}
+
+// A lens of f, centre, k1 and k2, known to these deviations.
+std::shared_ptr<const calib::CameraCalibrationFile> lens_file(const Rig& rig,
+                                                              const Eigen::VectorXd& std) {
+  auto file = std::make_shared<calib::CameraCalibrationFile>();
+  file->intrinsics = rig.camera.intrinsics;
+  file->parameters = calib::parameter_names({true, calib::DistortionTerms::kK1K2});
+  file->covariance = std.cwiseAbs2().asDiagonal();
+  return file;
+}
+
+// One column of the nuisances against what the rig's own functions give for another lens: the pose
+// fitted anew through it, the ray of the same pixel, where that meets the facet.
+TEST_F(CalibratedNuisances, LensColumnsByDifferences) {
+  const FrameSource frames = [&](std::size_t i, std::size_t k) { return shots_.frame(i, 1, k); };
+  for (int parameter = 0; parameter < 5; ++parameter) {
+    Rig rig = exact_;
+    Eigen::VectorXd std = Eigen::VectorXd::Zero(5);
+    std[parameter] = parameter == 0  ? 1e-3 * rig.camera.intrinsics.fx_px
+                     : parameter < 3 ? 0.5
+                                     : 0.02;
+    rig.camera.lens = lens_file(rig, std);
+    const calib::PoseResult pose = pose_from_points(rig);
+    ObjectLibrary library(rig, scenes_, std::nullopt, 0.0);
+    const SharedView view = see_all(rig, scenes_, library, pose);
+    const std::vector<OpenedShot> opened =
+        open_shots(rig, shots_from(rig, {0}, frames), scenes_, library, view, true);
+    const SeenObject& seen = *opened[0].seen;
+    const RigLight& light = rig.light(opened[0].rig->lights.at(0));
+    const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
+    const LightSensitivity by_shift = sensitivity(
+        seen, changed_weights(seen, light, 0, library, knots), {{{1.0, 0.003, 1.3}, 1.0}}, knots);
+    const ChannelObservation& o = opened[0].observation.channel[1];
+    DenseSystem system;
+    add_nuisances(rig, {&opened[0]}, {o}, 1, {{{&seen, light.name, 0}, {&by_shift, 0}}}, system);
+    Eigen::Index column = -1;
+    for (std::size_t k = 0; k < system.nuisances.size(); ++k) {
+      if (system.nuisances[k].group != "lens") continue;
+      if (system.nuisance_columns.col(static_cast<Eigen::Index>(k)).isZero(0.0)) continue;
+      ASSERT_EQ(column, -1) << "one parameter, one column";
+      column = static_cast<Eigen::Index>(k);
+    }
+    ASSERT_GE(column, 0);
+
+    const auto seen_through = [&](double by) {
+      Rig other = exact_;
+      calib::LensParameters lens = calib::lens_parameters(exact_.camera.intrinsics);
+      lens += calib::parameter_map({true, calib::DistortionTerms::kK1K2}) * (by * std);
+      other.camera.intrinsics = calib::intrinsics_of(lens, exact_.camera.intrinsics.width_px,
+                                                     exact_.camera.intrinsics.height_px);
+      return CameraView{other.camera.intrinsics, pose_from_points(other).camera_from_world};
+    };
+    constexpr double kStep = 0.02;
+    const CameraView up = seen_through(kStep), down = seen_through(-kStep);
+    Eigen::Index row = 0;
+    double worst = 0.0, largest = 0.0;
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (o.state[j] != RowState::kUsed) continue;
+      const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
+      const Eigen::Vector3d& site_mm = seen.sites[j].center_mm;
+      const Eigen::Vector2d pixel =
+          calib::project(rig.camera.intrinsics, pose.camera_from_world, {site_mm})[0];
+      const auto meets = [&](const CameraView& camera) {
+        const Eigen::Vector3d origin = camera.center_in_world_mm();
+        const Eigen::Vector3d direction =
+            camera.camera_from_world.rotation.conjugate() *
+            calib::Lens(camera.intrinsics).unproject(pixel).homogeneous();
+        return (origin + normal.dot(site_mm - origin) / normal.dot(direction) * direction).eval();
+      };
+      const Eigen::Vector3d moved_mm = (meets(up) - meets(down)) / (2.0 * kStep);
+      double expected = 0.0;
+      for (std::size_t t = 0; t < 2; ++t) {
+        expected += light.power()[1] * by_shift.per_tangent_mm[t](static_cast<Eigen::Index>(j), 0) *
+                    tangents(normal)[t].dot(moved_mm);
+      }
+      worst = std::max(worst, std::abs(system.nuisance_columns(row, column) - expected));
+      largest = std::max(largest, std::abs(expected));
+      ++row;
+    }
+    ASSERT_GT(largest, 0.0);
+    EXPECT_LT(worst, 1e-3 * largest) << "parameter " << parameter;
+  }
+}
+
+TEST_F(CalibratedNuisances, LensIsInTheBudget) {
+  const Estimate exact = measured(exact_);
+  Rig open = exact_, zero = exact_;
+  Eigen::VectorXd std(5);
+  std << 5e-3 * exact_.camera.intrinsics.fx_px, 2.0, 2.0, 0.05, 0.0;
+  open.camera.lens = lens_file(exact_, std);
+  zero.camera.lens = lens_file(exact_, Eigen::VectorXd::Zero(5));
+  const Estimate with_lens = measured(open);
+  ASSERT_TRUE(exact.converged && with_lens.converged);
+  EXPECT_EQ(part(exact, "lens"), 0.0);
+  EXPECT_GT(part(with_lens, "lens"), 0.0);
+  EXPECT_GT(with_lens.sigma_s_prime_per_mm.std, exact.sigma_s_prime_per_mm.std);
+  // A covariance of zero is no lens error at all, to the last digit.
+  const Estimate same = measured(zero);
+  EXPECT_EQ(same.sigma_s_prime_per_mm.value, exact.sigma_s_prime_per_mm.value);
+  EXPECT_EQ(same.sigma_s_prime_per_mm.std, exact.sigma_s_prime_per_mm.std);
+  EXPECT_EQ(same.budget.size(), exact.budget.size());
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ class SilhouetteCheckTest : public ::testing::Test {
     });
     const VirtualShots shots(truth_, true_scenes, {.noise = true, .quiet = true});
     return check_silhouettes(
-        rig_, scenes_, [&](std::size_t i) { return shots.frame(i, seed_); }, all_shots(rig_),
-        pose_from_points(rig_));
+        rig_, scenes_, [&](std::size_t i, std::size_t k) { return shots.frame(i, seed_, k); },
+        all_shots(rig_), pose_from_points(rig_));
   }
 
   SmallRig files_;
@@ -85,7 +85,10 @@ TEST_F(SilhouetteCheckTest, CameraDrifts) {
   later.truth_pose->look_at_mm.x() += 0.3;
   const VirtualShots after(later, scenes_, {.noise = true, .quiet = true});
   const SilhouetteCheck c = check_silhouettes(
-      rig_, scenes_, [&](std::size_t i) { return i == 3 ? after.frame(i, 1) : before.frame(i, 1); },
+      rig_, scenes_,
+      [&](std::size_t i, std::size_t k) {
+        return i == 3 ? after.frame(i, 1, k) : before.frame(i, 1, k);
+      },
       all_shots(rig_), pose_from_points(rig_));
   EXPECT_FALSE(c.passed());
   EXPECT_TRUE(c.drifts);

@@ -145,6 +145,40 @@ TEST(Observation, VariancePerL) {
               0.25 * 2.0 / 4.0 / (10.0 * 0.5), 1e-9);
 }
 
+// Of a bracket: which part of a row comes from which exposure, a defect sample left out of it; and
+// photon noise of each sample by itself.
+TEST(Observation, PartsOfExposures) {
+  CfaSamples s = samples();
+  s.part_of_exposure = {std::vector<float>(32, 1.0F), std::vector<float>(32, 0.0F)};
+  // Red of the left half: samples 0, 2, 16, 18.
+  s.part_of_exposure[0][0] = 0.25F;
+  s.part_of_exposure[1][0] = 0.75F;
+  s.part_of_exposure[0][16] = 0.0F;
+  s.part_of_exposure[1][16] = 1.0F;
+  s.clipped[18] = kSampleDefect;
+  s.part_of_exposure[0][18] = 1e9F;
+  s.variance_per_count_of.assign(32, 0.25F);
+  s.variance_per_count_of[0] = 0.5F;
+  SampleMap map = two_rows();
+  map.pi_over_transmittance[2] = 3.0F;
+  const Observation o = observe(s, map, {10.0, 20.0, 40.0});
+  const ChannelObservation& red = o.channel[0];
+  ASSERT_EQ(red.exposures.size(), 2U);
+  EXPECT_NEAR(red.exposures[0].of_row[0], (2.0 * 0.25 + 3.0 + 0.0) / 7.0, 1e-6);
+  EXPECT_NEAR(red.exposures[1].of_row[0], (2.0 * 0.75 + 0.0 + 2.0) / 7.0, 1e-6);
+  EXPECT_EQ(red.exposures[0].samples, 6U);  // two of the left, four of the right
+  EXPECT_EQ(red.exposures[1].samples, 2U);
+  EXPECT_DOUBLE_EQ(red.exposures[0].of_row[1], 1.0);
+  EXPECT_DOUBLE_EQ(o.channel[2].exposures[1].of_row[0], 0.0);
+  // Four samples of factor 2 in the right half of red.
+  EXPECT_NEAR(red.variance_per_l[1], 0.25 * 2.0 / 4.0 / (10.0 * 0.5), 1e-9);
+  CfaSamples even = s;
+  even.variance_per_count_of.assign(32, 0.25F);
+  const double more =
+      red.variance_per_l[0] / observe(even, map, {10.0, 20.0, 40.0}).channel[0].variance_per_l[0];
+  EXPECT_NEAR(more, (2.0 * 0.5 + 3.0 * 0.25 + 2.0 * 0.25) / (7.0 * 0.25), 1e-6);
+}
+
 TEST(Observation, RefusesWhatDoesNotMatch) {
   CfaSamples s = samples();
   s.x0 = 11;
