@@ -129,7 +129,9 @@ class BoardInTheShotTest : public ::testing::Test {
       poses.push_back(pose_from_board(rig_, shots.frame(i, 1), rig_.shots[i].file));
     }
     return check_silhouettes_apart(
-        rig_, scenes_, [&](std::size_t i) { return shots.frame(i, 1); }, idxs, poses);
+        rig_, scenes_,
+        [&](std::size_t i, std::size_t exposure) { return shots.frame(i, 1, exposure); }, idxs,
+        poses);
   }
 
   SmallRig files_;
