@@ -160,8 +160,8 @@ CalibratedLed read_led_calibration_file(const std::string& path) {
       [](double std) { return std > 0.0 ? 1.0 / std : 0.0; });
   const calib::LedMatrix own =
       scale.asDiagonal() * (u.covariance - u.common * u.common.transpose()) * scale.asDiagonal();
-  if (!own.allFinite() || !(own - own.transpose()).isZero(1e-9) ||
-      u.covariance.diagonal().minCoeff() < 0.0 || symmetric_eigen(own).values[0] < -1e-7) {
+  if (!(own - own.transpose()).isZero(1e-9) || u.covariance.diagonal().minCoeff() < 0.0 ||
+      !(symmetric_eigen(own).values[0] >= -1e-7)) {
     covariance.fail("expected a covariance: symmetric, without negative variances");
   }
   return out;

@@ -369,11 +369,10 @@ class LedFitter {
     const Eigen::MatrixXd some = info(kept, kept);
     const Eigen::VectorXd scale = some.diagonal().cwiseSqrt().cwiseMax(1e-300).cwiseInverse();
     const Eigen::MatrixXd scaled = scale.asDiagonal() * some * scale.asDiagonal();
-    SymmetricEigen eigen;
-    if (scaled.allFinite()) eigen = symmetric_eigen(scaled);
-    if (eigen.values.size() == 0 || !(eigen.values[0] > 1e-12)) {
+    const SymmetricEigen eigen = symmetric_eigen(scaled);
+    if (!(eigen.values[0] > 1e-12)) {
       Eigen::VectorXd v = Eigen::VectorXd::Zero(size);
-      for (std::size_t k = 0; eigen.values.size() > 0 && k < kept.size(); ++k) {
+      for (std::size_t k = 0; scaled.allFinite() && k < kept.size(); ++k) {
         if (kept[k] < solution_.nuisances_at) {
           v[kept[k]] = eigen.vectors(static_cast<Eigen::Index>(k), 0);
         }

@@ -39,7 +39,7 @@ bool covers_frame(const CameraIntrinsics& k) {
 // Solves symmetric equations brought to unit diagonal; false where they are singular.
 bool solve(const Eigen::MatrixXd& m, const Eigen::VectorXd& right, Eigen::VectorXd* x) {
   const Eigen::VectorXd scale = m.diagonal().cwiseSqrt().cwiseInverse();
-  if (!scale.allFinite() || !m.allFinite()) return false;
+  if (!scale.allFinite()) return false;
   const SymmetricEigen eigen = symmetric_eigen(scale.asDiagonal() * m * scale.asDiagonal());
   if (!(eigen.values[0] > 1e-13)) return false;
   const Eigen::VectorXd scaled = eigen.vectors.transpose() * scale.cwiseProduct(right);

@@ -30,9 +30,12 @@ struct LensChoice {
 // the standard error of the difference, views taken as independent: about, a term stays that is
 // known to two standard deviations. With fewer than four views, none is left over to judge by:
 // fx = fy, k1 and k2. k1 alone is not tried: a k2 too small to be seen pulls it off by several of
-// its stated deviations (3.7 rms over 50 simulated calibrations).
-// A model is not usable when its fit does not converge or is not determined, with or without any
-// one view, or when its distortion folds back within the frame.
+// its stated deviations (3.7 rms over 50 simulated calibrations). What the choice itself scatters
+// is in no covariance: over 50 calibrations through raws of a lens with k1 and k2, predicted over
+// sampled deviation was 1.06 for f, 0.85 and 0.96 for the centre, but 0.75 for k1 and 0.56 for k2,
+// which share their effect with k3 where that was taken. A model is not usable when its fit does
+// not converge or is not determined, with or without any one view, or when its distortion folds
+// back within the frame.
 LensChoice choose_lens(const std::vector<BoardView>& views, int width_px, int height_px,
                        const CameraBundle& start, const std::optional<LensModel>& only);
 

@@ -33,7 +33,6 @@ LensUncertainty lens_uncertainty(const std::vector<BoardView>& views,
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   if (!scale.allFinite() || !(freedom > 0)) return out;
   const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
-  if (!scaled.allFinite()) return out;
   const SymmetricEigen eigen = symmetric_eigen(scaled);
   if (!(eigen.values[0] > 1e-13)) return out;
   const Eigen::MatrixXd inverse = scale.asDiagonal() * eigen.vectors *

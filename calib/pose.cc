@@ -102,7 +102,6 @@ double noise_std(const PoseFit& fit, int inliers, double point_std_px) {
 
 // Covariance about the centroid, of (w, d) in rad and units of scale_mm. NaN where singular.
 Matrix6d centroid_covariance(const PoseFit& fit, double noise_std_px) {
-  if (!fit.information.allFinite()) return Matrix6d::Constant(kNoPose);
   const SymmetricEigen eigen = symmetric_eigen(fit.information);
   if (!(eigen.values[0] > 1e-14 * eigen.values[5])) return Matrix6d::Constant(kNoPose);
   return noise_std_px * noise_std_px * eigen.vectors * eigen.values.cwiseInverse().asDiagonal() *

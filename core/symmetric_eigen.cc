@@ -1,16 +1,19 @@
 #include "core/symmetric_eigen.h"
 
-#include <stdexcept>
+#include <limits>
 
 #include <Eigen/Eigenvalues>
 
 namespace scattermeter {
 
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& m) {
-  if (!m.allFinite()) throw std::domain_error("symmetric_eigen: not finite");
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(m);
-  if (solver.info() != Eigen::Success) throw std::domain_error("symmetric_eigen: no convergence");
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  if (m.allFinite()) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(m);
+    if (solver.info() == Eigen::Success) return {solver.eigenvalues(), solver.eigenvectors()};
+  }
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return {Eigen::VectorXd::Constant(m.rows(), kNone),
+          Eigen::MatrixXd::Constant(m.rows(), m.cols(), kNone)};
 }
 
 }  // namespace scattermeter

@@ -10,8 +10,7 @@ struct SymmetricEigen {
   Eigen::MatrixXd vectors;  // their unit vectors, a column each
 };
 
-// Reads the lower triangle. Throws std::domain_error where m is not finite, or the iteration does
-// not converge.
+// Reads the lower triangle. All NaN where m is not finite, or the iteration does not converge.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& m);
 
 }  // namespace scattermeter
