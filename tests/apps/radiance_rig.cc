@@ -40,7 +40,7 @@ Rig radiance_rig(int scale) {
   for (const double t : {0.02, 0.02, 0.5, 0.5, 2.0, 2.0}) radiance.dark.push_back(shot("dark", t));
   for (const double lamp : {1.0, 0.2}) {
     for (const double stated : {1.0 / 250, 1.0 / 125, 1.0 / 60, 1.0 / 30, 1.0 / 25, 1.0 / 20}) {
-      for (int i = 0; i < 2 * scale; ++i) radiance.flats.push_back(shot("flat", stated, lamp));
+      for (int i = 0; i < 2; ++i) radiance.flats.push_back(shot("flat", stated, lamp));
     }
   }
   radiance.flat_radiance_W_per_mm2_sr = {2.9e-6, 2.45e-6, 3.2e-6};  // 3500 counts in 1/20 s
