@@ -9,9 +9,8 @@
 
 namespace scattermeter::apps {
 
-// 120 x 80 pixels times scale squared; dark frames, as many pairs of flats as scale says at two
-// lamps and six times, a bracket of a white plane, a glare shot; a camera with everything that
-// truth.sensor knows.
+// 120 x 80 pixels times scale squared; dark frames, pairs of flats at two lamps and six times, a
+// bracket of a white plane, a glare shot; a camera with everything that truth.sensor knows.
 Rig radiance_rig(int scale = 1);
 
 // The seed's shots through calibrate_radiance(): the camera is truth's, what is told to the
