@@ -13,6 +13,7 @@
 #include <ceres/ceres.h>
 
 #include "calib/lens.h"
+#include "core/covariance_root.h"
 #include "core/solver_options.h"
 
 namespace scattermeter::calib {
@@ -242,12 +243,8 @@ EdgeFit fit_edges(const std::vector<EdgePoint>& points, const CameraIntrinsics& 
     }
   }
   if (prior.squaredNorm() > 0) {
-    // Pivoted, so that parameters without a prior may be among them.
-    const Eigen::LDLT<Eigen::MatrixXd> ldlt(prior);
-    Eigen::MatrixXd root = ldlt.matrixU();
-    root = (ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal() * root * ldlt.transpositionsP())
-               .eval();
-    least_squares.AddResidualBlock(new PriorCost(root), nullptr, values.data());
+    least_squares.AddResidualBlock(new PriorCost(covariance_root(prior).transpose()), nullptr,
+                                   values.data());
   }
   auto solver = quiet_solver<ceres::Solver::Options>({60, 1e-12, 1e-14, 1e-12});
   solver.linear_solver_type = ceres::DENSE_QR;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -147,6 +148,32 @@ std::size_t line_count(const std::vector<EdgePoint>& points) {
   return lines.size();
 }
 
+// Nothing confirms a piece that is alone on its line, and where few lines are seen the pose gives
+// way to it.
+std::vector<EdgePoint> without_lone_pieces(const std::vector<EdgePoint>& points) {
+  std::map<std::pair<int, int>, int> pieces;
+  for (const EdgePoint& p : points) ++pieces[{p.body_idx, p.line_idx}];
+  std::vector<EdgePoint> out;
+  for (const EdgePoint& p : points) {
+    if (pieces[{p.body_idx, p.line_idx}] > 1) out.push_back(p);
+  }
+  return out;
+}
+
+// Those within a few px of where the pose has them, and within a cell.
+std::vector<EdgePoint> near(const std::vector<EdgePoint>& points,
+                            const CameraIntrinsics& intrinsics, const Rigid3d& pose, int factor) {
+  constexpr double kNear_px = 8;
+  if (points.empty()) return {};
+  const std::vector<double> off =
+      edge_residuals_px(points, intrinsics, pose, Eigen::VectorXd::Zero(edge_parameters(points)));
+  std::vector<EdgePoint> out;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::abs(off[i]) < kNear_px + factor) out.push_back(points[i]);
+  }
+  return out;
+}
+
 double robust_deviation(std::vector<double> residual) {
   for (double& r : residual) r = std::abs(r);
   return 1.4826 * middle_value(std::move(residual));
@@ -226,6 +253,8 @@ Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntri
       o.half_width_px = half_width;
       o.piece_px = std::max(o.piece_px, intrinsics.width_px / factor / kPiecesPerWidth);
       points = edge_points(shots, intrinsics, pose, o);
+      if (options.pose_is_near) points = near(points, intrinsics, camera_from_world, factor);
+      points = without_lone_pieces(points);
       if (points.size() < kMinPieces || line_count(points) < kMinLines) return false;
       EdgeFitOptions fit;
       fit.robust = true;

@@ -21,7 +21,7 @@ struct SilhouetteOptions {
   double line_std_px = 0.1;
   // The pose is right to a few px, and parts of the shots may be masked (CfaSamples::clipped): the
   // coarse turn, step (1), is left out, and so is a level of step (2) that finds too little but for
-  // the last.
+  // the last. Pieces more than 8 px and a cell away are not of the outline.
   bool pose_is_near = false;
   void Check() const;  // std::invalid_argument naming the field
 };
@@ -60,7 +60,8 @@ PixelRect silhouette_window(const RayScene& scene, const CameraIntrinsics& intri
 // width, the turn of the camera, as a shift of the image, with the best contrast
 // (inside - outside) / (inside + outside) over all contours. (2) From these cells to the raw's own
 // samples, each half the size of the one before: pieces located (edge_points()), pose by
-// least squares with Cauchy's loss, so that clutter and unlit edges have little say. (3) Pieces off
+// least squares with Cauchy's loss, so that clutter and unlit edges have little say; pieces alone on
+// their line are dropped. (3) Pieces off
 // by more than six robust deviations are left out, scatter of pieces about their line and of lines
 // about the pose found by moments (R. C. Paule, J. Mandel, "Consensus values and weighting
 // factors", 1982). Deterministic. Throws std::invalid_argument on no shots and options out of

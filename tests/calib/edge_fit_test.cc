@@ -78,6 +78,28 @@ TEST(EdgeFit, FindsWhatChanged) {
   EXPECT_LT((m.segment<3>(kMove) - moved.translation_mm).norm(), 0.02);
 }
 
+// A prior whose pivots come in an order that is not its own inverse, and lines that say nothing.
+TEST(EdgeFit, KeepsThePriorsCovariance) {
+  const RayScene scene(testing::make_cube());
+  std::mt19937_64 random(3);
+  const auto points = outline(scene, small_lens(), cube_view(), 0, 0, 0.05, 1, &random);
+  EdgeFitOptions options = pose_only(points);
+  options.line_std_px = 1e5;
+  Eigen::Matrix<double, 6, 6> root = Eigen::Matrix<double, 6, 6>::Zero();
+  const double std[] = {4e-4, 1e-4, 2e-4, 3e-3, 2e-3, 2e-2};
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k <= i; ++k) root(i, k) = std[i] * (i == k ? 1 : 0.3 * std::cos(i + 2 * k));
+  }
+  const Eigen::Matrix<double, 6, 6> covariance = root * root.transpose();
+  options.prior.topLeftCorner<6, 6>() = covariance.inverse();
+  const EdgeFit f = fit_edges(points, small_lens(), cube_view(), options);
+  ASSERT_TRUE(f.converged);
+  const Eigen::Matrix<double, 6, 6> found = f.covariance.topLeftCorner<6, 6>();
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_NEAR(std::sqrt(found(i, i) / covariance(i, i)), 1, 1e-3) << i;
+  }
+}
+
 TEST(EdgeFit, RefusesNonsense) {
   EXPECT_THROW(fit_edges({}, small_lens(), cube_view(), {}), std::invalid_argument);
 }
