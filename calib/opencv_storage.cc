@@ -46,6 +46,17 @@ cv::Mat read_storage_matrix(const std::string& where, const cv::FileNode& node) 
   cv::Mat matrix;
   try {
     if (!node.isMap()) throw InputError(where, "expected an opencv-matrix");
+    // OpenCV takes the memory that rows and columns claim before it looks at the values.
+    const cv::FileNode rows = node["rows"];
+    const cv::FileNode columns = node["cols"];
+    const std::size_t values = node["data"].size();
+    if (!rows.isInt() || !columns.isInt() || static_cast<int>(rows) < 0 ||
+        static_cast<int>(columns) < 0 ||
+        static_cast<double>(rows) * static_cast<double>(columns) != static_cast<double>(values)) {
+      throw InputError(where,
+                       "expected an opencv-matrix of rows x cols values in data, which has " +
+                           std::to_string(values));
+    }
     node >> matrix;
     if (matrix.dims > 2 || matrix.channels() != 1) {
       throw InputError(where, "expected an opencv-matrix of one channel");

@@ -26,6 +26,18 @@ TEST(OpencvStorage, OpensMapsAndReadsMatrices) {
   EXPECT_THROW(read_storage_matrix("rgb", in["rgb"]), InputError);
 }
 
+// Without taking the 80 GB that it claims.
+TEST(OpencvStorage, RefusesAMatrixLargerThanItsValues) {
+  const TemporaryFolder folder;
+  const OpencvQuiet quiet;
+  for (const char* rows : {"2147483647", "-3", "2", ")"}) {
+    std::ofstream(folder / "a.yaml") << "%YAML:1.0\n---\nm: !!opencv-matrix\n   rows: " << rows
+                                     << "\n   cols: 5\n   dt: d\n   data: [ 1., 2., 3., 4., 5. ]\n";
+    const cv::FileStorage in = open_storage(folder / "a.yaml");
+    EXPECT_THROW(read_storage_matrix("m", in["m"]), InputError) << rows;
+  }
+}
+
 TEST(OpencvStorage, NamesTheFile) {
   const TemporaryFolder folder;
   const OpencvQuiet quiet;

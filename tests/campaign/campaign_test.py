@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""campaign_test.py PROGRAM SNAKEFILE: twenty small folders, two at a time, killed in the middle and resumed.
+
+Every folder ends up measured once, with the digits of a run by hand. Status 77: Snakemake is not there.
+"""
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM, SNAKEFILE = (Path(p).resolve() for p in sys.argv[1:3])
+SAMPLE = SNAKEFILE.parent.parent / "three_plastics"
+FOLDERS = 20
+
+
+def small_rig():
+    """The sample at an eighth of its resolution, PP under both LEDs on the cube only."""
+    text = (SAMPLE / "rig.yaml").read_text(encoding="utf-8")
+    eighth = lambda px: (float(px) + 0.5) / 8 - 0.5
+    text = re.sub(r"image_px: \[([\d.]+), ([\d.]+)\]",
+                  lambda m: f"image_px: [{eighth(m[1]):.3f}, {eighth(m[2]):.3f}]", text)
+    text = text.replace("[3872, 2592]", "[484, 324]")
+    text = re.sub(r"fx_px: 9836, fy_px: 9836, cx_px: [\d.]+, cy_px: [\d.]+",
+                  f"fx_px: 1229.5, fy_px: 1229.5, cx_px: {eighth(1941.3):.3f}, cy_px: {eighth(1290.7):.3f}", text)
+    text = re.sub(r"  - \{file: (?!PP_cube)[^}]*\}.*\n", "", text)
+    return text.replace("point_std_px: 0.15", "point_std_px: 0.02")
+
+
+class Campaign(unittest.TestCase):
+    def setUp(self):
+        self.home = Path(tempfile.mkdtemp(prefix="campaign it's "))
+        self.addCleanup(shutil.rmtree, self.home, ignore_errors=True)
+        for name in ("cube.obj", "pyramid_on_pedestal.obj"):
+            shutil.copy(SAMPLE / name, self.home)
+        (self.home / "rig.yaml").write_text(small_rig(), encoding="utf-8")
+        subprocess.run([PROGRAM, "-q", "simulate", self.home / "rig.yaml", "--out", self.home / "shots"], check=True)
+        # The same shots under twenty names: what is tested here is who measures them, and how often.
+        lines = [f"scattermeter: {json.dumps(str(self.home / 'counted'))}", "options: --model dipole", "measurements:"]
+        for i in range(FOLDERS):
+            folder = f"day {i:02}"
+            shutil.copytree(self.home / "shots", self.home / folder)
+            lines.append(f"  {json.dumps(folder)}: {{shots: {json.dumps(folder)}, rig: rig.yaml}}")
+        (self.home / "campaign.yaml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        counted = self.home / "counted"
+        # Notes every measurement that came to its end.
+        counted.write_text(f'#!/bin/sh\n"{PROGRAM}" "$@" || [ $? -eq 1 ] || exit 2\n'
+                           f'echo "$3" >>"{self.home}/done"\n', encoding="utf-8")
+        counted.chmod(0o755)
+
+    def run_campaign(self, *more, **options):
+        command = ["snakemake", "--snakefile", str(SNAKEFILE), "--configfile", str(self.home / "campaign.yaml"),
+                   "--directory", str(self.home / "out"), "--cores", "2", "--nolock", *more]
+        # Not in the log of the test, but for what fails.
+        log = open(self.home / "log", "ab")
+        self.addCleanup(log.close)
+        return subprocess.Popen(command, stdout=log, stderr=log, start_new_session=True, **options)
+
+    def measured(self):
+        done = self.home / "done"
+        return done.read_text(encoding="utf-8").splitlines() if done.exists() else []
+
+    def test_killed_in_the_middle_and_resumed(self):
+        first = self.run_campaign()
+        while len(self.measured()) < FOLDERS // 2 and first.poll() is None:
+            time.sleep(0.05)
+        os.killpg(first.pid, signal.SIGKILL)
+        first.wait()
+        self.assertEqual(first.returncode, -signal.SIGKILL, (self.home / "log").read_text())
+        before = {p: p.stat().st_mtime_ns for p in (self.home / "out").glob("results/*/result.json")}
+        self.assertGreaterEqual(len(before), FOLDERS // 2 - 2)
+        self.assertLess(len(before), FOLDERS)
+        for path in before:
+            json.loads(path.read_text(encoding="utf-8"))  # none is half
+        second = self.run_campaign("--rerun-incomplete")
+        self.assertEqual(second.wait(), 0, (self.home / "log").read_text())
+        results = sorted((self.home / "out").glob("results/*/result.json"))
+        self.assertEqual(len(results), FOLDERS)
+        # At most the two that ran when the kill came are measured again.
+        again = [p for p, at in before.items() if p.stat().st_mtime_ns != at]
+        self.assertLessEqual(len(again), 2)
+        self.assertLessEqual(len(self.measured()), FOLDERS + 2)
+        self.assertEqual(len(set(self.measured())), FOLDERS)
+        subprocess.run([PROGRAM, "-q", "measure", self.home / "shots", "--rig", self.home / "rig.yaml", "--out",
+                        self.home / "by hand", "--model", "dipole"], check=False)
+        expected = json.loads((self.home / "by hand" / "result.json").read_text(encoding="utf-8"))["results"]
+        for path in results:
+            self.assertEqual(json.loads(path.read_text(encoding="utf-8"))["results"], expected)
+        table = (self.home / "out" / "summary.csv").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(len(table), 1 + FOLDERS * len(expected))
+        self.assertEqual((self.home / "out" / "summary.html").read_text(encoding="utf-8").count("<tr class"),
+                         FOLDERS * len(expected))
+        count = len(self.measured())
+        third = self.run_campaign()
+        self.assertEqual(third.wait(), 0)
+        self.assertEqual(len(self.measured()), count)  # nothing left to do
+
+    def test_a_missing_folder_is_named(self):
+        shutil.rmtree(self.home / "day 07")
+        self.assertNotEqual(self.run_campaign().wait(), 0)
+        self.assertIn("measurements.day 07.shots", (self.home / "log").read_text(encoding="utf-8"))
+
+
+if __name__ == "__main__":
+    if shutil.which("snakemake") is None:
+        print("skipped: snakemake is not installed")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1])

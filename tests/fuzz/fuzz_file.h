@@ -1,0 +1,26 @@
+// A fuzzer's bytes as a file, for readers that take a path.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace scattermeter {
+
+// The file stands in a folder of this process, in memory where the system has such a place; both
+// are gone with the process.
+class FuzzFile {
+ public:
+  explicit FuzzFile(const std::string& name);
+  FuzzFile(const FuzzFile&) = delete;
+  FuzzFile& operator=(const FuzzFile&) = delete;
+  ~FuzzFile();
+  // The path, now with these bytes.
+  const std::string& with(const std::uint8_t* data, std::size_t size) const;
+
+ private:
+  std::string folder_;
+  std::string path_;
+};
+
+}  // namespace scattermeter
