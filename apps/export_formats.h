@@ -21,9 +21,6 @@ std::vector<std::string> export_notes(const ReadResult& result, const ExportOpti
 // "POM R: sigma_s' 1.4 +- 0.002, sigma_a 0.002 +- 0.0001 per mm" for each channel.
 std::vector<std::string> value_notes(const MeasuredMaterial& material);
 
-// Names for a file that takes letters, digits and _ only, not starting with a digit; unique.
-std::vector<std::string> identifiers(const std::vector<MeasuredMaterial>& materials);
-
 // All of these: the text of a file. Materials of which none is refused (the CSV: any). The name of
 // a material stands in it escaped as the format asks for.
 

@@ -3,6 +3,7 @@
 #include "apps/export_formats.h"
 #include "apps/export_medium.h"
 #include "apps/html_page.h"
+#include "apps/identifiers.h"
 #include "apps/xml_text.h"
 
 namespace scattermeter::apps {
@@ -37,7 +38,7 @@ std::string openpbr_file(const ReadResult& result, const std::vector<MeasuredMat
                          const ExportOptions& options) {
   const ColourFit& fit = openpbr_colour();
   std::string body;
-  const std::vector<std::string> ids = identifiers(materials);
+  const std::vector<std::string> ids = identifiers(names_of(materials));
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const MeasuredMaterial& m = materials[i];
     const ExportMedium medium = export_medium(m, options);
@@ -74,7 +75,7 @@ std::string openpbr_file(const ReadResult& result, const std::vector<MeasuredMat
 std::string materialx_file(const ReadResult& result, const std::vector<MeasuredMaterial>& materials,
                            const ExportOptions& options) {
   std::string body;
-  const std::vector<std::string> ids = identifiers(materials);
+  const std::vector<std::string> ids = identifiers(names_of(materials));
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const MeasuredMaterial& m = materials[i];
     ExportMedium medium = export_medium(m, options);

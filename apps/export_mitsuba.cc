@@ -1,6 +1,7 @@
 #include "apps/csv.h"
 #include "apps/export_formats.h"
 #include "apps/export_medium.h"
+#include "apps/identifiers.h"
 #include "apps/xml_text.h"
 
 namespace scattermeter::apps {
@@ -20,7 +21,7 @@ std::string mitsuba_file(const ReadResult& result, const std::vector<MeasuredMat
        "</shape>"},
       "");
   out += "<scene version=\"3.0.0\">\n";
-  const std::vector<std::string> ids = identifiers(materials);
+  const std::vector<std::string> ids = identifiers(names_of(materials));
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const MeasuredMaterial& m = materials[i];
     const ExportMedium medium = export_medium(m, options);

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -54,23 +52,6 @@ std::vector<std::string> value_notes(const MeasuredMaterial& material) {
                     with_std(c.sigma_a_per_mm), c.eta_int_over_ext, c.model)));
   }
   return notes;
-}
-
-std::vector<std::string> identifiers(const std::vector<MeasuredMaterial>& materials) {
-  std::vector<std::string> out;
-  for (const MeasuredMaterial& m : materials) {
-    std::string id;
-    for (char c : m.name) {
-      id += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-    }
-    if (id.empty() || std::isdigit(static_cast<unsigned char>(id.front())) != 0) id = "m_" + id;
-    std::string unique = id;
-    for (int n = 2; std::find(out.begin(), out.end(), unique) != out.end(); ++n) {
-      unique = fmt::format("{}_{}", id, n);
-    }
-    out.push_back(unique);
-  }
-  return out;
 }
 
 }  // namespace scattermeter::apps

@@ -3,6 +3,7 @@
 #include "apps/csv.h"
 #include "apps/export_formats.h"
 #include "apps/export_medium.h"
+#include "apps/identifiers.h"
 #include "apps/xml_text.h"
 
 namespace scattermeter::apps {
@@ -25,7 +26,7 @@ std::string pbrt_file(const ReadResult& result, const std::vector<MeasuredMateri
        "Shape ...",
        "By pbrt's BSSRDF (made for flat, thick bodies): NamedMaterial \"NAME_subsurface\"  Shape "
        "..."});
-  const std::vector<std::string> ids = identifiers(materials);
+  const std::vector<std::string> ids = identifiers(names_of(materials));
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const MeasuredMaterial& m = materials[i];
     const ExportMedium medium = export_medium(m, options);

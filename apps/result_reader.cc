@@ -178,6 +178,12 @@ std::vector<MeasuredMaterial> materials_of(const ReadResult& result,
   return out;
 }
 
+std::vector<std::string> names_of(const std::vector<MeasuredMaterial>& materials) {
+  std::vector<std::string> names;
+  for (const MeasuredMaterial& m : materials) names.push_back(m.name);
+  return names;
+}
+
 std::vector<std::string> refusals(const std::vector<MeasuredMaterial>& materials) {
   std::vector<std::string> out;
   for (const MeasuredMaterial& m : materials) {

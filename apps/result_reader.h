@@ -53,6 +53,8 @@ struct MeasuredMaterial {
 std::vector<MeasuredMaterial> materials_of(const ReadResult& result,
                                            const std::vector<std::string>& names = {});
 
+std::vector<std::string> names_of(const std::vector<MeasuredMaterial>& materials);
+
 // A line for each refused channel: what, and why.
 std::vector<std::string> refusals(const std::vector<MeasuredMaterial>& materials);
 

@@ -15,7 +15,9 @@
 
 #include "apps/child_process.h"
 #include "apps/export_formats.h"
+#include "apps/identifiers.h"
 #include "core/input_error.h"
+#include "tests/apps/made_result.h"
 #include "tests/apps/small_rig.h"
 #include "tests/temporary_folder.h"
 
@@ -27,39 +29,12 @@ using Triple = std::array<double, 3>;
 
 constexpr const char* kNasty = "<script>--> \"POM\" \\ & 'ö'\n]]>";
 
-struct Truth {
-  Triple sigma_s_prime, sigma_a;
-};
-const std::map<std::string, Truth> kTruth = {{"POM", {{1.4, 1.6, 1.75}, {0.002, 0.004, 0.008}}},
-                                             {kNasty, {{0.5, 0.62, 0.7}, {0.003, 0.0002, 0.4}}}};
-
-nlohmann::json quantity(double value) {
-  return {{"value", value}, {"std", value / 4}, {"interval95", {value / 2, value * 2}}};
-}
-
-nlohmann::json result_of(const std::map<std::string, Truth>& materials) {
-  nlohmann::json j = {{"version", "0.1.0"},
-                      {"command", "scattermeter measure -- shots"},
-                      {"results", nlohmann::json::array()}};
-  for (const auto& [name, truth] : materials) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      j["results"].push_back({{"material", name},
-                              {"channel", std::string(1, "RGB"[c])},
-                              {"model", "dipole"},
-                              {"eta", 1.4},
-                              {"verdict", "ok"},
-                              {"reasons", nlohmann::json::array()},
-                              {"correlation", 0.5},
-                              {"sigma_s_prime_per_mm", quantity(truth.sigma_s_prime[c])},
-                              {"sigma_a_per_mm", quantity(truth.sigma_a[c])}});
-    }
-  }
-  return j;
-}
+const MadeMaterials kTruth = {{"POM", {{1.4, 1.6, 1.75}, {0.002, 0.004, 0.008}}},
+                              {kNasty, {{0.5, 0.62, 0.7}, {0.003, 0.0002, 0.4}}}};
 
 class Exported {
  public:
-  explicit Exported(const nlohmann::json& json = result_of(kTruth)) {
+  explicit Exported(const nlohmann::json& json = made_result(kTruth)) {
     write_file(result(), json.dump());
   }
   std::string result() const { return folder_ / "result.json"; }
@@ -90,13 +65,13 @@ Triple triple(std::string text) {
 }
 
 // The materials stand in the file in the order of the result.
-const Truth& truth_at(std::size_t i) {
+const MadeMaterial& truth_at(std::size_t i) {
   return std::next(kTruth.begin(), static_cast<long>(i))->second;
 }
 
 void expect_medium(std::size_t i, const Triple& sigma_s, const Triple& sigma_a, double mm_per_unit,
                    double g, double tolerance = 1e-9) {
-  const Truth& truth = truth_at(i);
+  const MadeMaterial& truth = truth_at(i);
   for (std::size_t c = 0; c < 3; ++c) {
     EXPECT_NEAR(sigma_s[c] * (1.0 - g) / mm_per_unit, truth.sigma_s_prime[c],
                 tolerance * truth.sigma_s_prime[c]);
@@ -366,7 +341,7 @@ TEST(Export, BlendersScriptMakesTheMedium) {
 }
 
 TEST(Export, CsvHoldsValuesAndUncertainties) {
-  const std::string text = Exported(result_of({{"P,O\"M", kTruth.at("POM")}})).text("csv");
+  const std::string text = Exported(made_result({{"P,O\"M", kTruth.at("POM")}})).text("csv");
   EXPECT_THAT(text, HasSubstr("material,channel,verdict,model,eta,sigma_s_prime_per_mm,"
                               "sigma_s_prime_per_mm_std,sigma_s_prime_per_mm_low95,"
                               "sigma_s_prime_per_mm_high95,sigma_a_per_mm,"));
@@ -388,7 +363,7 @@ TEST(Export, EveryFileStatesUnitScaleAndUncertainty) {
 }
 
 TEST(Export, RefusedIsNotWritten) {
-  nlohmann::json json = result_of(kTruth);
+  nlohmann::json json = made_result(kTruth);
   for (nlohmann::json& entry : json["results"]) {
     if (entry["material"] != "POM" || entry["channel"] != "B") continue;
     entry["verdict"] = "refused";
@@ -415,7 +390,7 @@ TEST(Export, RefusedIsNotWritten) {
 
 TEST(Export, NamesWhatIsWrongInAResult) {
   const auto error = [](const std::function<void(nlohmann::json&)>& spoil) {
-    nlohmann::json json = result_of(kTruth);
+    nlohmann::json json = made_result(kTruth);
     spoil(json);
     const Answer answer = Exported(json).run_format("csv");
     EXPECT_EQ(answer.status, 2);
@@ -447,12 +422,8 @@ TEST(Export, NamesWhatIsWrongInAResult) {
 
 // Two names that no file can tell apart after escaping stay two materials.
 TEST(Export, IdentifiersAreUnique) {
-  std::vector<MeasuredMaterial> materials(4);
-  materials[0].name = "a b";
-  materials[1].name = "a_b";
-  materials[2].name = "2 mm";
-  materials[3].name = "";
-  EXPECT_EQ(identifiers(materials), (std::vector<std::string>{"a_b", "a_b_2", "m_2_mm", "m_"}));
+  EXPECT_EQ(identifiers({"a b", "a_b", "2 mm", "", "a b"}),
+            (std::vector<std::string>{"a_b", "a_b_2", "m_2_mm", "m_", "a_b_3"}));
 }
 
 }  // namespace
