@@ -27,13 +27,13 @@ std::vector<std::string> export_notes(const ReadResult& result, const ExportOpti
   std::vector<std::string> notes;
   notes.push_back(on_one_line("Measured by scattermeter " + result.version + ": " + result.path));
   notes.push_back(
-      fmt::format("Scale: 1 scene unit = {} mm (option --mm-per-unit).", options.mm_per_unit));
+      fmt::format("Scale: 1 scene unit = {} mm (option mm-per-unit).", options.mm_per_unit));
   notes.push_back(
       options.g == 0.0
           ? "Phase function: isotropic. Measured is sigma_s' = sigma_s (1 - g); without g from "
             "elsewhere sigma_s = sigma_s' and g = 0 look the same inside a thick body."
           : fmt::format(
-                "Phase function: Henyey-Greenstein with g = {} as given by --g; measured is "
+                "Phase function: Henyey-Greenstein with g = {} as given by option g; measured is "
                 "sigma_s' = sigma_s (1 - g).",
                 options.g));
   notes.push_back(
