@@ -32,9 +32,9 @@ def main(result_path, picture_path):
             d = np.array([k["distance_mm"] for k in knots])
             r = np.array([k["r_per_mm2"] for k in knots])
             if len(knots):
-                ends = np.array([k["interval95_per_mm2"] for k in knots]).T
+                ends = np.array([k["interval95_per_mm2"] for k in knots], dtype=float).T
                 axis.errorbar(d, r, np.abs(ends - r), fmt="o", ms=3, lw=0.8, color=colour)
-            fine = np.geomspace(*((d.min(), d.max()) if len(knots) else (0.1, 10)), 200)
+            fine = np.linspace(0, d.max() if len(knots) else 10, 400)
             refused = "" if entry["verdict"] == "ok" else " (refused)"
             axis.plot(
                 fine,
@@ -42,7 +42,7 @@ def main(result_path, picture_path):
                 color=colour,
                 label=f"{channel}: {s:.3g}, {a:.2g} per mm{refused}",
             )
-        axis.set(title=name, xlabel="d (mm)", xscale="log", yscale="log")
+        axis.set(title=name, xlabel="d (mm)", yscale="log")
         axis.legend(title="sigma_s', sigma_a", fontsize=8, title_fontsize=8)
     axes[0][0].set_ylabel("r(d) (1/mm²)")
     figure.tight_layout()
