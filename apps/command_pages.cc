@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "apps/commands.h"
+#include "apps/joined_words.h"
 
 namespace scattermeter::apps {
 namespace {
 
-using Options = std::vector<const CLI::Option*>;
-using Apps = std::vector<const CLI::App*>;
+using ShownOptions = std::vector<const CLI::Option*>;
+using ShownCommands = std::vector<const CLI::App*>;
 
 std::string replace_all(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
@@ -20,16 +21,16 @@ std::string replace_all(std::string text, const std::string& from, const std::st
 }
 
 // Those with a group; "" is the group of what --help does not show.
-Apps shown_commands(const CLI::App& app) {
-  Apps out;
+ShownCommands shown_commands(const CLI::App& app) {
+  ShownCommands out;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (!command->get_group().empty()) out.push_back(command);
   }
   return out;
 }
 
-Options shown_options(const CLI::App& app, bool positional) {
-  Options out;
+ShownOptions shown_options(const CLI::App& app, bool positional) {
+  ShownOptions out;
   for (const CLI::Option* option : app.get_options([](const CLI::Option*) { return true; })) {
     if (!option->get_group().empty() && option->get_positional() == positional) {
       out.push_back(option);
@@ -57,12 +58,6 @@ std::vector<std::string> choices_of(const CLI::Option& option) {
   if (begin == std::string::npos || end == std::string::npos) return out;
   std::istringstream words(type.substr(begin + 1, end - begin - 1));
   for (std::string word; std::getline(words, word, ',');) out.push_back(word);
-  return out;
-}
-
-std::string joined_words(const std::vector<std::string>& words, const std::string& between) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
   return out;
 }
 
@@ -119,8 +114,8 @@ std::vector<std::string> all_flags(const CLI::App& app) {
 }
 
 // Those of the program that stand behind any command, which has its own --help.
-Options common_options(const CLI::App& app) {
-  Options out = shown_options(app, false);
+ShownOptions common_options(const CLI::App& app) {
+  ShownOptions out = shown_options(app, false);
   std::erase_if(out, [&](const CLI::Option* option) {
     return option == app.get_help_ptr() || option == app.get_version_ptr();
   });
@@ -250,7 +245,7 @@ std::string zsh_completion(const CLI::App& app) {
       options += zsh_option(*option);
     }
     if (&command != &app) options += common;
-    const Apps next = shown_commands(command);
+    const ShownCommands next = shown_commands(command);
     out += name + "() {\n";
     if (next.empty()) {
       out += "  _arguments \\\n" + options + "    '*:file:_files'\n}\n\n";

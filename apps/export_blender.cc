@@ -83,8 +83,7 @@ std::string blender_file(const ReadResult& result, const std::vector<MeasuredMat
     out += python_comments(value_notes(m)) + python_comments(colour_notes(fit, m));
     out += fmt::format(
         "    {{\"name\": {}, \"base_color\": [{}], \"radius_mm\": [{}], \"ior\": {}}},\n",
-        python_text(m.name), number_list(colour), number_list(radius_mm),
-        csv_number(m.eta_int_over_ext));
+        python_text(m.name), rgb_list(colour), rgb_list(radius_mm), csv_number(m.eta_int_over_ext));
   }
   return out + "]\n" + kScript;
 }

@@ -56,9 +56,9 @@ std::string openpbr_file(const ReadResult& result, const std::vector<MeasuredMat
     body += input("specular_roughness", "float", "0");
     body += input("specular_ior", "float", csv_number(m.eta_int_over_ext));
     body += input("subsurface_weight", "float", "1");
-    body += input("subsurface_color", "color3", number_list(colour));
+    body += input("subsurface_color", "color3", rgb_list(colour));
     body += input("subsurface_radius", "float", csv_number(largest));
-    body += input("subsurface_radius_scale", "color3", number_list(radius));
+    body += input("subsurface_radius_scale", "color3", rgb_list(radius));
     body += input("subsurface_scatter_anisotropy", "float", csv_number(options.g));
     body += "  </open_pbr_surface>\n" + material_node(ids[i], m.name);
   }
@@ -88,8 +88,8 @@ std::string materialx_file(const ReadResult& result, const std::vector<MeasuredM
     body += input("scatter_mode", "string", "RT");
     body += "  </dielectric_bsdf>\n";
     body += "  <anisotropic_vdf name=\"" + ids[i] + "_volume\" type=\"VDF\">\n";
-    body += input("absorption", "vector3", number_list(medium.sigma_a));
-    body += input("scattering", "vector3", number_list(medium.sigma_s));
+    body += input("absorption", "vector3", rgb_list(medium.sigma_a));
+    body += input("scattering", "vector3", rgb_list(medium.sigma_s));
     body += input("anisotropy", "float", csv_number(options.g));
     body += "  </anisotropic_vdf>\n";
     body += "  <layer name=\"" + ids[i] + "_body\" type=\"BSDF\">\n";

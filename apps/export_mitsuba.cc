@@ -29,8 +29,8 @@ std::string mitsuba_file(const ReadResult& result, const std::vector<MeasuredMat
     for (std::size_t c = 0; c < 3; ++c) relative[c] = medium.sigma_t[c] / medium.largest_sigma_t;
     out += xml_comments(value_notes(m), "  ");
     out += "  <medium type=\"homogeneous\" id=\"" + ids[i] + "\">\n";
-    out += xml_value("    ", "rgb", "sigma_t", "", number_list(relative));
-    out += xml_value("    ", "rgb", "albedo", "", number_list(medium.albedo));
+    out += xml_value("    ", "rgb", "sigma_t", "", rgb_list(relative));
+    out += xml_value("    ", "rgb", "albedo", "", rgb_list(medium.albedo));
     out += xml_value("    ", "float", "scale", "",
                      csv_number(medium.largest_sigma_t * options.mm_per_unit));
     if (options.g == 0.0) {

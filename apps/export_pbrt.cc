@@ -33,7 +33,7 @@ std::string pbrt_file(const ReadResult& result, const std::vector<MeasuredMateri
     const std::string coefficients = fmt::format(
         "\n  \"rgb sigma_a\" [ {} ]\n  \"rgb sigma_s\" [ {} ]\n  \"float g\" [ {} ] "
         "\"float scale\" [ {} ]",
-        number_list(medium.sigma_a, " "), number_list(medium.sigma_s, " "), csv_number(options.g),
+        rgb_list(medium.sigma_a, " "), rgb_list(medium.sigma_s, " "), csv_number(options.g),
         csv_number(options.mm_per_unit));
     const std::string eta = csv_number(m.eta_int_over_ext);
     out += "\n" + pbrt_comments(value_notes(m));

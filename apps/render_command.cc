@@ -8,6 +8,7 @@
 #include "apps/commands.h"
 #include "apps/csv.h"
 #include "apps/identifiers.h"
+#include "apps/joined_words.h"
 #include "apps/render.h"
 #include "apps/render_pictures.h"
 #include "apps/result_json.h"
@@ -17,12 +18,6 @@
 namespace scattermeter::apps {
 namespace {
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string out;
-  for (const std::string& w : words) out += (out.empty() ? "" : between) + w;
-  return out;
-}
-
 // An EXR and a PNG of each picture, the sheet, and the table that says what they are.
 void write_rendering(const Rendering& rendering, const std::vector<MeasuredMaterial>& materials,
                      const std::string& model, const std::string& folder) {
@@ -30,8 +25,8 @@ void write_rendering(const Rendering& rendering, const std::vector<MeasuredMater
   std::vector<std::string> names;
   for (const RenderedPicture& p : rendering.pictures) {
     const RenderScene& scene = rendering.scenes[p.scene_idx];
-    names.push_back(
-        joined({scene.object, joined(scene.lights, "_"), materials[p.material_idx].name}, "_"));
+    names.push_back(joined_words(
+        {scene.object, joined_words(scene.lights, "_"), materials[p.material_idx].name}, "_"));
   }
   names = identifiers(names);
   Csv csv({"picture", "object", "lights", "material", "model", "eta", "sigma_s_prime_per_mm",
@@ -57,9 +52,9 @@ void write_rendering(const Rendering& rendering, const std::vector<MeasuredMater
       sigma_s_prime[c] = m.rgb[c].sigma_s_prime_per_mm.value;
       sigma_a[c] = m.rgb[c].sigma_a_per_mm.value;
     }
-    csv.add_row({names[i], scene.object, joined(scene.lights, " "), m.name, model,
-                 csv_number(m.eta_int_over_ext), number_list(sigma_s_prime, " "),
-                 number_list(sigma_a, " "), std::to_string(r.x0), std::to_string(r.y0),
+    csv.add_row({names[i], scene.object, joined_words(scene.lights, " "), m.name, model,
+                 csv_number(m.eta_int_over_ext), rgb_list(sigma_s_prime, " "),
+                 rgb_list(sigma_a, " "), std::to_string(r.x0), std::to_string(r.y0),
                  std::to_string(r.width), std::to_string(r.height), unit, csv_number(white), tone,
                  model == "transport" ? csv_number(p.monte_carlo_std) : ""});
   }

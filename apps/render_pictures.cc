@@ -9,10 +9,10 @@ namespace {
 constexpr int kGapPx = 8;
 constexpr int kLetterPx = 12;
 constexpr int kLinePx = 22;
-constexpr PictureColour kPaper = {236, 236, 236};
+constexpr PictureColour kSheetColour = {236, 236, 236};
 
 // Mean of the block of pixels that a smaller picture shows in one; linear light.
-ColourRadiance reduced(const ColourRadiance& from, int step) {
+ColourRadiance shrunk(const ColourRadiance& from, int step) {
   if (step <= 1) return from;
   ColourRadiance out;
   out.width = (from.width + step - 1) / step;
@@ -43,7 +43,7 @@ void paste(const Picture& from, Picture& to, int x0, int y0) {
 }
 
 // Cut where it would reach into the next column.
-void label(Picture& sheet, std::string text, int x, int y, int width_px) {
+void draw_label(Picture& sheet, std::string text, int x, int y, int width_px) {
   while (!text.empty() && text_width(text, kLetterPx) > width_px) text.pop_back();
   draw_text(sheet, text, x, y, kLetterPx);
 }
@@ -95,13 +95,13 @@ Picture contact_sheet(const Rendering& rendering, const std::vector<std::string>
     tops.push_back(y);
     y += h + kLinePx + kGapPx;
   }
-  Picture sheet(kGapPx + columns * (cell + kGapPx), y, kPaper);
+  Picture sheet(kGapPx + columns * (cell + kGapPx), y, kSheetColour);
   for (int c = 0; c < columns; ++c) {
-    label(sheet, materials[static_cast<std::size_t>(c)], kGapPx + c * (cell + kGapPx), kLinePx,
-          cell);
+    draw_label(sheet, materials[static_cast<std::size_t>(c)], kGapPx + c * (cell + kGapPx), kLinePx,
+               cell);
   }
   for (const RenderedPicture& p : rendering.pictures) {
-    const Picture picture = srgb_picture(reduced(p.radiance, step), white);
+    const Picture picture = srgb_picture(shrunk(p.radiance, step), white);
     const int left = kGapPx + static_cast<int>(p.material_idx) * (cell + kGapPx);
     paste(Picture(cell, heights[p.scene_idx], {0, 0, 0}), sheet, left, tops[p.scene_idx]);
     paste(picture, sheet, left + (cell - picture.width_px) / 2,
@@ -112,7 +112,8 @@ Picture contact_sheet(const Rendering& rendering, const std::vector<std::string>
     for (const std::string& light : rendering.scenes[s].lights) {
       text += (text.ends_with(", ") ? "" : " + ") + light;
     }
-    label(sheet, text, kGapPx, tops[s] + heights[s] + kLinePx - 5, sheet.width_px - 2 * kGapPx);
+    draw_label(sheet, text, kGapPx, tops[s] + heights[s] + kLinePx - 5,
+               sheet.width_px - 2 * kGapPx);
   }
   return sheet;
 }

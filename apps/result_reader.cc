@@ -10,19 +10,20 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/joined_words.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
 constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
 
 // A value with the way to it, so that what is wrong can be named.
 class JsonField {
  public:
-  JsonField(const Json& json, const std::string& file, std::string path)
+  JsonField(const ParsedJson& json, const std::string& file, std::string path)
       : json_(json), file_(file), path_(std::move(path)) {}
 
   JsonField at(const std::string& key) const {
@@ -63,13 +64,13 @@ class JsonField {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    std::string got = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string got = json_.dump(-1, ' ', false, ParsedJson::error_handler_t::replace);
     if (got.size() > 60) got = got.substr(0, 60) + "...";
     throw InputError(file_ + ": " + path_, what + ", got " + got);
   }
 
  private:
-  const Json& json_;
+  const ParsedJson& json_;
   const std::string& file_;
   std::string path_;
 };
@@ -115,10 +116,10 @@ ReadResult read_result(const std::string& path) {
   std::stringstream text;
   text << in.rdbuf();
   if (!in || !text) throw InputError(path, "cannot be read");
-  Json json;
+  ParsedJson json;
   try {
-    json = Json::parse(text.str());
-  } catch (const Json::exception& e) {
+    json = ParsedJson::parse(text.str());
+  } catch (const ParsedJson::exception& e) {
     throw InputError(path, std::string("is no JSON: ") + e.what());
   }
   const JsonField root(json, path, "");
@@ -146,9 +147,8 @@ std::vector<MeasuredMaterial> materials_of(const ReadResult& result,
   }
   for (const std::string& name : names) {
     if (std::find(all.begin(), all.end(), name) != all.end()) continue;
-    std::string known;
-    for (const std::string& a : all) known += (known.empty() ? "" : ", ") + a;
-    throw InputError(result.path, "holds no material " + name + ", only " + known);
+    throw InputError(result.path,
+                     "holds no material " + name + ", only " + joined_words(all, ", "));
   }
   std::vector<MeasuredMaterial> out;
   for (const std::string& name : all) {

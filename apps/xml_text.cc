@@ -43,7 +43,7 @@ std::string xml_value(const std::string& indent, const std::string& element,
   return out + " value=\"" + html_text(value).markup + "\"/>\n";
 }
 
-std::string number_list(const std::array<double, 3>& values, const std::string& separator) {
+std::string rgb_list(const std::array<double, 3>& values, const std::string& separator) {
   return csv_number(values[0]) + separator + csv_number(values[1]) + separator +
          csv_number(values[2]);
 }

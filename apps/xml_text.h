@@ -16,6 +16,6 @@ std::string xml_value(const std::string& indent, const std::string& element,
                       const std::string& name, const std::string& type, const std::string& value);
 
 // "a, b, c", each the shortest text that reads back as the same number.
-std::string number_list(const std::array<double, 3>& values, const std::string& separator = ", ");
+std::string rgb_list(const std::array<double, 3>& values, const std::string& separator = ", ");
 
 }  // namespace scattermeter::apps
