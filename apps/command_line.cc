@@ -36,7 +36,8 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
       "scattermeter");
   app.require_subcommand(1);
   app.fallthrough();
-  app.set_version_flag("--version", std::string("scattermeter ") + kVersion);
+  app.set_version_flag(
+      "--version", std::string("scattermeter ") + kVersion + "\nbuilt with " + kLibraryVersions);
   app.add_flag("--quiet,-q", context.quiet, "print nothing but errors");
   app.add_option("--threads", context.threads,
                  "number of threads (default: all cores); the answer does not depend on it")
@@ -45,7 +46,10 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
   add_check_command(app, context);
   add_calibrate_command(app, context);
   add_simulate_command(app, context);
+  add_render_command(app, context);
+  add_export_command(app, context);
   add_bench_command(app, context);
+  add_pages_command(app, context);
   // CLI11 takes the words from last to first.
   std::vector<std::string> words(arguments.rbegin(), arguments.rend());
   try {

@@ -5,8 +5,14 @@
 #include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 namespace scattermeter::apps {
+namespace {
+
+constexpr int kLetters = cv::FONT_HERSHEY_SIMPLEX;
+
+}  // namespace
 
 Picture::Picture(int width, int height, PictureColour colour)
     : width_px(width),
@@ -41,6 +47,18 @@ Picture side_by_side(const std::vector<Picture>& pictures, int gap_px) {
     x0 += p.width_px + gap_px;
   }
   return out;
+}
+
+void draw_text(Picture& picture, const std::string& text, int x, int y, int height_px) {
+  cv::Mat rgb(picture.height_px, picture.width_px, CV_8UC3, picture.rgb.data());
+  cv::putText(rgb, text, {x, y}, kLetters, cv::getFontScaleFromHeight(kLetters, height_px, 1),
+              {30, 30, 30}, 1, cv::LINE_AA);
+}
+
+int text_width(const std::string& text, int height_px) {
+  int baseline = 0;
+  const double scale = cv::getFontScaleFromHeight(kLetters, height_px, 1);
+  return cv::getTextSize(text, kLetters, scale, 1, &baseline).width;
 }
 
 std::string png_bytes(const Picture& picture) {

@@ -23,6 +23,12 @@ struct Picture {
 // One beside the other on a common background, `gap_px` apart.
 Picture side_by_side(const std::vector<Picture>& pictures, int gap_px);
 
+// Dark letters whose capitals are `height_px` high, their baseline at y and their first at x.
+// ASCII; anything else appears as question marks.
+void draw_text(Picture& picture, const std::string& text, int x, int y, int height_px);
+// Width of that text, px.
+int text_width(const std::string& text, int height_px);
+
 // A PNG file's bytes. Throws std::invalid_argument for an empty picture.
 std::string png_bytes(const Picture& picture);
 

@@ -148,9 +148,31 @@ SurfaceField ShotRenderer::volume_field(const RigShot& shot, Stage& s) {
   return field;
 }
 
+SurfaceField ShotRenderer::light_from(const RigShot& shot, Stage& s) {
+  return transport_.volume ? volume_field(shot, s) : field(shot, s);
+}
+
+ColourRadiance ShotRenderer::render_colour(const RigShot& shot) {
+  Stage& s = stage(shot.object);
+  const SurfaceField light = light_from(shot, s);
+  const ShadeMap& pixels = *s.pixels;
+  ColourRadiance out{pixels.x0(), pixels.y0(), pixels.width(), pixels.height(), {}};
+  const auto row = 3U * static_cast<std::size_t>(out.width);
+  out.rgb.resize(row * static_cast<std::size_t>(out.height));
+  tbb::parallel_for(0, out.height, [&](int y) {
+    for (int x = 0; x < out.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        out.rgb[static_cast<std::size_t>(y) * row + static_cast<std::size_t>(3 * x + c)] =
+            static_cast<float>(pixels.radiance(x, y, light, c));
+      }
+    }
+  });
+  return out;
+}
+
 RadiancePicture ShotRenderer::render(const RigShot& shot) {
   Stage& s = stage(shot.object);
-  const SurfaceField light = transport_.volume ? volume_field(shot, s) : field(shot, s);
+  const SurfaceField light = light_from(shot, s);
   const double eta = scenes_.at(shot.object).rig->eta_int_over_ext;
   const ShadeMap& pixels = *s.pixels;
   RadiancePicture out;

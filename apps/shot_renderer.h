@@ -34,6 +34,12 @@ struct RadiancePicture {
   Eigen::Array3d brightest = Eigen::Array3d::Zero();
 };
 
+// All three channels of each pixel, W/(mm^2 sr), R G B; the object alone on black.
+struct ColourRadiance {
+  int x0 = 0, y0 = 0, width = 0, height = 0;  // px, in the frame
+  std::vector<float> rgb;                     // row by row
+};
+
 // How light moves in the material.
 struct RenderTransport {
   bool volume = false;  // the volumetric Monte Carlo (core/path_tracer.h); else the dipole
@@ -55,6 +61,8 @@ class ShotRenderer {
   // Throws InputError when the object is out of view. The rectangle is the object's; with a board
   // in the shots, the frame.
   RadiancePicture render(const RigShot& shot);
+  // The same light on the object's rectangle, whatever filter a pixel has and without a board.
+  ColourRadiance render_colour(const RigShot& shot);
 
   // Monte Carlo error of the shots rendered so far: the largest, over shots, lights and channels,
   // of the median relative deviation of a patch's light. 0 for the dipole.
@@ -76,6 +84,7 @@ class ShotRenderer {
   Stage& stage(const std::string& object);
   std::vector<IncidentLight> light_on(const RigLight& light, const ObjectScene& scene,
                                       const PatchMesh& patches) const;
+  SurfaceField light_from(const RigShot& shot, Stage& s);
   SurfaceField field(const RigShot& shot, Stage& s) const;
   SurfaceField volume_field(const RigShot& shot, Stage& s);
 

@@ -10,6 +10,8 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 
 #include "core/input_error.h"
 
@@ -35,6 +37,24 @@ class BytesStream : public Imf::IStream {
 
  private:
   const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+class StringStream : public Imf::OStream {
+ public:
+  StringStream() : Imf::OStream("memory") {}
+  void write(const char c[], int n) override {
+    const auto count = static_cast<std::size_t>(n);
+    if (bytes_.size() < at_ + count) bytes_.resize(at_ + count);
+    std::memcpy(bytes_.data() + at_, c, count);
+    at_ += count;
+  }
+  std::uint64_t tellp() override { return at_; }
+  void seekp(std::uint64_t pos) override { at_ = pos; }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
   std::size_t at_ = 0;
 };
 
@@ -75,6 +95,37 @@ ProbeImage decode(const std::string& path, const std::string& bytes, const Probe
 }
 
 }  // namespace
+
+std::string encode_exr(const ProbeImage& image, const std::map<std::string, std::string>& notes) {
+  const auto pixels =
+      static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px);
+  if (image.width_px < 1 || image.height_px < 1 || image.radiance.size() != 3 * pixels) {
+    throw std::invalid_argument("encode_exr: " + std::to_string(image.radiance.size()) +
+                                " values for " + std::to_string(image.width_px) + " x " +
+                                std::to_string(image.height_px));
+  }
+  Imf::Header header(image.width_px, image.height_px);
+  header.compression() = Imf::ZIP_COMPRESSION;
+  for (const auto& [name, text] : notes) header.insert(name, Imf::StringAttribute(text));
+  // The library's slices are not const, though nothing is written into them here.
+  std::vector<float> values = image.radiance;
+  const std::size_t pixel_bytes = 3 * sizeof(float);
+  const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(image.width_px);
+  Imf::FrameBuffer frame;
+  const std::array<const char*, 3> names = {"R", "G", "B"};
+  for (std::size_t c = 0; c < 3; ++c) {
+    header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
+    frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, values.data() + c, header.dataWindow(),
+                                            pixel_bytes, row_bytes));
+  }
+  StringStream stream;
+  {
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height_px);
+  }  // closing it writes the table of lines
+  return stream.bytes();
+}
 
 bool is_exr(const std::string& bytes) { return bytes.starts_with("\x76\x2f\x31\x01"); }
 

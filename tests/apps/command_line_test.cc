@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 TEST(CommandLine, HelpNamesEveryCommand) {
   const Answer r = run({"--help"});
   EXPECT_EQ(r.status, 0);
-  for (const char* word :
-       {"measure", "check", "simulate", "bench", "--threads", "--quiet", "--version"}) {
+  for (const char* word : {"measure", "check", "simulate", "render", "export", "bench", "--threads",
+                           "--quiet", "--version"}) {
     EXPECT_THAT(r.out, HasSubstr(word));
   }
   for (const char* command : {"measure", "check", "simulate"}) {
@@ -37,6 +37,10 @@ TEST(CommandLine, Version) {
   const Answer r = run({"--version"});
   EXPECT_EQ(r.status, 0);
   EXPECT_THAT(r.out, HasSubstr("scattermeter 0."));
+  for (const char* library : {"Ceres 2", "CLI11 2", "Eigen 3", "Embree 3", "LibRaw 0", "libtiff 4",
+                              "nlohmann-json 3", "oneTBB 2", "OpenCV 4", "yaml-cpp 0"}) {
+    EXPECT_THAT(r.out, HasSubstr(library));
+  }
 }
 
 TEST(CommandLine, QuietPrintsNothing) {

@@ -45,6 +45,19 @@ TEST(ExrFile, ReadsFloatExactlyAndHalfToItsDigits) {
   }
 }
 
+TEST(ExrFile, WritesWhatItReads) {
+  const ProbeImage image = ramp(37, 21);
+  const std::string bytes = encode_exr(image, {{"unit", "W/(mm^2 sr)"}});
+  ASSERT_TRUE(is_exr(bytes));
+  EXPECT_THAT(bytes, HasSubstr("W/(mm^2 sr)"));
+  const ProbeImage read = decode_exr("p.exr", bytes, {});
+  EXPECT_EQ(read.width_px, 37);
+  EXPECT_EQ(read.height_px, 21);
+  EXPECT_EQ(read.radiance, image.radiance);
+  EXPECT_THROW(encode_exr({2, 2, {1.0F}}, {}), std::invalid_argument);
+  EXPECT_THROW(encode_exr({0, 0, {}}, {}), std::invalid_argument);
+}
+
 TEST(ExrFile, RefusesTruncationAnywhere) {
   const std::string bytes = exr_bytes(ramp(23, 40), ExrType::kHalf);
   for (std::size_t n = 4; n < bytes.size(); n += 7) {

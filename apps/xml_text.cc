@@ -1,0 +1,51 @@
+#include "apps/xml_text.h"
+
+#include <utility>
+
+#include "apps/csv.h"
+#include "apps/html_page.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// As html_text() without its entities, which a comment does not know: UTF-8 on one line.
+std::string valid_text(const std::string& line) {
+  std::string text = html_text(line).markup;
+  for (const auto& [entity, letter] :
+       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&#39;", "'"}, {"&amp;", "&"}}) {
+    const std::string found = entity;
+    for (std::size_t at = 0; (at = text.find(found, at)) != std::string::npos; ++at) {
+      text.replace(at, found.size(), letter);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string xml_comments(const std::vector<std::string>& lines, const std::string& indent) {
+  std::string out;
+  for (const std::string& line : lines) {
+    std::string text;
+    for (char c : valid_text(line)) {
+      if (c == '-' && !text.empty() && text.back() == '-') text += ' ';
+      text += c;
+    }
+    out += indent + "<!-- " + text + " -->\n";
+  }
+  return out;
+}
+
+std::string xml_value(const std::string& indent, const std::string& element,
+                      const std::string& name, const std::string& type, const std::string& value) {
+  std::string out = indent + "<" + element + " name=\"" + html_text(name).markup + "\"";
+  if (!type.empty()) out += " type=\"" + type + "\"";
+  return out + " value=\"" + html_text(value).markup + "\"/>\n";
+}
+
+std::string rgb_list(const std::array<double, 3>& values, const std::string& separator) {
+  return csv_number(values[0]) + separator + csv_number(values[1]) + separator +
+         csv_number(values[2]);
+}
+
+}  // namespace scattermeter::apps
