@@ -77,10 +77,8 @@ void add_render_command(CLI::App& app, CommandContext& context) {
       "Show measured materials on the objects of a rig, under its lights.\n"
       "Every object and set of lights that the rig's shots name is rendered with every material of "
       "the result. OUT gets an OpenEXR (linear radiance, W/(mm^2 sr)) and a PNG (sRGB, one "
-      "exposure "
-      "for all) of each, sheet.png with all of them side by side, and pictures.csv, which says "
-      "what "
-      "each is and its exposure.\n"
+      "exposure for all) of each, sheet.png with all of them side by side, and pictures.csv, which "
+      "says what each is and its exposure.\n"
       "Exit status: 0 all rendered, 1 a refused material was left out, 2 bad input.");
   command
       ->add_option("RIG", options->rig,
