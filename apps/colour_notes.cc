@@ -24,7 +24,7 @@ std::vector<std::string> colour_notes(const ColourFit& fit, const MeasuredMateri
     const double read_back = (1.0 - fit.albedo_of(colour)) * m.sigma_t_prime_per_mm();
     notes.push_back(fmt::format(
         "{}: albedo {:.8f}, colour {:.6f}; an index-matched half-space sends back {:.6f} (error of "
-        "the fit {:+.4f}, which moves the colour and not the material: sigma_a as the renderer "
+        "the fit {:+.2g}, which moves the colour and not the material: sigma_a as the renderer "
         "reads "
         "it is {:.6g} per mm)",
         "RGB"[c], albedo[c], colour, half_space_albedo(albedo[c]), colour_error(fit, albedo[c]),

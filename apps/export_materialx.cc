@@ -17,10 +17,11 @@ std::string connection(const std::string& name, const std::string& type, const s
   return "    <input name=\"" + name + "\" type=\"" + type + "\" nodename=\"" + node + "\"/>\n";
 }
 
+// The colours are linear; lin_rec709 keeps a renderer from taking them for anything else.
 std::string document(const std::string& version, const std::string& comments,
                      const std::string& body) {
   return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n" + comments + "<materialx version=\"" +
-         version + "\">\n" + body + "</materialx>\n";
+         version + "\" colorspace=\"lin_rec709\">\n" + body + "</materialx>\n";
 }
 
 // The name that the user gave stands in the attribute that MaterialX has for it.

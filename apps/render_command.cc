@@ -67,7 +67,7 @@ void write_rendering(const Rendering& rendering, const std::vector<MeasuredMater
 
 void add_render_command(CLI::App& app, CommandContext& context) {
   struct Options {
-    std::string rig, result, out, model = "dipole";
+    std::string rig, result, out = "render", model = "dipole";
     std::vector<std::string> materials;
     RenderOptions render;
   };
@@ -77,10 +77,8 @@ void add_render_command(CLI::App& app, CommandContext& context) {
       "Show measured materials on the objects of a rig, under its lights.\n"
       "Every object and set of lights that the rig's shots name is rendered with every material of "
       "the result. OUT gets an OpenEXR (linear radiance, W/(mm^2 sr)) and a PNG (sRGB, one "
-      "exposure "
-      "for all) of each, sheet.png with all of them side by side, and pictures.csv, which says "
-      "what "
-      "each is and its exposure.\n"
+      "exposure for all) of each, sheet.png with all of them side by side, and pictures.csv, which "
+      "says what each is and its exposure.\n"
       "Exit status: 0 all rendered, 1 a refused material was left out, 2 bad input.");
   command
       ->add_option("RIG", options->rig,
@@ -88,7 +86,7 @@ void add_render_command(CLI::App& app, CommandContext& context) {
       ->required();
   command->add_option("--result", options->result, "result.json of `measure`")->required();
   command->add_option("--out", options->out, "folder for the pictures; made where missing")
-      ->required();
+      ->capture_default_str();
   command
       ->add_option("--model", options->model,
                    "dipole: fast, does not know the body's shape; transport: volume Monte Carlo in "
@@ -108,8 +106,10 @@ void add_render_command(CLI::App& app, CommandContext& context) {
                    "pixels across the frame (default: the rig's)")
       ->check(CLI::Range(16, 100'000));
   command
-      ->add_option("--paths", options->render.transport.paths,
-                   "transport: light paths for each light and channel of a picture")
+      ->add_option(
+          "--paths", options->render.transport.paths,
+          "transport: light paths for each light and channel of a picture; the noise falls with "
+          "their square root")
       ->check(CLI::Range(std::int64_t{64}, std::int64_t{1'000'000'000'000}))
       ->capture_default_str();
   command->add_option("--seed", options->render.transport.seed, "transport: of the Monte Carlo")
