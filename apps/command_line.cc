@@ -45,6 +45,7 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
   add_check_command(app, context);
   add_calibrate_command(app, context);
   add_simulate_command(app, context);
+  add_plan_command(app, context);
   add_bench_command(app, context);
   // CLI11 takes the words from last to first.
   std::vector<std::string> words(arguments.rbegin(), arguments.rend());

@@ -67,7 +67,8 @@ Measurement Instrument::measure(const ShotSource& source) {
   return out;
 }
 
-Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
+Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch,
+                                std::vector<OpenedShot>* opened) {
   Measurement out;
   out.model = options_.model;
   for (const auto& [name, scene] : scenes_) {
@@ -110,6 +111,7 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
   } else {
     estimate_dipole(estimation);
   }
+  if (opened != nullptr) *opened = shots;
   return out;
 }
 

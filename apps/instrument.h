@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "apps/estimation_task.h"
 #include "apps/measure.h"
@@ -30,7 +31,10 @@ class Instrument {
   // caller's. Throws InputError as measure() does. Not for several threads at once (it uses all of
   // them).
   Measurement measure(const ShotSource& source);
-  Measurement measure(const ShotSource& source, Stopwatch& watch);  // timing goes there only
+  // Timing goes to `watch` only. opened: if given, the shots that were measured, which refer to the
+  // rig and to this instrument.
+  Measurement measure(const ShotSource& source, Stopwatch& watch,
+                      std::vector<OpenedShot>* opened = nullptr);
 
  private:
   const Rig& rig_;

@@ -73,7 +73,7 @@ TEST(Layering, EachForeignLibraryHasItsDoor) {
       {"embree", "core/ray_scene\\.cc"},
       {"ceres/", "core/dipole_solver\\.cc|calib/[a-z_]+\\.cc"},
       {"yaml-cpp/", "apps/(yaml_field\\.(h|cc)|[a-z]+_calibration_file\\.cc)"},
-      {"nlohmann/", "apps/(check|result)_json\\.cc"},
+      {"nlohmann/", "apps/(check|plan|result)_json\\.cc"},
       {"CLI/", "apps/commands\\.h"},
       {"openssl/", "apps/(base64|file_digest)\\.cc"},
       {"fmt/", "apps/[a-z_]+\\.cc"},
