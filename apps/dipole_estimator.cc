@@ -89,6 +89,7 @@ class DipoleEstimator {
         knots_(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm()),
         work_(e.tasks.size()) {
     fit_.scale = scale_prior(e.rig);
+    fit_.without_noise = e.without_noise;
   }
 
   // Without nuisances, to know the material that rows are weighed for and that the image's

@@ -80,6 +80,7 @@ struct Estimation {
   const MeasureOptions& options;
   Stopwatch& watch;
   std::vector<ChannelResult>& results;  // one per task; those refused already are left alone
+  bool without_noise = false;           // the shots show what is expected (dipole only)
 };
 
 // Runs `work` on every task whose result is not refused yet, in parallel, under a progress line.

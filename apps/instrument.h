@@ -31,12 +31,16 @@ class Instrument {
   // caller's. Throws InputError as measure() does. Not for several threads at once (it uses all of
   // them).
   Measurement measure(const ShotSource& source);
-  // Timing goes to `watch` only. opened: if given, the shots that were measured, which refer to the
-  // rig and to this instrument.
-  Measurement measure(const ShotSource& source, Stopwatch& watch,
-                      std::vector<OpenedShot>* opened = nullptr);
+  Measurement measure(const ShotSource& source, Stopwatch& watch);  // timing goes there only
+  // Measures shots that show what is expected, without the noise that they count with, by the
+  // dipole: what is stated is to be expected of shots with that noise. opened: these shots, which
+  // refer to the rig and to this instrument.
+  Measurement forecast(const ShotSource& source, std::vector<OpenedShot>& opened);
 
  private:
+  Measurement measure(const ShotSource& source, Stopwatch& watch, bool without_noise,
+                      std::vector<OpenedShot>& shots);
+
   const Rig& rig_;
   const ObjectScenes& scenes_;
   MeasureOptions options_;

@@ -248,10 +248,9 @@ Plan plan(const Rig& given, const ObjectScenes& scenes, const PlanOptions& optio
     const FrameSource frames = [&](std::size_t i, std::size_t e) {
       return shots.expected_frame(i, e);
     };
-    std::vector<std::pair<std::string, double>> unused;
-    Stopwatch inner(unused);
-    const Measurement m = instrument.measure(shots_from(rig, all_shots(rig), frames), inner,
-                                             k == 0 ? &opened : nullptr);
+    std::vector<OpenedShot> of_corner;
+    const Measurement m =
+        instrument.forecast(shots_from(rig, all_shots(rig), frames), k == 0 ? opened : of_corner);
     out.patch_size_mm = m.patch_size_mm;
     if (k == 0) out.channels.resize(m.results.size());
     for (std::size_t r = 0; r < m.results.size(); ++r) {
