@@ -88,6 +88,7 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
       ->check(CLI::Range(240, 3872));
   add_noise_bench(*bench, context, common);
   add_rig_bench(*bench, context, common);
+  add_plan_bench(*bench, context, common);
   add_paper_bench(*bench, context, common);
   add_patches_bench(*bench, context, common);
   add_materials_bench(*bench, context, common);

@@ -37,6 +37,7 @@ class BenchFiles {
 using SharedBenchOptions = std::shared_ptr<BenchOptions>;
 void add_noise_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_rig_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
+void add_plan_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_paper_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_patches_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_transport_bench(CLI::App& bench, CommandContext& context,

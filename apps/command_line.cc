@@ -48,6 +48,7 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
   add_simulate_command(app, context);
   add_render_command(app, context);
   add_export_command(app, context);
+  add_plan_command(app, context);
   add_bench_command(app, context);
   add_pages_command(app, context);
   // CLI11 takes the words from last to first.

@@ -6,13 +6,12 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "apps/dipole_system.h"
 #include "apps/estimation_task.h"
 #include "apps/nuisances.h"
 #include "apps/progress.h"
-#include "core/dipole_curve.h"
 #include "core/dipole_fit.h"
 #include "core/dipole_misfit.h"
-#include "core/numerics.h"
 #include "core/row_selection.h"
 #include "core/shot_agreement.h"
 #include "core/smooth_reflectance.h"
@@ -90,6 +89,7 @@ class DipoleEstimator {
         knots_(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm()),
         work_(e.tasks.size()) {
     fit_.scale = scale_prior(e.rig);
+    fit_.without_noise = e.without_noise;
   }
 
   // Without nuisances, to know the material that rows are weighed for and that the image's
@@ -188,16 +188,10 @@ class DipoleEstimator {
   // The system with all that the rig knows only to a standard deviation, and with the errors of the
   // method.
   DenseSystem full_system(std::size_t i, const Estimate& first) const {
-    const Task& task = e_.tasks[i];
-    const double sigma_t = first.sigma_s_prime_per_mm.value + first.sigma_a_per_mm.value;
-    DenseSystem system = system_of(e_.rig, task, work_[i].rows, e_.weights, 1.0 / sigma_t);
-    const DipoleCurve curve =
-        dipole_curve(knots_, std::log(sigma_t), first.sigma_a_per_mm.value / sigma_t, task.eta);
-    add_nuisances(e_.rig, task.shots, work_[i].rows, task.channel, sensitivities_.of_task[i],
-                  system);
-    add_numerics(knots_, first.scale.value * curve.r, patch_size_mm(task),
-                 {first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, task.eta}, system);
-    return system;
+    return dipole_system(
+        e_.rig, e_.tasks[i], work_[i].rows, e_.weights, knots_,
+        {{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0}, first.scale.value},
+        sensitivities_.of_task[i]);
   }
 
   bool leave_outliers_out(const DenseSystem& system, const DipoleFit& fit, TaskRows& rows) const {

@@ -123,14 +123,15 @@ double patch_size_mm(const Task& task) {
 }
 
 DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,
-                      const Weights& weights, double mean_free_path_mm) {
+                      const Weights& weights, double mean_free_path_mm,
+                      std::optional<double> patch_mm) {
   std::vector<LinearShot> shots;
   for (std::size_t i = 0; i < task.shots.size(); ++i) {
     const OpenedShot* shot = task.shots[i];
     LinearShot linear{{}, &rows[i], kFirstNumericalStd};
     if (mean_free_path_mm > 0.0) {
       linear.numerical_relative_std =
-          row_numerics(shot->seen->patches->patch_size_mm(), mean_free_path_mm);
+          row_numerics(patch_mm.value_or(shot->seen->patches->patch_size_mm()), mean_free_path_mm);
     }
     for (const std::string& light : shot->rig->lights) {
       const std::size_t own = rig.light(light).colours_differ() ? task.channel : 0;

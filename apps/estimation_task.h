@@ -51,9 +51,11 @@ TaskRows rows_of(const Rig& rig, const Task& task);
 double patch_size_mm(const Task& task);
 
 // The used rows under all their lights. `mean_free_path_mm`: of the material, for the error of
-// patches that are not small against it; 0: not known yet.
+// patches that are not small against it; 0: not known yet. patch_mm: of the patches that this error
+// is stated for, where they are others.
 DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,
-                      const Weights& weights, double mean_free_path_mm);
+                      const Weights& weights, double mean_free_path_mm,
+                      std::optional<double> patch_mm = std::nullopt);
 
 // Counts of rows by what kept them out.
 void report_rows(const Task& task, const TaskRows& rows, ChannelResult& result);
@@ -78,6 +80,7 @@ struct Estimation {
   const MeasureOptions& options;
   Stopwatch& watch;
   std::vector<ChannelResult>& results;  // one per task; those refused already are left alone
+  bool without_noise = false;           // the shots show what is expected (dipole only)
 };
 
 // Runs `work` on every task whose result is not refused yet, in parallel, under a progress line.

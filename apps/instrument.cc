@@ -68,8 +68,21 @@ Measurement Instrument::measure(const ShotSource& source) {
 }
 
 Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
+  std::vector<OpenedShot> shots;
+  return measure(source, watch, false, shots);
+}
+
+Measurement Instrument::forecast(const ShotSource& source, std::vector<OpenedShot>& opened) {
+  std::vector<std::pair<std::string, double>> timing_s;
+  Stopwatch watch(timing_s);
+  return measure(source, watch, true, opened);
+}
+
+Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch, bool without_noise,
+                                std::vector<OpenedShot>& shots) {
+  const Model model = without_noise ? Model::kDipole : options_.model;
   Measurement out;
-  out.model = options_.model;
+  out.model = model;
   for (const auto& [name, scene] : scenes_) {
     out.patch_size_mm[name] = library_.patches(name).patch_size_mm();
   }
@@ -82,8 +95,7 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
   if (!view && pose_ && !rig_.pose.per_shot) {
     view = see_all(rig_, scenes_, library_, pose_from_silhouettes(rig_, scenes_, *pose_, source));
   }
-  const std::vector<OpenedShot> shots =
-      open_shots(rig_, source, scenes_, library_, view, options_.quiet);
+  shots = open_shots(rig_, source, scenes_, library_, view, options_.quiet);
   watch.lap("shots");
   out.brackets = brackets_of(shots);
   const std::vector<Task> tasks = tasks_of(rig_, shots);
@@ -91,7 +103,7 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
     ChannelResult result;
     result.material = task.material;
     result.channel = kRgbName[task.channel];
-    result.model = options_.model == Model::kAuto ? Model::kDipole : options_.model;
+    result.model = model == Model::kAuto ? Model::kDipole : model;
     result.eta_int_over_ext = task.eta;
     for (const OpenedShot* shot : task.shots) {
       result.shots.push_back(shot->rig->file);
@@ -101,11 +113,11 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch) {
     }
     out.results.push_back(result);
   }
-  Estimation estimation{rig_,     shots, tasks,      library_, weights_, changed_weights_,
-                        options_, watch, out.results};
-  if (options_.model == Model::kPaper) {
+  Estimation estimation{rig_,     shots, tasks,       library_,     weights_, changed_weights_,
+                        options_, watch, out.results, without_noise};
+  if (model == Model::kPaper) {
     estimate_paper(estimation);
-  } else if (options_.model != Model::kDipole) {
+  } else if (model != Model::kDipole) {
     estimate_transport(estimation);
   } else {
     estimate_dipole(estimation);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "apps/estimation_task.h"
 #include "apps/measure.h"
@@ -31,8 +32,15 @@ class Instrument {
   // them).
   Measurement measure(const ShotSource& source);
   Measurement measure(const ShotSource& source, Stopwatch& watch);  // timing goes there only
+  // Measures shots that show what is expected, without the noise that they count with, by the
+  // dipole: what is stated is to be expected of shots with that noise. opened: these shots, which
+  // refer to the rig and to this instrument.
+  Measurement forecast(const ShotSource& source, std::vector<OpenedShot>& opened);
 
  private:
+  Measurement measure(const ShotSource& source, Stopwatch& watch, bool without_noise,
+                      std::vector<OpenedShot>& shots);
+
   const Rig& rig_;
   const ObjectScenes& scenes_;
   MeasureOptions options_;

@@ -61,7 +61,8 @@ ChangedWeights changed_weights(const SeenObject& seen, const RigLight& rig_light
     const SourceCloud sources(
         rig_light.environment
             ? library.environment_light(object.rig->name, rig_light.name, channel, coarse, eta_here)
-            : illuminate(coarse, *object.rays, light, eta_here),
+            : illuminate(coarse, seen.shadows != nullptr ? *seen.shadows : *object.rays, light,
+                         eta_here),
         object.box.center_mm());
     return smooth_weights(sites, sources, knots, pairs);
   };

@@ -124,18 +124,41 @@ const char* columns_of(const PlotSeries& s) {
   return s.style == PlotSeries::Style::kCells ? "1:2:3:4:5:6:7" : "1:2";
 }
 
+// gnuplot labels a log scale at whole decades only.
+std::string log_tics(double low, double high) {
+  std::string list;
+  for (double decade = std::pow(10.0, std::floor(std::log10(low))); decade <= high;
+       decade *= 10.0) {
+    for (const double step : {1.0, 1.5, 2.0, 3.0, 5.0, 7.0}) {
+      const double at = step * decade;
+      if (at < low || at > high) continue;
+      list += fmt::format("{}'{:g}' {}", list.empty() ? "" : ", ", at, at);
+    }
+  }
+  return list;
+}
+
 // Diverging, from the colours of the difference maps.
 std::string colour_scale(const Plot& plot) {
   if (std::none_of(plot.series.begin(), plot.series.end(),
                    [](const PlotSeries& s) { return s.style == PlotSeries::Style::kCells; })) {
     return "";
   }
+  // Nearly viridis, whose lightness grows evenly (van der Walt and Smith 2015).
+  const PlotColours& colours = plot.colours;
+  const std::string palette =
+      colours.min ? "(0 '#440154', 1 '#3B528B', 2 '#21918C', 3 '#5EC962', 4 '#FDE725')"
+                  : "(-1 '#2166AC', 0 '#FFFFFF', 1 '#B2182B')";
   return fmt::format(
-      "set palette defined (-1 '#2166AC', 0 '#FFFFFF', 1 '#B2182B')\nset cbrange [{}:{}]\n"
+      "set palette defined {}\n{}set cbrange [{}:{}]\n"
       "set cblabel {} noenhanced\n"
       "set object 1 rectangle from graph 0,0 to graph 1,1 behind fs solid noborder fc rgb "
       "'#C8C8C8'\nunset grid\n",
-      -plot.colours.full_scale, plot.colours.full_scale, gnuplot_quoted(plot.colours.label));
+      palette,
+      colours.min && colours.log
+          ? "set logscale cb\nset cbtics (" + log_tics(*colours.min, colours.full_scale) + ")\n"
+          : "",
+      colours.min.value_or(-colours.full_scale), colours.full_scale, gnuplot_quoted(colours.label));
 }
 
 std::string script_of(const Plot& plot, const std::string& terminal) {
@@ -144,6 +167,7 @@ std::string script_of(const Plot& plot, const std::string& terminal) {
   script += axis("x", plot.x, false) + axis("y", plot.y, plot.y_down);
   script += "set grid lc rgb '#DDDDDD'\nset boxwidth 1.0 relative\n";
   script += colour_scale(plot);
+  if (plot.equal_axes) script += "set size ratio -1\n";
   script += plot.legend_outside ? "set key outside right top Left reverse noenhanced\n"
             : plot.legend_above ? "set key outside top center horizontal noenhanced\n"
                                 : "set key top right noenhanced\n";

@@ -42,10 +42,12 @@ struct PlotSeries {
 };
 
 // Blue for -full_scale through white to red for +full_scale (and beyond), as a scale beside the
-// axes.
+// axes. With `min`: dark blue for min through green to yellow for full_scale.
 struct PlotColours {
   std::string label;  // with its unit in brackets
   double full_scale = 1;
+  std::optional<double> min = std::nullopt;
+  bool log = false;  // with min, which is then > 0
 };
 
 struct Plot {
@@ -58,6 +60,7 @@ struct Plot {
   int width_px = 1000;
   int height_px = 640;
   bool y_down = false;       // as in a picture
+  bool equal_axes = false;   // a unit of x as long as one of y
   PlotColours colours = {};  // of cells
 };
 

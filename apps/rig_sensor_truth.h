@@ -12,6 +12,7 @@ namespace scattermeter::apps {
 struct TrueExposure {
   double stated_s = 0;  // in the file
   double true_s = 0;
+  bool operator==(const TrueExposure&) const = default;
 };
 
 struct RigSensorTruth {
@@ -26,6 +27,7 @@ struct RigSensorTruth {
   double non_linearity = 0;             // departure at the white level, see capture/sensor.h
   bool shutter_in_thirds = false;       // true times are 2^(k/3) s: 1/60 is 1/64, 1/50 is 1/50.8
   std::vector<TrueExposure> exposures;  // for times of their own; come first
+  bool operator==(const RigSensorTruth&) const = default;
 };
 
 // Throws InputError with file, line, field and value.

@@ -57,7 +57,12 @@ void take_points_from_board_shot(const std::string& shots_folder, Rig& rig) {
     throw InputError(rig.at(rig.pose.line) + ": pose.shot",
                      "is not in the folder " + shots_folder + ": " + rig.pose.board_shot);
   }
-  rig.pose.points = board_corners(*rig.pose.charuco, open_shot(rig, path), path);
+  take_points_from_board_shot(open_shot(rig, path), path, rig);
+}
+
+void take_points_from_board_shot(const capture::RawFrame& frame, const std::string& name,
+                                 Rig& rig) {
+  rig.pose.points = board_corners(*rig.pose.charuco, frame, name);
   rig.pose.charuco.reset();
 }
 

@@ -26,6 +26,8 @@ calib::PoseResult pose_from_board(const Rig& rig, const capture::RawFrame& frame
 // points, as if they had been given. Throws InputError when the shot is missing or does not show
 // the board.
 void take_points_from_board_shot(const std::string& shots_folder, Rig& rig);
+// The same from that shot; name: for messages. Precondition: the rig's pose comes from one.
+void take_points_from_board_shot(const capture::RawFrame& frame, const std::string& name, Rig& rig);
 
 // `prior` (of points or board) and the objects' silhouettes together: of one shot, or of all shots
 // of a source, by one camera that stood still. Throws InputError naming the rig's line and the shot

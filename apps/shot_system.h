@@ -32,6 +32,8 @@ struct SeenObject {
   Eigen::Vector3d camera_center_mm = Eigen::Vector3d::Zero();
   SampleMap map;
   std::vector<ExitSite> sites;  // of the map's rows
+  // What shadows an LED, where that is more than the object itself (changed_weights()); else null.
+  const RayScene* shadows = nullptr;
 };
 
 struct OpenedShot {

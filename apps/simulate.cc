@@ -17,25 +17,32 @@ namespace scattermeter::apps {
 
 namespace {
 
-// The board of pose.shot, as the camera that takes all other shots sees it.
-std::string write_board_shot(const Rig& rig, const std::string& out_folder,
-                             const SimulateOptions& options) {
+double board_exposure_s(const Rig& rig) { return rig.camera.exposure_s.value_or(0.1); }
+
+std::vector<float> board_signal_counts(const Rig& rig) {
   const calib::CharucoBoard& board = *rig.pose.charuco;
   CameraView view = true_view(rig);
   view.camera_from_world = view.camera_from_world * board.world_from_board;
-  const std::vector<float> counts =
-      board_counts(rig, view,
-                   {calib::BoardKind::kCharuco, board.squares_x, board.squares_y, board.square_mm,
-                    board.marker_mm, board.dictionary},
-                   rig.at(rig.pose.line) + ": pose.charuco", rig.pose.board_shot);
+  return board_counts(rig, view,
+                      {calib::BoardKind::kCharuco, board.squares_x, board.squares_y,
+                       board.square_mm, board.marker_mm, board.dictionary},
+                      rig.at(rig.pose.line) + ": pose.charuco", rig.pose.board_shot);
+}
+
+std::string write_board_shot(const Rig& rig, const std::string& out_folder,
+                             const SimulateOptions& options) {
   const std::string path = (std::filesystem::path(out_folder) / rig.pose.board_shot).string();
   VirtualSensor(rig, options.noise)
-      .write(path, counts, rig.camera.exposure_s.value_or(0.1),
+      .write(path, board_signal_counts(rig), board_exposure_s(rig),
              VirtualSensor::stream(options.seed, rig.pose.board_shot));
   return path;
 }
 
 }  // namespace
+
+capture::RawFrame board_frame(const Rig& rig) {
+  return VirtualSensor(rig, false).frame(board_signal_counts(rig), board_exposure_s(rig), 0);
+}
 
 SimulatedShots simulate(const Rig& given, const std::string& out_folder,
                         const SimulateOptions& options) {

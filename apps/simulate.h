@@ -7,6 +7,7 @@
 
 #include "apps/rig.h"
 #include "apps/shot_renderer.h"
+#include "capture/raw_frame.h"
 
 namespace scattermeter::apps {
 
@@ -23,6 +24,10 @@ struct SimulatedShots {
   std::vector<std::string> paths;  // of the files
   double monte_carlo_std = 0;      // see ShotRenderer
 };
+
+// The board of pose.shot without noise, as the camera that takes all other shots sees it.
+// Precondition: the rig has one. Throws InputError where it does not say where the camera stands.
+capture::RawFrame board_frame(const Rig& rig);
 
 // Writes every shot of the rig (VirtualShots) as a 12-bit DNG into `out_folder`, made where
 // missing. Throws InputError for bad input; each file appears complete

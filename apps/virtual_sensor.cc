@@ -1,5 +1,6 @@
 #include "apps/virtual_sensor.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -159,6 +160,14 @@ void VirtualSensor::write(const std::string& path, const std::vector<float>& sig
   const calib::CameraIntrinsics& k = rig_.camera.intrinsics;
   capture::write_dng(path, k.width_px, k.height_px, codes(signal_counts, stated_s, stream),
                      metadata(stated_s));
+}
+
+double VirtualSensor::range_counts() const {
+  const RigSensor& sensor = rig_.camera.sensor;
+  const double top = sensor.nef_lossy_curve
+                         ? std::min<double>(sensor.white_counts, capture::nef_lossy_curve().back())
+                         : sensor.white_counts;
+  return top - *std::max_element(sensor.black_counts.begin(), sensor.black_counts.end());
 }
 
 capture::SensorModel VirtualSensor::model() const {

@@ -45,6 +45,9 @@ class VirtualSensor {
   void write(const std::string& path, const std::vector<float>& signal_counts, double stated_s,
              std::uint64_t stream) const;
 
+  // Counts above black at which the first of the phases clips.
+  double range_counts() const;
+
   capture::SensorModel model() const;
   capture::DngMetadata metadata(double stated_s) const;
 

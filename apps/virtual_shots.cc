@@ -7,7 +7,6 @@
 
 #include "apps/progress.h"
 #include "capture/ideal_samples.h"
-#include "capture/tone_curve.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
@@ -23,7 +22,7 @@ VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& scenes,
   for (const RigShot& shot : rig.shots) {
     if (shot.more_exposures_s.size() == shot.more_files.size()) continue;
     throw InputError(rig.at(shot.line) + ": shots.exposure_s",
-                     "is missing: simulate needs a time for each file of the bracket " + shot.file);
+                     "is missing: a time is needed for each file of the bracket " + shot.file);
   }
   ShotRenderer renderer(rig, scenes, options.transport);
   Eigen::Array3d brightest = Eigen::Array3d::Zero();
@@ -53,12 +52,7 @@ VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& scenes,
 
 // Fills responsivity_ and default_exposure_s_ where the rig leaves them open.
 void VirtualShots::choose_exposure(const Eigen::Array3d& brightest) {
-  const RigSensor& sensor = rig_.camera.sensor;
-  const double top = sensor.nef_lossy_curve
-                         ? std::min<double>(sensor.white_counts, capture::nef_lossy_curve().back())
-                         : sensor.white_counts;
-  const double range = kExposedTo * (top - *std::max_element(sensor.black_counts.begin(),
-                                                             sensor.black_counts.end()));
+  const double range = kExposedTo * sensor_.range_counts();
   if (rig_.camera.responsivity) {
     responsivity_ = *rig_.camera.responsivity;
     double peak = 0.0;
@@ -113,6 +107,11 @@ capture::RawFrame VirtualShots::frame(std::size_t shot, std::uint64_t seed,
                                       std::size_t exposure) const {
   return sensor_.frame(whole_signal_counts(shot, exposure), exposure_s(shot, exposure),
                        stream(shot, seed, exposure));
+}
+
+capture::RawFrame VirtualShots::expected_frame(std::size_t shot, std::size_t exposure) const {
+  return VirtualSensor(rig_, false)
+      .frame(whole_signal_counts(shot, exposure), exposure_s(shot, exposure), 0);
 }
 
 void VirtualShots::write(std::size_t shot, std::uint64_t seed, const std::string& path,

@@ -56,6 +56,8 @@ class VirtualShots {
                                    std::size_t exposure = 0) const;
   // As the raw reader delivers the written file (exceptions: capture/decoded_frame.h).
   capture::RawFrame frame(std::size_t shot, std::uint64_t seed, std::size_t exposure = 0) const;
+  // The same without noise, whatever the options say.
+  capture::RawFrame expected_frame(std::size_t shot, std::size_t exposure = 0) const;
   // Writes the 12-bit DNG; it appears complete or not at all. Throws InputError naming the file.
   void write(std::size_t shot, std::uint64_t seed, const std::string& path,
              std::size_t exposure = 0) const;

@@ -128,7 +128,7 @@ void judge(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& o
 // Returns its chi-square per degree of freedom, over the noise's.
 double set_misfit(const RecoveredReflectance& recovered, const DenseSystem& system,
                   const std::vector<Nuisance>& fitted, const ScalePrior& scale, const Point& p,
-                  Estimate& estimate) {
+                  bool without_noise, Estimate& estimate) {
   const auto rank = recovered.whitened.size();
   // Every prior adds one term and its parameter takes one away.
   const auto unbound = std::count_if(fitted.begin(), fitted.end(),
@@ -137,11 +137,12 @@ double set_misfit(const RecoveredReflectance& recovered, const DenseSystem& syst
                                          static_cast<Eigen::Index>(unbound));
   if (!(dof > 0.0)) return 0.0;
   const double noise = recovered.noise_excess();
-  const double chi2 = p.cost / noise;
+  const double cost = p.cost + (without_noise ? dof : 0.0);
+  const double chi2 = cost / noise;
   estimate.misfit_p_value = chi_square_tail(chi2, dof);
   const double image = system.l.cwiseQuotient(system.std_l).squaredNorm() / noise;
   estimate.misfit_relative = std::sqrt(std::max(0.0, chi2 - dof) / image);
-  return p.cost / dof;
+  return cost / dof;
 }
 
 }  // namespace
@@ -169,6 +170,10 @@ DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
     return fit;
   }
   fit.recovered = recover_reflectance(system);
+  if (options.without_noise) {
+    fit.recovered.floor_chi2 +=
+        static_cast<double>(system.l.size() - fit.recovered.whitened.size());
+  }
   const RecoveredReflectance& recovered = fit.recovered;
   if (recovered.whitened.size() < 3) {
     estimate.reasons.push_back("no light reaches the object in these shots");
@@ -190,10 +195,12 @@ DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
   }
   const Residual rest = residual(system.l, fit.predicted, system.std_l);
   const int n_parameters = options.scale.relative_std == 0.0 ? 2 : 3;
-  estimate.reduced_chi2 = rest.chi2 / static_cast<double>(system.l.size() - n_parameters);
+  estimate.reduced_chi2 = rest.chi2 / static_cast<double>(system.l.size() - n_parameters) +
+                          (options.without_noise ? 1.0 : 0.0);
   estimate.rms_relative = rest.rms_relative;
   estimate.psnr_db = rest.psnr_db;
-  const double misfit = set_misfit(recovered, system, fitted, options.scale, p, estimate);
+  const double misfit =
+      set_misfit(recovered, system, fitted, options.scale, p, options.without_noise, estimate);
   double inflation = std::max(1.0, estimate.reduced_chi2);
   // What the dipole misses lies in the few directions that r can explain, as the coefficients do;
   // over all rows it would be thinned out. Taken as alike in all those directions (Birge 1932).

@@ -31,6 +31,10 @@ struct DipoleFitOptions {
   // that, the offset counts as an error of the method, and the answer is refused where it is more
   // than the last relative to the image.
   double max_doubt_relative = 1e-2;
+  // Of an image that shows what is expected, without the noise that its std_l states: fit quality,
+  // what widens the errors by it, and verdicts are then those that are to be expected with that
+  // noise (one more chi-square for each degree of freedom).
+  bool without_noise = false;
   void Check() const;  // std::invalid_argument naming the field
 };
 

@@ -77,6 +77,38 @@ TEST_P(DipoleFitNoise, UncertaintyIsTrue) {
   EXPECT_NEAR(a.mean(), 0.004, 4.0 * sampled(a) / std::sqrt(kSeeds) + 0.01 * 0.004);
 }
 
+// An image without its noise states what images with it state on average, also where the model
+// misses part of it from row to row.
+TEST(DipoleFit, WithoutNoiseStatesWhatNoiseWould) {
+  const Medium truth{1.2, 0.004, 1.4};
+  const HalfLitPlate plate(1.0);
+  const DistanceKnots knots = plate.knots();
+  const WeightMatrix w = plate.weights(knots);
+  DipoleFitOptions options;
+  options.eta_int_over_ext = truth.eta_int_over_ext;
+  Eigen::VectorXd l = plate.image(Dipole(truth));
+  for (Eigen::Index j = 0; j < l.size(); ++j) l[j] *= j % 2 == 0 ? 1.01 : 0.99;
+  constexpr int kSeeds = 30;
+  double chi2 = 0.0;
+  double std_s = 0.0;
+  double std_a = 0.0;
+  for (int i = 0; i < kSeeds; ++i) {
+    const Estimate e =
+        fit_dipole(noisy_system(w, l, 0.01, static_cast<unsigned>(i + 1)), knots, options).estimate;
+    chi2 += e.reduced_chi2 / kSeeds;
+    std_s += e.sigma_s_prime_per_mm.std / kSeeds;
+    std_a += e.sigma_a_per_mm.std / kSeeds;
+  }
+  EXPECT_NEAR(chi2, 2.0, 0.2);
+  DenseSystem expected = noisy_system(w, l, 0.01, 1);
+  expected.l = l;
+  options.without_noise = true;
+  const Estimate e = fit_dipole(expected, knots, options).estimate;
+  EXPECT_NEAR(e.reduced_chi2 / chi2, 1.0, 0.05);
+  EXPECT_NEAR(e.sigma_s_prime_per_mm.std / std_s, 1.0, 0.1);
+  EXPECT_NEAR(e.sigma_a_per_mm.std / std_a, 1.0, 0.1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scales, DipoleFitNoise, ::testing::Values(0.0, 0.02, kFree));
 
 // The same object a thousand times larger is the same fit.
