@@ -27,7 +27,7 @@ constexpr double kFloatReach = 16.0;
 // Blocks whose far clusters are found together.
 constexpr std::size_t kTogether = 8;
 // Share of the tolerance that a single cluster may use up at first; about 200 do.
-constexpr double kShare = 1.0 / 48.0;
+constexpr double kShare = 1.0 / 64.0;
 
 using Three = std::array<double, 3>;
 
@@ -65,16 +65,20 @@ class BlockSums {
     State s;
     s.sums.resize(media_.size());
     std::vector<std::vector<Three>> light(blocks.size(), std::vector<Three>(media_.size()));
-    Shared shared;
     if (!direct_) {
       for (std::size_t b = 0; b < blocks.size(); ++b) {
         guess(s, {blocks[b].center_mm, blocks[b].radius_mm}, light[b]);
       }
-      find_shared(s, blocks, light, shared);
     }
+    Shared shared;
+    double share = kShare;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
+      if (!direct_ && shared.share != share) {
+        // What remains.
+        shared = find_shared(s, blocks.subspan(b), std::span(light).subspan(b), share);
+      }
       sum_block(s, blocks[b], order.subspan(blocks[b].first, blocks[b].count), light[b], shared,
-                out);
+                share, out);
     }
     return s.count;
   }
@@ -82,6 +86,7 @@ class BlockSums {
  private:
   // What blocks that stand together have in common.
   struct Shared {
+    double share = 0;  // of the tolerance
     std::vector<Accepted> accepted;
     std::vector<std::int32_t> open;
     std::vector<Three> error;
@@ -223,8 +228,10 @@ class BlockSums {
     return true;
   }
 
-  void find_shared(State& s, std::span<const RowBlocks::Block> blocks,
-                   const std::vector<std::vector<Three>>& light, Shared& shared) const {
+  Shared find_shared(State& s, std::span<const RowBlocks::Block> blocks,
+                     std::span<const std::vector<Three>> light, double share) const {
+    Shared shared;
+    shared.share = share;
     Eigen::Vector3d low = blocks[0].center_mm, high = low;
     std::vector<Three> least = light[0];
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -240,7 +247,7 @@ class BlockSums {
       place.radius_mm =
           std::max(place.radius_mm, (b.center_mm - place.center_mm).norm() + b.radius_mm);
     }
-    set_limits(s, least, kShare);
+    set_limits(s, least, share);
     shared.error.assign(media_.size(), {});
     s.stack.assign(1, 0);
     Accepted as;
@@ -261,13 +268,13 @@ class BlockSums {
         shared.open.push_back(at);
       }
     }
+    return shared;
   }
 
   void sum_block(State& s, const RowBlocks::Block& block, std::span<const std::uint32_t> rows,
-                 std::vector<Three>& light, const Shared& shared,
+                 std::vector<Three>& light, const Shared& shared, double& share,
                  std::span<std::vector<DipoleSum>> out) const {
     s.count.rows += static_cast<std::int64_t>(block.count);
-    double share = kShare;
     double worst = 0.0;
     for (int attempt = 0;; ++attempt) {
       s.sums.assign(media_.size(), {});
@@ -289,7 +296,8 @@ class BlockSums {
       worst = worst_error(s, block, light);
       if (worst <= options_.tolerance) break;
       ++s.count.repeated_blocks;
-      share *= 0.5;
+      // So that the neighbours need no second attempt.
+      share *= std::min(0.7, 0.7 * options_.tolerance / worst);
     }
     s.count.certified_error = std::max(s.count.certified_error, worst);
     const double scale = sources_.weight();
