@@ -1,0 +1,312 @@
+#include "core/source_clusters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+namespace scattermeter {
+namespace {
+
+struct WeightedPoint {
+  Eigen::Vector3d at;
+  double weight;
+};
+
+// Frame whose third axis is the normal of the plane that holds all the points, if one does to
+// 1e-7 of the radius, which is less than floats resolve.
+bool plane_of(const WeightedPoint* begin, const WeightedPoint* end, const Eigen::Vector3d& center,
+              double radius, Eigen::Matrix3d& frame) {
+  // Two points as far apart in direction as a few samples offer.
+  const auto count = end - begin;
+  Eigen::Vector3d a = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
+  constexpr int kSamples = 8;
+  for (int i = 0; i < kSamples; ++i) {
+    const Eigen::Vector3d d = begin[i * (count - 1) / (kSamples - 1)].at - center;
+    if (d.squaredNorm() > a.squaredNorm()) a = d;
+  }
+  for (int i = 0; i < kSamples; ++i) {
+    const Eigen::Vector3d n = a.cross(begin[i * (count - 1) / (kSamples - 1)].at - center);
+    if (n.squaredNorm() > normal.squaredNorm()) normal = n;
+  }
+  if (!(normal.norm() > 1e-2 * radius * radius)) return false;
+  normal.normalize();
+  for (const WeightedPoint* p = begin; p != end; ++p) {
+    if (std::abs(normal.dot(p->at - center)) > 1e-7 * radius) return false;
+  }
+  frame.row(0) = a.normalized();
+  frame.row(1) = normal.cross(a.normalized());
+  frame.row(2) = normal;
+  return true;
+}
+
+// How coefficients come from raw moments: those of |D|^2m are sums of moments of |D|^2(m-1), two
+// degrees above.
+template <bool kPlanar>
+struct CoefficientPlan {
+  struct Step {
+    std::uint16_t to, from[3];  // planar: two of them
+  };
+  static constexpr std::size_t kCount = coefficient_place(kLargestDegree + 1, 0, kPlanar);
+  std::array<std::uint16_t, kCount> raw{};  // of m = 0: place among the moments
+  std::array<Step, kCount> steps{};         // of m >= 1, by falling degree within each m
+  std::array<float, kCount> factor{};       // (-1/2)^m / (m! i! j! l!)
+  std::array<std::size_t, kLargestDegree + 1> steps_of{};  // how many for a largest degree
+};
+
+template <bool kPlanar>
+const CoefficientPlan<kPlanar>& coefficient_plan() {
+  static const CoefficientPlan<kPlanar> kPlan = [] {
+    constexpr double kInverseFactorial[] = {1.0,       1.0,       1.0 / 2,    1.0 / 6,    1.0 / 24,
+                                            1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320};
+    // Place of x^(k-l-j) y^j z^l among those of degree k.
+    const auto place = [](int k, int l, int j) {
+      return static_cast<std::size_t>(l * (k + 1) - l * (l - 1) / 2 + j);
+    };
+    CoefficientPlan<kPlanar> plan;
+    std::size_t steps = 0, moments = 0;
+    // A step needs those of one m less, of the same degree n.
+    for (int n = 0; n <= kLargestDegree; ++n) {
+      double sign = 1.0;
+      for (int m = 0; 2 * m <= n; ++m) {
+        const int k = n - 2 * m;
+        const std::size_t base = coefficient_place(n, m, kPlanar);
+        const std::size_t above = m > 0 ? coefficient_place(n, m - 1, kPlanar) : 0;
+        for (int l = 0; l <= (kPlanar ? 0 : k); ++l) {
+          for (int j = 0; j <= k - l; ++j) {
+            const std::size_t to = base + place(k, l, j);
+            plan.factor[to] = static_cast<float>(sign * kInverseFactorial[k - l - j] *
+                                                 kInverseFactorial[j] * kInverseFactorial[l]);
+            if (m == 0) {
+              plan.raw[to] = static_cast<std::uint16_t>(moments + place(k, l, j));
+            } else {
+              const auto source = [&](int ll, int jj) {
+                return static_cast<std::uint16_t>(above + place(k + 2, ll, jj));
+              };
+              plan.steps[steps++] = {
+                  static_cast<std::uint16_t>(to),
+                  {source(l, j), source(l, j + 2), kPlanar ? std::uint16_t{0} : source(l + 2, j)}};
+            }
+          }
+        }
+        sign *= -0.5 / (m + 1);
+      }
+      moments += monomials_of_degree(n, kPlanar);
+      plan.steps_of[static_cast<std::size_t>(n)] = steps;
+    }
+    return plan;
+  }();
+  return kPlan;
+}
+
+// Coefficients of the series from its raw moments.
+template <bool kPlanar>
+void coefficients_from(const KernelMoments& moments, int degree, double weight, float* out) {
+  const auto& plan = coefficient_plan<kPlanar>();
+  const std::size_t count = coefficient_place(degree + 1, 0, kPlanar);
+  const auto scale = static_cast<float>(1.0 / weight);
+  for (int n = 0; n <= degree; ++n) {
+    const std::size_t base = coefficient_place(n, 0, kPlanar);
+    for (std::size_t i = base; i < base + monomials_of_degree(n, kPlanar); ++i) {
+      out[i] = scale * moments.raw[plan.raw[i]];
+    }
+  }
+  for (std::size_t i = 0; i < plan.steps_of[static_cast<std::size_t>(degree)]; ++i) {
+    const auto& step = plan.steps[i];
+    out[step.to] = out[step.from[0]] + out[step.from[1]] + (kPlanar ? 0.0F : out[step.from[2]]);
+  }
+  for (std::size_t i = 0; i < count; ++i) out[i] *= plan.factor[i];
+}
+
+}  // namespace
+
+class ClusterBuilder {
+ public:
+  ClusterBuilder(SourceClusters& out, std::vector<WeightedPoint>& points)
+      : out_(out), points_(points) {}
+
+  std::int32_t split(std::int32_t first, std::int32_t last) {
+    const auto at = static_cast<std::int32_t>(out_.nodes_.size());
+    WeightedPoint* const begin = points_.data() + first;
+    WeightedPoint* const end = points_.data() + last;
+    Eigen::Vector3d low = begin->at, high = begin->at, mean = Eigen::Vector3d::Zero();
+    double weight = 0.0;
+    for (const WeightedPoint* p = begin; p != end; ++p) {
+      low = low.cwiseMin(p->at);
+      high = high.cwiseMax(p->at);
+      mean += p->weight * (p->at - begin->at);
+      weight += p->weight;
+    }
+    SourceClusters::Node node{};
+    const Eigen::Vector3d center = begin->at + mean / weight;
+    Eigen::Map<Eigen::Vector3d>(node.center_mm) = center;
+    double radius2 = 0.0;
+    for (const WeightedPoint* p = begin; p != end; ++p) {
+      radius2 = std::max(radius2, (p->at - center).squaredNorm());
+    }
+    node.radius_mm = std::sqrt(radius2) * (1.0 + 1e-12);
+    node.weight = weight;
+    node.first = first;
+    node.last = last;
+    node.left = node.right = node.series = -1;
+    out_.nodes_.push_back(node);
+    if (last - first <= SourceClusters::kLeaf) return at;
+    Eigen::Index axis = 0;
+    const double side = (high - low).maxCoeff(&axis);
+    const double cut = low[axis] + 0.5 * side;
+    const auto middle = static_cast<std::int32_t>(
+        std::partition(begin, end, [&](const WeightedPoint& p) { return p.at[axis] < cut; }) -
+        points_.data());
+    // Points that coincide, or differ by a rounding.
+    if (middle == first || middle == last) return at;
+    const std::int32_t left = split(first, middle);
+    const std::int32_t right = split(middle, last);
+    out_.nodes_[static_cast<std::size_t>(at)].left = left;
+    out_.nodes_[static_cast<std::size_t>(at)].right = right;
+    return at;
+  }
+
+  // The moments of one cluster.
+  void finish(SourceClusters::Node& node) {
+    const Eigen::Vector3d center = Eigen::Map<Eigen::Vector3d>(node.center_mm);
+    if (node.left < 0) {
+      for (std::int32_t i = node.first; i < node.last; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const Eigen::Vector3f d = (points_[k].at - center).cast<float>();
+        out_.dx_mm_[k] = d.x();
+        out_.dy_mm_[k] = d.y();
+        out_.dz_mm_[k] = d.z();
+      }
+      return;
+    }
+    if (node.series < 0) return;
+    float* const to = out_.series_.data() + node.series;
+    Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+    const WeightedPoint* const begin = points_.data() + node.first;
+    node.planar = plane_of(begin, points_.data() + node.last, center, node.radius_mm, frame);
+    for (Eigen::Index i = 0; i < 9; ++i) to[i] = static_cast<float>(frame(i / 3, i % 3));
+    const auto first = static_cast<std::size_t>(node.first);
+    KernelMoments moments;
+    const int degree = out_.largest_degree_;
+    sum_moments(&out_.x_mm_[first], &out_.y_mm_[first], &out_.z_mm_[first], &out_.weights_[first],
+                static_cast<std::size_t>(node.last - node.first), node.center_mm, node.radius_mm,
+                to, node.planar, degree, moments);
+    for (std::size_t i = 0; i < 5; ++i) {
+      node.spread[i] = static_cast<float>(1.00001 * double(moments.absolute[i]) / node.weight);
+    }
+    if (node.planar) {
+      coefficients_from<true>(moments, degree, node.weight, to + 9);
+    } else {
+      coefficients_from<false>(moments, degree, node.weight, to + 9);
+    }
+  }
+
+ private:
+  SourceClusters& out_;
+  std::vector<WeightedPoint>& points_;
+};
+
+SourceClusters::SourceClusters(std::span<const Eigen::Vector3d> points_mm,
+                               std::span<const double> weights, int largest_degree)
+    : largest_degree_(largest_degree) {
+  if (points_mm.size() != weights.size()) {
+    std::ostringstream text;
+    text << "SourceClusters: " << points_mm.size() << " points, " << weights.size() << " weights";
+    throw std::invalid_argument(text.str());
+  }
+  if (std::find(std::begin(kDegrees), std::end(kDegrees), largest_degree) == std::end(kDegrees)) {
+    throw std::invalid_argument("SourceClusters: degree " + std::to_string(largest_degree));
+  }
+  std::vector<WeightedPoint> points;
+  points.reserve(points_mm.size());
+  for (std::size_t i = 0; i < points_mm.size(); ++i) {
+    if (!points_mm[i].allFinite() || !std::isfinite(weights[i]) || weights[i] < 0.0) {
+      std::ostringstream text;
+      text << "SourceClusters: point " << i << " at " << points_mm[i].transpose() << " mm, weight "
+           << weights[i];
+      throw std::invalid_argument(text.str());
+    }
+    if (weights[i] > 0.0) {
+      points.push_back({points_mm[i], weights[i]});
+      weight_ += weights[i];
+    }
+  }
+  left_out_ = points_mm.size() - points.size();
+  if (points.empty()) return;
+  const double scale = 1.0 / weight_;
+  for (WeightedPoint& p : points) p.weight *= scale;
+  ClusterBuilder builder(*this, points);
+  nodes_.reserve(points.size() / 3 + 1);
+  builder.split(0, static_cast<std::int32_t>(points.size()));
+  const std::size_t n = points.size();
+  for (auto* v : {&x_mm_, &y_mm_, &z_mm_}) v->resize(n);
+  for (auto* v : {&weights_, &dx_mm_, &dy_mm_, &dz_mm_}) v->resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    x_mm_[i] = points[i].at.x();
+    y_mm_[i] = points[i].at.y();
+    z_mm_[i] = points[i].at.z();
+    weights_[i] = static_cast<float>(points[i].weight);
+  }
+  const auto stride =
+      static_cast<std::int32_t>(9 + coefficient_place(largest_degree + 1, 0, false));
+  std::int32_t series = 0;
+  for (Node& node : nodes_) {
+    if (node.left < 0 || node.radius_mm > kLargestShare * nodes_[0].radius_mm) continue;
+    node.series = series;
+    series += stride;
+  }
+  series_.resize(static_cast<std::size_t>(series));
+  oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, nodes_.size(), 64),
+                            [&](const auto& range) {
+                              for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                                builder.finish(nodes_[i]);
+                              }
+                            });
+}
+
+KernelCluster SourceClusters::cluster(const Node& node) const {
+  const float* const series = series_.data() + node.series;
+  return {{node.center_mm[0], node.center_mm[1], node.center_mm[2]},
+          node.radius_mm,
+          series,
+          series + 9,
+          node.planar};
+}
+
+KernelPoints SourceClusters::points(const Node& leaf) const {
+  const auto first = static_cast<std::size_t>(leaf.first);
+  return {{leaf.center_mm[0], leaf.center_mm[1], leaf.center_mm[2]},
+          &dx_mm_[first],
+          &dy_mm_[first],
+          &dz_mm_[first],
+          &weights_[first],
+          static_cast<std::size_t>(leaf.last - leaf.first)};
+}
+
+void SourceClusters::add_exact_sums(const Node& leaf, std::span<const KernelDipole> media,
+                                    const RowLanes& rows, std::span<LaneSums> sums) const {
+  for (auto k = static_cast<std::size_t>(leaf.first); k < static_cast<std::size_t>(leaf.last);
+       ++k) {
+    for (std::size_t i = 0; i < kRowLanes; ++i) {
+      const double dx = rows.x[i] - x_mm_[k], dy = rows.y[i] - y_mm_[k], dz = rows.z[i] - z_mm_[k];
+      const double d2 = dx * dx + dy * dy + dz * dz;
+      for (std::size_t m = 0; m < media.size(); ++m) {
+        for (const double z : {media[m].z_r_mm, media[m].z_v_mm}) {
+          const double s = d2 + z * z, rho = std::sqrt(s), y = media[m].kappa_per_mm * rho;
+          const double e = double(weights_[k]) * z * std::exp(-y) / rho;
+          sums[m].value[i] += e * (1.0 + y) / s;
+          sums[m].z_d_z[i] += e / s * (1.0 + y - z * z / s * (3.0 + 3.0 * y + y * y));
+          sums[m].decay[i] += e;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace scattermeter

@@ -1,0 +1,66 @@
+// Points with weights as a tree of clusters, each with the moments of its series.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/dipole_kernels.h"
+
+namespace scattermeter {
+
+// A binary tree over points whose weights are > 0; others are left out. Boxes are halved at their
+// longest side until kLeaf points are left, or points that coincide. Clusters of more than kLeaf
+// points hold the coefficients of their series (core/dipole_kernels.h) up to the given degree; but
+// not those whose radius is over kLargestShare of the whole's, which rows on the same body are
+// hardly ever far from.
+class SourceClusters {
+ public:
+  static constexpr std::int32_t kLeaf = 8;
+  static constexpr double kLargestShare = 0.4;
+
+  struct Node {
+    double center_mm[3];          // centroid of the weight
+    double radius_mm;             // no point is farther from it; 0: all coincide
+    double weight;                // relative to that of all
+    std::array<float, 5> spread;  // mean of (distance / radius)^(kDegrees[i] + 1), rounded up
+    std::int32_t first, last;     // points [first, last)
+    std::int32_t left, right;     // -1: a leaf
+    std::int32_t series;          // place of frame and coefficients; -1: none
+    bool planar;
+  };
+
+  // Domain: as many weights as points, all finite, weights >= 0 (std::invalid_argument naming the
+  // first that is not); largest_degree one of kDegrees. Parallel; the same tree for any number of
+  // threads.
+  SourceClusters(std::span<const Eigen::Vector3d> points_mm, std::span<const double> weights,
+                 int largest_degree = kLargestDegree);
+
+  bool empty() const { return nodes_.empty(); }
+  std::size_t size() const { return x_mm_.size(); }   // points of weight > 0
+  std::size_t left_out() const { return left_out_; }  // points of weight 0
+  double weight() const { return weight_; }           // of all
+  int largest_degree() const { return largest_degree_; }
+  const std::vector<Node>& nodes() const { return nodes_; }  // the root first
+  KernelCluster cluster(const Node& node) const;             // precondition: node.series >= 0
+  KernelPoints points(const Node& leaf) const;               // precondition: a leaf
+  // As add_point_sums, in double precision throughout.
+  void add_exact_sums(const Node& leaf, std::span<const KernelDipole> media, const RowLanes& rows,
+                      std::span<LaneSums> sums) const;
+
+ private:
+  friend class ClusterBuilder;
+  std::size_t left_out_ = 0;
+  double weight_ = 0;
+  int largest_degree_;
+  std::vector<Node> nodes_;
+  std::vector<double> x_mm_, y_mm_, z_mm_;
+  std::vector<float> weights_;                // relative to that of all
+  std::vector<float> dx_mm_, dy_mm_, dz_mm_;  // from the leaf's centre
+  std::vector<float> series_;                 // frames (9) and coefficients
+};
+
+}  // namespace scattermeter

@@ -1,0 +1,57 @@
+#include "apps/bench_sums.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace scattermeter::apps {
+namespace {
+
+using testing::HasSubstr;
+
+// Figures, not times: errors are below what is certified, that below the tolerance; every patch
+// count has its row; all fits of the peers find the material as well as they can.
+TEST(BenchSums, ErrorsAreBelowTheTolerance) {
+  SumsBenchOptions options;
+  options.patches = {500, 2000};
+  options.rows = {300};
+  options.tolerances = {1e-2, 1e-4};
+  options.loose_tolerance = 0.0;
+  options.peer_patches = 400;
+  options.repeats = 1;
+  const SumsBench bench = bench_sums(options);
+  ASSERT_EQ(bench.rows.size(), 8U);
+  for (const SumsBenchRow& r : bench.rows) {
+    EXPECT_LE(r.certified_error, r.tolerance + 1e-5);
+    EXPECT_LE(r.worst_error[0], r.certified_error);
+    EXPECT_LE(r.median_error, r.worst_error[0]);
+    // Relative to absolute terms; the certificate counts their parts, which are larger.
+    EXPECT_LE(r.worst_error[1], 5.0 * r.certified_error);
+    EXPECT_LE(r.worst_error[2], 5.0 * r.certified_error);
+    EXPECT_LE(r.pairs_per_row, r.patches);
+  }
+  EXPECT_TRUE(std::isfinite(patches_exponent(bench, "cube", 300, 1e-4)));
+  EXPECT_TRUE(std::isnan(patches_exponent(bench, "cube", 301, 1e-4)));
+  ASSERT_EQ(bench.peers.size(), 3U);
+  EXPECT_LT(std::abs(bench.peers[0].error_sigma_s_prime), 1e-4);
+  EXPECT_LT(std::abs(bench.peers[0].error_sigma_a), 1e-3);
+  EXPECT_THAT(sums_bench_table(bench), HasSubstr("patches^"));
+  EXPECT_THAT(sums_bench_csv(bench), HasSubstr("sphere,1,2000,300,"));
+  EXPECT_THAT(sums_peer_csv(bench), HasSubstr("chunked"));
+  EXPECT_EQ(sums_patches_plot(bench).series.size(), 4U);
+  EXPECT_EQ(sums_error_plot(bench).series.size(), 4U);
+}
+
+TEST(BenchSums, RefusesWhatMakesNoSense) {
+  SumsBenchOptions options;
+  options.patches = {1};
+  EXPECT_THROW(bench_sums(options), std::invalid_argument);
+  options.patches = {1000};
+  options.tolerances = {1e-9};
+  EXPECT_THROW(bench_sums(options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace scattermeter::apps
