@@ -13,7 +13,7 @@ Html plot_figures(const std::vector<PagePlot>& plots) {
   tbb::parallel_for(std::size_t{0}, plots.size(), [&](std::size_t i) {
     Plot plot = plots[i].plot;
     plot.width_px = kPagePlotWidth_px;
-    plot.height_px = kPagePlotHeight_px;
+    plot.height_px = plot.equal_axes ? kPagePlotWidth_px : kPagePlotHeight_px;
     try {
       figures[i] = html_figure(data_address("image/svg+xml", plot_svg(plot)), plots[i].caption,
                                html_text(plots[i].caption));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -127,12 +129,25 @@ Html planned_budget(const std::vector<const PlannedChannel*>& channels) {
   return table.rows.empty() ? Html{} : html_table(table);
 }
 
-Html gain_table(const OtherShots& o) {
+// Causes known exactly and other shots, the most helpful first.
+Html gain_table(const OtherShots& o, const std::vector<const PlannedChannel*>& channels) {
+  std::vector<std::pair<double, std::string>> list;
+  for (const Gain& g : o.gains) list.emplace_back(g.sigma_a_ratio, g.what);
+  for (const PlannedChannel* c : channels) {
+    if (c->result.channel != o.channel) continue;
+    for (const KnownCause& known : known_causes(c->result.estimate)) {
+      list.emplace_back(known.sigma_a_std_per_mm / c->result.estimate.sigma_a_per_mm.std,
+                        known.cause + " known exactly");
+    }
+  }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& x, const auto& y) { return x.first < y.first; });
   HtmlTable table;
   table.header = {"with", "sigma_a known to", "of now"};
-  for (const Gain& g : o.gains) {
-    table.rows.push_back({text_cell(g.what), number_cell(percent_text(g.sigma_a_ratio * o.planned)),
-                          number_cell(percent_text(g.sigma_a_ratio))});
+  for (const auto& [ratio, what] : list) {
+    if (!(ratio < 0.99)) continue;
+    table.rows.push_back({text_cell(what), number_cell(percent_text(ratio * o.planned)),
+                          number_cell(percent_text(ratio))});
   }
   return table.rows.empty() ? Html{} : html_table(table);
 }
@@ -148,7 +163,7 @@ Html plan_section(const Plan& plan, const std::vector<const PlannedChannel*>& ch
         html_text(fmt::format("Of channel {}, whose sigma_a is the least known: to {}.", o.channel,
                               percent_text(o.planned))),
         "dim");
-    out += gain_table(o);
+    out += gain_table(o, channels);
     std::vector<PagePlot> plots;
     for (const LedMap& m : o.maps) {
       for (const bool joined : {true, false}) plots.push_back(led_map_plot(o, m, joined));

@@ -107,6 +107,9 @@ TEST(Plan, FilesHoldTheForecast) {
 TEST(Plan, OtherShotsHelp) {
   Rig rig = body_rig("cube", 1);
   rig.camera.responsivity_relative_std = 0.02;
+  // A mean free path longer than the patches of 1.8 mm keeps the errors of the method small: they
+  // are not fitted, and another shot may weigh them otherwise.
+  rig.truth_materials["plastic"].fill({0.5, 0.004, 1.0});
   const ObjectScenes scenes = bodies_scenes(rig);
   PlanOptions options;
   options.quiet = true;
@@ -129,7 +132,6 @@ TEST(Plan, OtherShotsHelp) {
     EXPECT_NEAR((place.position_mm - map.center_mm).norm(), map.distance_mm, 1e-9);
     if (!std::isfinite(place.joined)) continue;
     ++answers;
-    // Errors of the method are not fitted: another shot may weigh them otherwise.
     EXPECT_LT(place.joined, 1.02 * other.planned);
     if (!std::isfinite(place.alone)) continue;
     EXPECT_LT(place.joined, 1.02 * place.alone);
