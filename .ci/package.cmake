@@ -29,6 +29,7 @@ if(SCATTERMETER_PYTHON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-scattermeter)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, scattermeter, libstdc++6")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/.ci/prerm)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
       "scattermeter for Python: measure, read results, forward models on NumPy arrays.")
 endif()
