@@ -43,7 +43,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libscattermeter-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libeigen3-dev, libembree-dev, libceres-dev, libtbb-dev, libopencv-dev, libopenexr-dev, libtiff-dev, libraw-dev, libtinyobjloader-dev"
+    "libeigen3-dev, libembree-dev, libceres-dev, libhwy-dev, libtbb-dev, libopencv-dev, libopenexr-dev, libtiff-dev, libraw-dev, libtinyobjloader-dev"
 )
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
     "Measures reduced scattering and absorption of a translucent material,
