@@ -100,8 +100,9 @@ void add_point_sums_here(const KernelDipole* media, std::size_t n_media, const R
   places_from(rows, k.center_mm, 1.0, p);
   for (std::size_t m = 0; m < n_media; ++m) {
     // Lengths in units of z_r, so that floats neither overflow nor vanish.
-    const double per_area = 1.0 / (media[m].z_r_mm * media[m].z_r_mm);
-    const double depth = media[m].z_v_mm / media[m].z_r_mm;
+    const double per_length = 1.0 / media[m].z_r_mm;
+    const double per_area = per_length * per_length;
+    const double depth = media[m].z_v_mm * per_length;
     const double kappa_unit = media[m].kappa_per_mm * media[m].z_r_mm;
     const V scale = set(per_area), one = set(1.0F);
     const V kappa = set(kappa_unit * std::numbers::log2e);
@@ -185,7 +186,8 @@ void cluster_sums(const KernelDipole* media, std::size_t n_media, const RowLanes
   const D d;
   constexpr int kTerms = kDegree == 1 ? 1 : kDegree + 1;
   Places p;
-  places_from(rows, c.center_mm, 1.0 / c.radius_mm, p);
+  const double per_radius = 1.0 / c.radius_mm;
+  places_from(rows, c.center_mm, per_radius, p);
   for (std::size_t i = 0; i < kRowLanes; i += hn::Lanes(d)) {
     V x = hn::Load(d, p.x + i), y = hn::Load(d, p.y + i), z = hn::Load(d, p.z + i);
     const V r2 = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
@@ -206,7 +208,7 @@ void cluster_sums(const KernelDipole* media, std::size_t n_media, const RowLanes
       const V kappa2 = set(kappa * kappa);
       V value = hn::Zero(d), z_d_z = hn::Zero(d), decay = hn::Zero(d);
       for (const double depth_mm : {media[medium].z_r_mm, media[medium].z_v_mm}) {
-        const double depth = depth_mm / c.radius_mm;
+        const double depth = depth_mm * per_radius;
         const V s = hn::Add(r2, set(depth * depth));
         const V q = inverse_root(s);
         const V t = hn::Mul(set(kappa * std::numbers::log2e), hn::Mul(s, q));
@@ -230,7 +232,7 @@ void cluster_sums(const KernelDipole* media, std::size_t n_media, const RowLanes
         z_d_z = hn::MulAdd(ze, hn::NegMulAdd(set(depth * depth), a2, a1), z_d_z);
         decay = hn::MulAdd(ze, a0, decay);
       }
-      const double per_area = unit / (c.radius_mm * c.radius_mm);
+      const double per_area = unit * per_radius * per_radius;
       add_lanes(value, per_area, sums[medium].value + i);
       add_lanes(z_d_z, per_area, sums[medium].z_d_z + i);
       add_lanes(decay, unit, sums[medium].decay + i);
