@@ -7,13 +7,14 @@
 // err by beyond their noise widens the answer as if it came from paths, and parts that are off as
 // wholes refuse it.
 //
-// Cube and pyramid under two LEDs (four shots, eta 1.3) rendered with 4 10^6 paths a light and
-// channel, exact scale, 60 s on two cores a channel, per mm: 2.199 +- 0.006 / 0.00211 +- 0.00004
-// for 2.19 / 0.002, 1.003 +- 0.002 / 0.00503 +- 0.00003 for 1.0 / 0.005 and 0.5004 +- 0.0009 /
-// 0.00999 +- 0.00004 for 0.5 / 0.01; the dipole's best: 2.19 / 0.0003, 0.96 / 0.0018, 0.46 /
-// 0.0031. With a scale known to 2 %: 2.186 +- 0.014 / 0.0021 +- 0.0002, 0.993 +- 0.006 / 0.0052 +-
-// 0.0002, 0.496 +- 0.002 / 0.0102 +- 0.0002. With the dipole's Z as it is and weights of
-// independent rows, the second of these had 2.7 times the deviation and the third 6 times.
+// Cube and pyramid under two LEDs (four shots, eta 1.3), exact scale, 60 s on two cores a channel,
+// per mm. 2.19 / 0.002, three truths of 1.2 10^7 paths a light: 2.193, 2.194, 2.192 (each +- 0.005)
+// / 0.00203, 0.00203, 0.00198 (each +- 0.00004). Truths of 4 10^6: 1.003 +- 0.002 / 0.00503 +-
+// 0.00003 for 1.0 / 0.005 and 0.5004 +- 0.0009 / 0.00999 +- 0.00004 for 0.5 / 0.01. The dipole's
+// best: 2.19 / 0.0003, 0.96 / 0.0018, 0.46 / 0.0031. With a scale known to 2 %: 2.186 +- 0.014 /
+// 0.0021 +- 0.0002, 0.993 +- 0.006 / 0.0052 +- 0.0002, 0.496 +- 0.002 / 0.0102 +- 0.0002. With the
+// dipole's Z as it is and weights of independent rows, the second of these had 2.7 times the
+// deviation and the third 6 times.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
