@@ -146,8 +146,8 @@ Truth truth_of(const SumsScene& scene, const std::vector<Medium>& media) {
   return truth;
 }
 
-SumsBenchRow measured(const SumsScene& scene, const std::vector<Medium>& media, const Truth& truth,
-                      double tolerance, int repeats) {
+SumsBenchRow measure_sums(const SumsScene& scene, const std::vector<Medium>& media,
+                          const Truth& truth, double tolerance, int repeats) {
   SumsBenchRow row;
   row.channels = static_cast<int>(media.size());
   row.patches = static_cast<double>(scene.points.size());
@@ -226,7 +226,7 @@ SumsBench bench_sums(const SumsBenchOptions& options) {
                                            static_cast<std::size_t>(rows), options.seed);
         const Truth truth = truth_of(scene, paper);
         for (const double tolerance : options.tolerances) {
-          bench.rows.push_back(measured(scene, paper, truth, tolerance, options.repeats));
+          bench.rows.push_back(measure_sums(scene, paper, truth, tolerance, options.repeats));
           bench.rows.back().body = body;
         }
       }
@@ -236,8 +236,8 @@ SumsBench bench_sums(const SumsBenchOptions& options) {
     // An image: about a pixel for each patch, three channels.
     const SumsScene scene = sums_scene("cube", 125000, 130000, options.seed);
     const std::vector<Medium> channels = {{2.19, 0.002, 1.3}, {0.5, 0.01, 1.49}, {1.2, 0.005, 1.4}};
-    bench.rows.push_back(measured(scene, channels, truth_of(scene, channels),
-                                  options.loose_tolerance, options.repeats));
+    bench.rows.push_back(measure_sums(scene, channels, truth_of(scene, channels),
+                                      options.loose_tolerance, options.repeats));
     bench.rows.back().body = "cube";
   }
   if (options.peer_patches > 0) {

@@ -22,7 +22,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 // Adds what one pair gives to a row of W (paper eq. 17 to 25).
-void add_pair(double distance, double width_mm, double c, Eigen::Ref<Eigen::VectorXd> row) {
+void add_knots(double distance, double width_mm, double c, Eigen::Ref<Eigen::VectorXd> row) {
   const double x = distance / width_mm;
   const auto i = std::min(static_cast<Eigen::Index>(x), row.size() - 2);
   const double beta = static_cast<double>(i + 1) - x;
@@ -91,7 +91,7 @@ PeerResult fit_dense(const PeerProblem& problem, double width_mm) {
   Eigen::MatrixXd w = Eigen::MatrixXd::Zero(knots_for(problem, width_mm), m);
   for (Eigen::Index j = 0; j < m; ++j) {
     for (Eigen::Index k = 0; k < m; ++k) {
-      add_pair(distance(k, j), width_mm, problem.c[static_cast<std::size_t>(k)], w.col(j));
+      add_knots(distance(k, j), width_mm, problem.c[static_cast<std::size_t>(k)], w.col(j));
     }
   }
   const Eigen::VectorXd r =
@@ -117,7 +117,7 @@ PeerResult fit_chunked(const PeerProblem& problem, double width_mm) {
       const Eigen::Vector3d& p = problem.points_mm[static_cast<std::size_t>(first + j)];
       for (std::size_t k = 0; k < problem.c.size(); ++k) {
         if (problem.c[k] == 0.0) continue;
-        add_pair((problem.points_mm[k] - p).norm(), width_mm, problem.c[k], w.col(j));
+        add_knots((problem.points_mm[k] - p).norm(), width_mm, problem.c[k], w.col(j));
       }
     }
     normal.selfadjointView<Eigen::Lower>().rankUpdate(w.leftCols(count));
