@@ -12,12 +12,13 @@
 #include <oneapi/tbb/parallel_for.h>
 
 namespace scattermeter {
-namespace {
 
 struct WeightedPoint {
   Eigen::Vector3d at;
   double weight;
 };
+
+namespace {
 
 // Frame whose third axis is the normal of the plane that holds all the points, if one does to
 // 1e-7 of the radius, which is less than floats resolve.
