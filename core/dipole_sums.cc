@@ -22,7 +22,7 @@ constexpr double kFloor = 1e-30;
 // that of a pair, planar or not (tests/bench/dipole_sums_bench.cc).
 constexpr std::array<std::int32_t, kSeries> kWorthPlanar = {2, 3, 4, 4, 6};
 constexpr std::array<std::int32_t, kSeries> kWorth = {2, 3, 4, 6, 12};
-// Float is good for leaves of a radius below so many distances to the pole.
+// Float is good for buckets of a radius below so many distances to the pole.
 constexpr double kFloatReach = 16.0;
 // Blocks whose far clusters are found together.
 constexpr std::size_t kTogether = 8;
@@ -349,27 +349,34 @@ class BlockSums {
         rows * static_cast<std::int64_t>(coefficient_place(degree + 1, 0, node.planar));
   }
 
-  void add_points(State& s, const RowBlocks::Block& block, const SourceClusters::Node& leaf) const {
+  // Points of one bucket that follow each other.
+  struct Run {
+    std::int32_t bucket = -1, first = 0, last = 0;
+  };
+
+  void add_points(State& s, const RowBlocks::Block& block, const Run& run) const {
+    if (run.bucket < 0) return;
+    const auto& bucket = sources_.nodes()[static_cast<std::size_t>(run.bucket)];
     const Place place{block.center_mm, block.radius_mm};
-    const double d = std::max(0.0, distance(leaf, place) - block.radius_mm - leaf.radius_mm);
-    const KernelPoints points = sources_.points(leaf);
-    const auto pairs =
-        static_cast<std::int64_t>(block.count) * static_cast<std::int64_t>(points.count);
+    const double d = std::max(0.0, distance(bucket, place) - block.radius_mm - bucket.radius_mm);
+    const auto pairs = static_cast<std::int64_t>(block.count) * (run.last - run.first);
     s.count.pairs += pairs;
     const double reach = kFloatReach * kFloatReach;
     const double pole = bounds_.nearest_pole_mm();
-    if (leaf.radius_mm * leaf.radius_mm <= reach * (d * d + pole * pole)) {
-      add_point_sums(dipoles_, block.lanes, points, 1.0, s.sums);
+    if (bucket.radius_mm * bucket.radius_mm <= reach * (d * d + pole * pole)) {
+      add_point_sums(dipoles_, block.lanes, sources_.points(run.bucket, run.first, run.last), 1.0,
+                     s.sums);
       return;
     }
     s.count.exact_pairs += pairs;
-    sources_.add_exact_sums(leaf, dipoles_, block.lanes, s.sums);
+    sources_.add_exact_sums(run.first, run.last, dipoles_, block.lanes, s.sums);
   }
 
   // All that the stack holds.
   void visit(State& s, const RowBlocks::Block& block, bool all_pairs) const {
     const Place place{block.center_mm, block.radius_mm};
     Accepted as;
+    Run run;
     while (!s.stack.empty()) {
       const std::int32_t at = s.stack.back();
       s.stack.pop_back();
@@ -385,12 +392,18 @@ class BlockSums {
         }
       }
       if (node.left < 0) {
-        add_points(s, block, node);
+        if (run.bucket == node.bucket && run.last == node.first) {
+          run.last = node.last;
+        } else {
+          add_points(s, block, run);
+          run = {node.bucket, node.first, node.last};
+        }
       } else {
         s.stack.push_back(node.right);
         s.stack.push_back(node.left);
       }
     }
+    add_points(s, block, run);
   }
 
   const SourceClusters& sources_;

@@ -132,7 +132,7 @@ class ClusterBuilder {
   ClusterBuilder(SourceClusters& out, std::vector<WeightedPoint>& points)
       : out_(out), points_(points) {}
 
-  std::int32_t split(std::int32_t first, std::int32_t last) {
+  std::int32_t split(std::int32_t first, std::int32_t last, std::int32_t bucket = -1) {
     const auto at = static_cast<std::int32_t>(out_.nodes_.size());
     WeightedPoint* const begin = points_.data() + first;
     WeightedPoint* const end = points_.data() + last;
@@ -156,6 +156,8 @@ class ClusterBuilder {
     node.first = first;
     node.last = last;
     node.left = node.right = node.series = -1;
+    if (bucket < 0 && last - first <= SourceClusters::kBucket) bucket = at;
+    node.bucket = bucket < 0 ? at : bucket;
     out_.nodes_.push_back(node);
     if (last - first <= SourceClusters::kLeaf) return at;
     Eigen::Index axis = 0;
@@ -166,8 +168,8 @@ class ClusterBuilder {
         points_.data());
     // Points that coincide, or differ by a rounding.
     if (middle == first || middle == last) return at;
-    const std::int32_t left = split(first, middle);
-    const std::int32_t right = split(middle, last);
+    const std::int32_t left = split(first, middle, bucket);
+    const std::int32_t right = split(middle, last, bucket);
     out_.nodes_[static_cast<std::size_t>(at)].left = left;
     out_.nodes_[static_cast<std::size_t>(at)].right = right;
     return at;
@@ -177,9 +179,11 @@ class ClusterBuilder {
   void finish(SourceClusters::Node& node) {
     const Eigen::Vector3d center = Eigen::Map<Eigen::Vector3d>(node.center_mm);
     if (node.left < 0) {
+      const Eigen::Vector3d bucket = Eigen::Map<const Eigen::Vector3d>(
+          out_.nodes_[static_cast<std::size_t>(node.bucket)].center_mm);
       for (std::int32_t i = node.first; i < node.last; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const Eigen::Vector3f d = (points_[k].at - center).cast<float>();
+        const Eigen::Vector3f d = (points_[k].at - bucket).cast<float>();
         out_.dx_mm_[k] = d.x();
         out_.dy_mm_[k] = d.y();
         out_.dz_mm_[k] = d.z();
@@ -280,20 +284,19 @@ KernelCluster SourceClusters::cluster(const Node& node) const {
           node.planar};
 }
 
-KernelPoints SourceClusters::points(const Node& leaf) const {
-  const auto first = static_cast<std::size_t>(leaf.first);
-  return {{leaf.center_mm[0], leaf.center_mm[1], leaf.center_mm[2]},
-          &dx_mm_[first],
-          &dy_mm_[first],
-          &dz_mm_[first],
-          &weights_[first],
-          static_cast<std::size_t>(leaf.last - leaf.first)};
+KernelPoints SourceClusters::points(std::int32_t bucket, std::int32_t first,
+                                    std::int32_t last) const {
+  const double* const center = nodes_[static_cast<std::size_t>(bucket)].center_mm;
+  const auto at = static_cast<std::size_t>(first);
+  return {
+      {center[0], center[1], center[2]},     &dx_mm_[at], &dy_mm_[at], &dz_mm_[at], &weights_[at],
+      static_cast<std::size_t>(last - first)};
 }
 
-void SourceClusters::add_exact_sums(const Node& leaf, std::span<const KernelDipole> media,
-                                    const RowLanes& rows, std::span<LaneSums> sums) const {
-  for (auto k = static_cast<std::size_t>(leaf.first); k < static_cast<std::size_t>(leaf.last);
-       ++k) {
+void SourceClusters::add_exact_sums(std::int32_t first, std::int32_t last,
+                                    std::span<const KernelDipole> media, const RowLanes& rows,
+                                    std::span<LaneSums> sums) const {
+  for (auto k = static_cast<std::size_t>(first); k < static_cast<std::size_t>(last); ++k) {
     for (std::size_t i = 0; i < kRowLanes; ++i) {
       const double dx = rows.x[i] - x_mm_[k], dy = rows.y[i] - y_mm_[k], dz = rows.z[i] - z_mm_[k];
       const double d2 = dx * dx + dy * dy + dz * dz;

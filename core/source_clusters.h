@@ -21,6 +21,9 @@ class SourceClusters {
  public:
   static constexpr std::int32_t kLeaf = 8;
   static constexpr double kLargestShare = 0.4;
+  // Leaves of up to so many points are told about one centre, so that neighbours are summed at
+  // once.
+  static constexpr std::int32_t kBucket = 64;
 
   struct Node {
     double center_mm[3];          // centroid of the weight
@@ -30,6 +33,7 @@ class SourceClusters {
     std::int32_t first, last;     // points [first, last)
     std::int32_t left, right;     // -1: a leaf
     std::int32_t series;          // place of frame and coefficients; -1: none
+    std::int32_t bucket;          // of leaves: the node about whose centre the points are told
     bool planar;
   };
 
@@ -46,10 +50,11 @@ class SourceClusters {
   int largest_degree() const { return largest_degree_; }
   const std::vector<Node>& nodes() const { return nodes_; }  // the root first
   KernelCluster cluster(const Node& node) const;             // precondition: node.series >= 0
-  KernelPoints points(const Node& leaf) const;               // precondition: a leaf
+  // Points [first, last) of one bucket.
+  KernelPoints points(std::int32_t bucket, std::int32_t first, std::int32_t last) const;
   // As add_point_sums, in double precision throughout.
-  void add_exact_sums(const Node& leaf, std::span<const KernelDipole> media, const RowLanes& rows,
-                      std::span<LaneSums> sums) const;
+  void add_exact_sums(std::int32_t first, std::int32_t last, std::span<const KernelDipole> media,
+                      const RowLanes& rows, std::span<LaneSums> sums) const;
 
  private:
   friend class ClusterBuilder;
@@ -59,7 +64,7 @@ class SourceClusters {
   std::vector<Node> nodes_;
   std::vector<double> x_mm_, y_mm_, z_mm_;
   std::vector<float> weights_;                // relative to that of all
-  std::vector<float> dx_mm_, dy_mm_, dz_mm_;  // from the leaf's centre
+  std::vector<float> dx_mm_, dy_mm_, dz_mm_;  // from the bucket's centre
   std::vector<float> series_;                 // frames (9) and coefficients
 };
 

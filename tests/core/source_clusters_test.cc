@@ -39,13 +39,17 @@ TEST(SourceClusters, LeavesHoldEveryPointAndClustersTheirMembers) {
   std::int32_t points = 0;
   for (const auto& node : tree.nodes()) {
     if (node.left < 0) {
-      const KernelPoints leaf = tree.points(node);
+      const KernelPoints leaf = tree.points(node.bucket, node.first, node.last);
+      const auto& bucket = tree.nodes()[static_cast<std::size_t>(node.bucket)];
+      EXPECT_LE(bucket.first, node.first);
+      EXPECT_GE(bucket.last, node.last);
+      EXPECT_LE(bucket.last - bucket.first, SourceClusters::kBucket);
       EXPECT_LE(leaf.count, static_cast<std::size_t>(SourceClusters::kLeaf));
       points += static_cast<std::int32_t>(leaf.count);
       for (std::size_t i = 0; i < leaf.count; ++i) {
         in_leaves += double(leaf.weight[i]);
         EXPECT_LE(std::hypot(leaf.x_mm[i], leaf.y_mm[i], leaf.z_mm[i]),
-                  node.radius_mm * (1.0 + 1e-6));
+                  bucket.radius_mm * (1.0 + 1e-6));
       }
     } else {
       const auto& left = tree.nodes()[static_cast<std::size_t>(node.left)];
@@ -84,7 +88,7 @@ TEST(SourceClusters, SeriesIsTheSumOverThePoints) {
       add_cluster_sums({&dipole, 1}, rows, tree.cluster(node), 8, node.weight, {&series, 1});
       for (const auto& leaf : tree.nodes()) {
         if (leaf.left >= 0 || leaf.first < node.first || leaf.last > node.last) continue;
-        tree.add_exact_sums(leaf, {&dipole, 1}, rows, {&points, 1});
+        tree.add_exact_sums(leaf.first, leaf.last, {&dipole, 1}, rows, {&points, 1});
       }
       for (std::size_t i = 0; i < kRowLanes; ++i) {
         EXPECT_NEAR(series.value[i], points.value[i], 3e-6 * points.value[i]);
@@ -101,7 +105,7 @@ TEST(SourceClusters, CoincidentAndBad) {
   const std::vector<double> weights(50, 2.0);
   const SourceClusters one(same, weights);
   ASSERT_EQ(one.nodes().size(), 1U);
-  EXPECT_EQ(one.points(one.nodes()[0]).count, 50U);
+  EXPECT_EQ(one.points(0, 0, 50).count, 50U);
   EXPECT_TRUE(SourceClusters({}, {}).empty());
   EXPECT_TRUE(SourceClusters(same, std::vector<double>(50, 0.0)).empty());
   EXPECT_THROW(SourceClusters(same, std::vector<double>(49, 1.0)), std::invalid_argument);
