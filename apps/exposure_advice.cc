@@ -94,7 +94,7 @@ std::string advice_of(const ExposureAdvice& a) {
   const std::string instead =
       (a.suggested_s.size() > 1 ? "a bracket of " : "") + times_text(a.suggested_s) + " would do";
   if (a.clipped_share > kMuchClipped) {
-    return fmt::format("{:.2g} % of the object is clipped; {}", 100.0 * a.clipped_share, instead);
+    return fmt::format("{:.3g} % of the object is clipped; {}", 100.0 * a.clipped_share, instead);
   }
   const double shortest =
       *std::min_element(a.exposure_s.begin(), a.exposure_s.end()) / a.exposure_s.front();

@@ -124,13 +124,17 @@ RelativeRange relative_range(const PlannedChannel& channel, Quantity Estimate::*
 }
 
 std::string percent_text(double relative) {
-  return std::isfinite(relative) ? fmt::format("{:.2g} %", 100.0 * relative) : "–";
+  if (!std::isfinite(relative)) return "–";
+  // Whole per cent from ten on: "100 %", not "1e+02 %".
+  const double percent = 100.0 * relative;
+  return percent < 9.95 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
 }
 
 std::string percent_text(const RelativeRange& r) {
   const std::string high = percent_text(r.high);
   if (percent_text(r.low) == high) return high;
-  return fmt::format("{:.2g} … {}", 100.0 * r.low, high);
+  const std::string low = percent_text(r.low);
+  return low.substr(0, low.size() - 2) + " … " + high;
 }
 
 std::vector<std::string> plan_assumptions(const Plan& plan) {
@@ -177,7 +181,7 @@ std::vector<KnownCause> known_causes(const Estimate& estimate) {
   };
   std::vector<KnownCause> out;
   for (const BudgetLine& line : estimate.budget) {
-    if (line.cause == "noise") continue;
+    if (line.cause == "noise" || line.cause == "numerics") continue;
     out.push_back({line.cause,
                    without(estimate.sigma_s_prime_per_mm.std, line.std_sigma_s_prime_per_mm),
                    without(estimate.sigma_a_per_mm.std, line.std_sigma_a_per_mm)});

@@ -57,7 +57,8 @@ struct KnownCause {
   double sigma_s_prime_std_per_mm = 0;
   double sigma_a_std_per_mm = 0;
 };
-// Of every line of the budget but noise, the most helpful for sigma_a first.
+// Of every line of the budget but noise and errors of the method, the most helpful for sigma_a
+// first.
 std::vector<KnownCause> known_causes(const Estimate& estimate);
 
 struct Plan {

@@ -155,6 +155,11 @@ Html gain_table(const OtherShots& o, const std::vector<const PlannedChannel*>& c
 Html plan_section(const Plan& plan, const std::vector<const PlannedChannel*>& channels) {
   const std::string& material = channels.front()->result.material;
   Html out = html_element("h2", html_text(material));
+  if (std::none_of(channels.begin(), channels.end(),
+                   [](const PlannedChannel* c) { return c->result.estimate.converged; })) {
+    out += html_element("p", html_text("Nothing of it would be measured."), "fail");
+    return out;
+  }
   for (const OtherShots& o : plan.other_shots) {
     if (o.material != material) continue;
     out += html_element("h3", html_text("What would help"));
