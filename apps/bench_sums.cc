@@ -114,7 +114,7 @@ LongSum long_sum(const Medium& medium, const SumsScene& scene, const Eigen::Vect
 }
 
 // Of a tolerance, the degree whose series are cheapest.
-int degree_for(double tolerance) { return tolerance >= 3e-2 ? 4 : tolerance >= 1e-3 ? 6 : 8; }
+int degree_for(double tolerance) { return tolerance >= 1e-3 ? 6 : 8; }
 
 double direct_nanoseconds(const SumsScene& scene, const Medium& medium, int repeats) {
   const std::size_t rows = std::min<std::size_t>(scene.rows.size(), 256);
