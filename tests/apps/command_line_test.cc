@@ -14,10 +14,10 @@ TEST(CommandLine, HelpNamesEveryCommand) {
   const Answer r = run({"--help"});
   EXPECT_EQ(r.status, 0);
   for (const char* word :
-       {"measure", "check", "simulate", "bench", "--threads", "--quiet", "--version"}) {
+       {"measure", "check", "simulate", "plan", "bench", "--threads", "--quiet", "--version"}) {
     EXPECT_THAT(r.out, HasSubstr(word));
   }
-  for (const char* command : {"measure", "check", "simulate"}) {
+  for (const char* command : {"measure", "check", "simulate", "plan"}) {
     const Answer help = run({command, "--help"});
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr("rig"));
