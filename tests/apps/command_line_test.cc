@@ -13,11 +13,11 @@ using ::testing::HasSubstr;
 TEST(CommandLine, HelpNamesEveryCommand) {
   const Answer r = run({"--help"});
   EXPECT_EQ(r.status, 0);
-  for (const char* word : {"measure", "check", "simulate", "render", "export", "bench", "--threads",
-                           "--quiet", "--version"}) {
+  for (const char* word : {"measure", "check", "simulate", "plan", "render", "export", "bench",
+                           "--threads", "--quiet", "--version"}) {
     EXPECT_THAT(r.out, HasSubstr(word));
   }
-  for (const char* command : {"measure", "check", "simulate"}) {
+  for (const char* command : {"measure", "check", "simulate", "plan"}) {
     const Answer help = run({command, "--help"});
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr("rig"));

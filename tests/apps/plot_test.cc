@@ -94,6 +94,21 @@ TEST(Plot, CellsHaveAColourEach) {
   EXPECT_THROW(plot_svg(plot), std::invalid_argument);
 }
 
+// From dark blue to yellow, with labels inside a decade.
+TEST(Plot, CellsOnALogScale) {
+  Plot plot;
+  PlotSeries cells{"", PlotSeries::Style::kCells, {0.5, 1.5}, {0.5, 0.5}};
+  cells.dx = cells.dy = {1, 1};
+  cells.value = {1.2, 9};
+  plot.series = {cells};
+  plot.colours = {"deviation [%]", 9, 1.2, true};
+  plot.equal_axes = true;
+  const std::string svg = plot_svg(plot);
+  for (const char* text : {"rgb( 68,   1,  84)", "rgb(253, 231,  37)", ">1.5<", ">7<"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+}
+
 TEST(Plot, RefusesWhatCannotBeDrawn) {
   const TemporaryFolder folder;
   EXPECT_THROW(write_plot(example(), folder / "a.gif"), std::invalid_argument);
