@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/dng_writer.h"
+#include "tests/apps/made_result.h"
 
 namespace {
 
@@ -72,12 +73,15 @@ int main(int count, char** words) {
   }
   const fs::path source = words[1];
   const fs::path out = words[2];
-  for (const char* door : {"rig", "calibration", "mesh", "probe", "raw"}) {
+  for (const char* door : {"rig", "calibration", "mesh", "probe", "raw", "result"}) {
     fs::create_directories(out / door);
   }
   raws(out / "raw");
   probes(out / "probe");
   calibrations(out / "calibration");
+  write(out / "result/result.json",
+        scattermeter::apps::made_result({{"PP", {{0.62, 0.7, 0.8}, {0.0012, 0.001, 0.0018}}}})
+            .dump(1));
   for (const char* mesh : {"cube.obj", "pyramid_on_pedestal.obj"}) {
     copy_into(source / "samples/three_plastics" / mesh, out / "mesh");
   }
