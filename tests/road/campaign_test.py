@@ -5,7 +5,6 @@ Every folder ends up measured once, with the digits of a run by hand. Status 77:
 """
 import json
 import os
-import re
 import shutil
 import signal
 import subprocess
@@ -15,31 +14,18 @@ import time
 import unittest
 from pathlib import Path
 
+from small_rig import write_small_rig
+
 PROGRAM, SNAKEFILE = (Path(p).resolve() for p in sys.argv[1:3])
 SAMPLE = SNAKEFILE.parent.parent / "three_plastics"
 FOLDERS = 20
-
-
-def small_rig():
-    """The sample at an eighth of its resolution, PP under both LEDs on the cube only."""
-    text = (SAMPLE / "rig.yaml").read_text(encoding="utf-8")
-    eighth = lambda px: (float(px) + 0.5) / 8 - 0.5
-    text = re.sub(r"image_px: \[([\d.]+), ([\d.]+)\]",
-                  lambda m: f"image_px: [{eighth(m[1]):.3f}, {eighth(m[2]):.3f}]", text)
-    text = text.replace("[3872, 2592]", "[484, 324]")
-    text = re.sub(r"fx_px: 9836, fy_px: 9836, cx_px: [\d.]+, cy_px: [\d.]+",
-                  f"fx_px: 1229.5, fy_px: 1229.5, cx_px: {eighth(1941.3):.3f}, cy_px: {eighth(1290.7):.3f}", text)
-    text = re.sub(r"  - \{file: (?!PP_cube)[^}]*\}.*\n", "", text)
-    return text.replace("point_std_px: 0.15", "point_std_px: 0.02")
 
 
 class Campaign(unittest.TestCase):
     def setUp(self):
         self.home = Path(tempfile.mkdtemp(prefix="campaign it's "))
         self.addCleanup(shutil.rmtree, self.home, ignore_errors=True)
-        for name in ("cube.obj", "pyramid_on_pedestal.obj"):
-            shutil.copy(SAMPLE / name, self.home)
-        (self.home / "rig.yaml").write_text(small_rig(), encoding="utf-8")
+        write_small_rig(SAMPLE, self.home)
         subprocess.run([PROGRAM, "-q", "simulate", self.home / "rig.yaml", "--out", self.home / "shots"], check=True)
         # The same shots under twenty names: what is tested here is who measures them, and how often.
         lines = [f"scattermeter: {json.dumps(str(self.home / 'counted'))}", "options: --model dipole", "measurements:"]
