@@ -60,12 +60,11 @@ PixelRect silhouette_window(const RayScene& scene, const CameraIntrinsics& intri
 // width, the turn of the camera, as a shift of the image, with the best contrast
 // (inside - outside) / (inside + outside) over all contours. (2) From these cells to the raw's own
 // samples, each half the size of the one before: pieces located (edge_points()), pose by
-// least squares with Cauchy's loss, so that clutter and unlit edges have little say; pieces alone on
-// their line are dropped. (3) Pieces off
-// by more than six robust deviations are left out, scatter of pieces about their line and of lines
-// about the pose found by moments (R. C. Paule, J. Mandel, "Consensus values and weighting
-// factors", 1982). Deterministic. Throws std::invalid_argument on no shots and options out of
-// range.
+// least squares with Cauchy's loss, so that clutter and unlit edges have little say; pieces alone
+// on their line are dropped. (3) Pieces off by more than six robust deviations are left out,
+// scatter of pieces about their line and of lines about the pose found by moments (R. C. Paule, J.
+// Mandel, "Consensus values and weighting factors", 1982). Deterministic. Throws
+// std::invalid_argument on no shots and options out of range.
 Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntrinsics& intrinsics,
                            const Rigid3d& camera_from_world, const SilhouetteOptions& options = {});
 
