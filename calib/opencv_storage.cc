@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 
 #include "core/input_error.h"
 
@@ -32,6 +33,9 @@ cv::FileStorage parse_storage(const std::string& path, const std::string& text) 
     if (storage.isOpened() && storage.root().isMap()) return storage;
   } catch (const cv::Exception& error) {
     throw InputError(path, std::string(expected) + ", got: " + error.err);
+  } catch (const std::logic_error& error) {
+    // Its parser counts characters of some broken lines below zero.
+    throw InputError(path, std::string(expected) + ", got: " + error.what());
   }
   throw InputError(path, expected);
 }

@@ -113,13 +113,16 @@ Scene surface(const std::string& name, std::size_t n, double size,
 
 Eigen::Vector3d on_sphere(std::mt19937& random) {
   std::normal_distribution<double> normal;
-  return Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+  const double z = normal(random), y = normal(random), x = normal(random);
+  return Eigen::Vector3d(x, y, z).normalized();
 }
 
 Eigen::Vector3d on_cube(std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Eigen::Vector3d p(uniform(random), uniform(random), uniform(random));
-  p[static_cast<int>(random() % 3)] = random() % 2 == 0 ? -1.0 : 1.0;
+  const double z = uniform(random), y = uniform(random), x = uniform(random);
+  Eigen::Vector3d p(x, y, z);
+  const double side = random() % 2 == 0 ? -1.0 : 1.0;
+  p[static_cast<int>(random() % 3)] = side;
   return p;
 }
 
