@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "core/input_error.h"
@@ -22,11 +23,26 @@ std::string storage_text(const std::string& path) {
   throw InputError(path, "cannot read the intrinsics file");
 }
 
+// OpenCV 4.6 never returns from some texts with more than one beginning of a document.
+bool has_one_document(const std::string& text) {
+  int begins = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.compare(0, 3, "---") != 0) continue;
+    ++begins;
+    if (line.find_first_not_of(" \t\r", 3) != std::string::npos) return false;
+  }
+  return begins <= 1;
+}
+
 cv::FileStorage parse_storage(const std::string& path, const std::string& text) {
   const char* expected = "expected YAML (%YAML), XML or JSON as OpenCV's FileStorage writes it";
   // It takes a text by its first characters and asserts on an empty one.
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(path, std::string(expected) + ", got an empty file");
+  }
+  if (!has_one_document(text)) {
+    throw InputError(path, "expected one document: one line of --- and nothing else in that line");
   }
   try {
     cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);

@@ -47,6 +47,9 @@ TEST(OpencvStorage, NamesTheFile) {
   // OpenCV's parser leaves this one by std::length_error.
   std::ofstream(folder / "key.yaml") << "%YAML:1.0\n---\na: 1\n   :a[ tda -0.1, 0.05 ]\n";
   EXPECT_THROW(open_storage(folder / "key.yaml"), InputError);
+  // It would not come back from this one.
+  std::ofstream(folder / "two.yaml") << "%YAML:1.0\n---%YAML:1.0\n\n\nc---\nimag_a%YAiML";
+  EXPECT_THROW(open_storage(folder / "two.yaml"), InputError);
   std::ofstream(folder / "text.yaml") << "no map at all";
   EXPECT_THROW(open_storage(folder / "text.yaml"), InputError);
 }
