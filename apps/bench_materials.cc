@@ -9,6 +9,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/bodies_rig.h"
+#include "apps/channel_index.h"
 #include "apps/csv.h"
 #include "apps/instrument.h"
 #include "apps/progress.h"
@@ -88,7 +89,7 @@ std::vector<MaterialsBenchRow> bench_materials(const std::vector<ListedMaterial>
                  [&](const ListedMaterial& m) { return m.name == name; });
     std::array<Medium, 3> media;
     media.fill(channels.front().medium);
-    for (const ListedMaterial& m : channels) media[std::string("RGB").find(m.channel)] = m.medium;
+    for (const ListedMaterial& m : channels) media[channel_index(m.channel)] = m.medium;
     const Rig truth = bodies_rig(options.image_width_px, channels.front().medium.eta_int_over_ext,
                                  {{name, media}});
     const ObjectScenes scenes = bodies_scenes(truth);
@@ -110,7 +111,7 @@ std::vector<MaterialsBenchRow> bench_materials(const std::vector<ListedMaterial>
                      FrameSource([&](std::size_t i, std::size_t) { return exposed.at(i); })));
       for (const ListedMaterial& material : channels) {
         rows.push_back(judged(material, scale_std,
-                              m.results.at(std::string("RGB").find(material.channel)).estimate));
+                              m.results.at(channel_index(material.channel)).estimate));
       }
     }
     progress.step();

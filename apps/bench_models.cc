@@ -15,6 +15,7 @@
 #include "apps/answer_statistics.h"
 #include "apps/bodies.h"
 #include "apps/bodies_rig.h"
+#include "apps/channel_index.h"
 #include "apps/instrument.h"
 #include "apps/progress.h"
 #include "apps/shot_system.h"
@@ -38,7 +39,7 @@ struct Case {
 Case make_case(const std::string& body, const ListedMaterial& material,
                const ModelsBenchOptions& options, double scale_error) {
   Case c;
-  c.channel = std::string("RGB").find(material.channel);
+  c.channel = channel_index(material.channel);
   std::array<Medium, 3> media;
   media.fill(material.medium);
   c.truth = bodies_rig(options.image_width_px, material.medium.eta_int_over_ext,

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/channel_index.h"
 #include "apps/csv.h"
 #include "apps/instrument.h"
 #include "apps/progress.h"
@@ -66,7 +67,7 @@ std::vector<NoiseBenchRow> bench_noise(const Rig& rig, const ObjectScenes& scene
     progress.step();
   }
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const std::size_t channel = std::string("RGB").find(rows[r].channel);
+    const std::size_t channel = channel_index(rows[r].channel);
     const Medium& truth = rig.truth_materials.at(rows[r].material)[channel];
     rows[r].sigma_s_prime_per_mm = answer_statistics(truth.sigma_s_prime_per_mm, answers[r].s);
     rows[r].sigma_a_per_mm = answer_statistics(truth.sigma_a_per_mm, answers[r].a);

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/channel_index.h"
 #include "apps/csv.h"
 #include "apps/instrument.h"
 #include "apps/text_table.h"
@@ -77,7 +78,7 @@ std::vector<PatchesBenchRow> bench_patches(const std::string& scene, const Rig& 
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (const ChannelResult& result : m.results) {
-      const std::size_t channel = std::string("RGB").find(result.channel);
+      const std::size_t channel = channel_index(result.channel);
       const Medium& truth = rig.truth_materials.at(result.material)[channel];
       const Estimate& e = result.estimate;
       PatchesBenchRow row;

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/channel_index.h"
 #include "apps/estimation_task.h"
 #include "apps/instrument.h"
 #include "apps/radiance_file.h"
@@ -91,7 +92,7 @@ std::vector<OtherShotsTask> other_tasks(const Rig& rig, const TruthMaterials& ex
       if (worst == nullptr || relative(c) > relative(*worst)) worst = &c;
     }
     if (worst == nullptr) continue;
-    const std::size_t channel = std::string("RGB").find(worst->result.channel);
+    const std::size_t channel = channel_index(worst->result.channel);
     out.push_back({{material, channel, expected.at(material), worst->result.eta_int_over_ext},
                    worst->result.estimate.sigma_a_per_mm});
   }
@@ -259,7 +260,7 @@ Plan plan(const Rig& given, const ObjectScenes& scenes, const PlanOptions& optio
     if (k == 0) out.channels.resize(m.results.size());
     for (std::size_t r = 0; r < m.results.size(); ++r) {
       const ChannelResult& result = m.results[r];
-      Medium medium = materials[k].at(result.material)[std::string("RGB").find(result.channel)];
+      Medium medium = materials[k].at(result.material)[channel_index(result.channel)];
       medium.eta_int_over_ext = result.eta_int_over_ext;
       if (k == 0) {
         out.channels[r].expected = {medium, result.estimate};
