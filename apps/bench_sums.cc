@@ -8,6 +8,7 @@
 #include <random>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -15,6 +16,7 @@
 #include "core/dipole_pairs.h"
 #include "core/dipole_sums.h"
 #include "core/fresnel.h"
+#include "core/middle_value.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -75,8 +77,7 @@ double median_seconds(int repeats, const std::function<void()>& run) {
     seconds.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  std::sort(seconds.begin(), seconds.end());
-  return seconds[seconds.size() / 2];
+  return middle_value(std::move(seconds));
 }
 
 // Value and derivatives in long double, and the derivatives' absolute terms.
@@ -193,8 +194,7 @@ SumsBenchRow measure_sums(const SumsScene& scene, const std::vector<Medium>& med
       }
     }
   }
-  std::sort(errors.begin(), errors.end());
-  row.median_error = errors[errors.size() / 2];
+  row.median_error = middle_value(std::move(errors));
   return row;
 }
 
