@@ -77,7 +77,7 @@ Html& Html::operator+=(const Html& other) {
   return *this;
 }
 
-Html html_text(const std::string& text) {
+std::string plain_text(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t n = sequence_length(text, i);
@@ -86,22 +86,30 @@ Html html_text(const std::string& text) {
       out += "\xEF\xBF\xBD";
     } else if (n > 1) {
       out += text.substr(i, n);
-    } else if (byte < 0x20U || byte == 0x7FU) {
-      out += ' ';
-    } else if (text[i] == '&') {
-      out += "&amp;";
-    } else if (text[i] == '<') {
-      out += "&lt;";
-    } else if (text[i] == '>') {
-      out += "&gt;";
-    } else if (text[i] == '"') {
-      out += "&quot;";
-    } else if (text[i] == '\'') {
-      out += "&#39;";
     } else {
-      out += text[i];
+      out += byte < 0x20U || byte == 0x7FU ? ' ' : text[i];
     }
     i += n == 0 ? 1 : n;
+  }
+  return out;
+}
+
+Html html_text(const std::string& text) {
+  std::string out;
+  for (const char c : plain_text(text)) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (c == '\'') {
+      out += "&#39;";
+    } else {
+      out += c;
+    }
   }
   return {out};
 }

@@ -12,8 +12,10 @@ struct Html {
   Html& operator+=(const Html& other);
 };
 
-// &, <, >, " and ' as entities; control characters become spaces, bytes that are no UTF-8 become
-// U+FFFD.
+// Control characters become spaces, bytes that are no UTF-8 become U+FFFD.
+std::string plain_text(const std::string& text);
+
+// plain_text() with &, <, >, " and ' as entities.
 Html html_text(const std::string& text);
 
 // <name class="...">inner</name>; an empty class is left out.

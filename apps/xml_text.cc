@@ -1,33 +1,15 @@
 #include "apps/xml_text.h"
 
-#include <utility>
-
 #include "apps/csv.h"
 #include "apps/html_page.h"
 
 namespace scattermeter::apps {
-namespace {
-
-// As html_text() without its entities, which a comment does not know: UTF-8 on one line.
-std::string valid_text(const std::string& line) {
-  std::string text = html_text(line).markup;
-  for (const auto& [entity, letter] :
-       {std::pair{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&#39;", "'"}, {"&amp;", "&"}}) {
-    const std::string found = entity;
-    for (std::size_t at = 0; (at = text.find(found, at)) != std::string::npos; ++at) {
-      text.replace(at, found.size(), letter);
-    }
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string xml_comments(const std::vector<std::string>& lines, const std::string& indent) {
   std::string out;
   for (const std::string& line : lines) {
     std::string text;
-    for (char c : valid_text(line)) {
+    for (char c : plain_text(line)) {
       if (c == '-' && !text.empty() && text.back() == '-') text += ' ';
       text += c;
     }
