@@ -12,7 +12,7 @@
 #include "apps/shot_pose.h"
 #include "apps/virtual_shots.h"
 #include "calib/camera_model.h"
-#include "tests/apps/small_rig.h"
+#include "tests/apps/charuco_rig.h"
 #include "tests/calib/pose_scenes.h"
 
 namespace scattermeter::apps {
@@ -66,24 +66,8 @@ class PoseStatistics {
   Eigen::Matrix<double, 6, 1> sum_ = Eigen::Matrix<double, 6, 1>::Zero(), squares_ = sum_;
 };
 
-// A pyramid in the middle of a board, 968 x 648 samples.
-std::string rig_text(const SmallRig& files) {
-  const std::size_t begin = files.text().find("  points:");
-  const std::size_t end = files.text().find("objects:");
-  const std::string board =
-      "  charuco: {squares: [10, 8], square_mm: 6, marker_mm: 4.5, dictionary: DICT_4X4_100, "
-      "origin_mm: [-30, -22, 0]}\n";
-  return replaced(replaced(files.text().substr(0, begin) + board + files.text().substr(end),
-                           "[484, 324]", "[968, 648]"),
-                  "{fx_px: 1229.5, fy_px: 1229.5, cx_px: 241.8, cy_px: 161.2}",
-                  "{fx_px: 2459, fy_px: 2459, cx_px: 483.6, cy_px: 322.4}") +
-         "  pose: {position_mm: [0, -100, 150], look_at_mm: [0, 0, 9]}\n";
-}
-
 TEST(PoseStatistics, BoardOutlineAndMarksAreUnbiasedAndKnowTheirScatter) {
-  SmallRig files;
-  files.keep_shots("PE_pyramid_1");
-  files.write(rig_text(files));
+  const CharucoRig files("PE_pyramid_1");
   Rig rig = read_rig(files.rig());
   const ObjectScenes scenes = open_objects(rig);
   const std::string& file = rig.shots[0].file;

@@ -9,6 +9,7 @@
 #include "apps/camera_view.h"
 #include "apps/shot_pose.h"
 #include "apps/virtual_shots.h"
+#include "tests/apps/charuco_rig.h"
 #include "tests/apps/small_rig.h"
 
 namespace scattermeter::apps {
@@ -96,22 +97,10 @@ TEST_F(SilhouetteCheckTest, CameraDrifts) {
   EXPECT_NE(c.verdict().find("PP_pyramid_2.dng"), std::string::npos) << c.verdict();
 }
 
-// The pyramid stands in the middle of a board, before paper and ink; the board gives each shot's
-// pose.
+// The outline before paper and ink.
 class BoardInTheShotTest : public ::testing::Test {
  protected:
   BoardInTheShotTest() {
-    files_.keep_shots("PE_pyramid");
-    const std::size_t begin = files_.text().find("  points:");
-    const std::size_t end = files_.text().find("objects:");
-    files_.write(files_.text().substr(0, begin) +
-                 "  charuco: {squares: [10, 8], square_mm: 6, marker_mm: 4.5, dictionary: "
-                 "DICT_4X4_100, origin_mm: [-30, -22, 0]}\n" +
-                 files_.text().substr(end) +
-                 "  pose: {position_mm: [0, -100, 150], look_at_mm: [0, 0, 9]}\n");
-    files_.write(replaced(replaced(files_.text(), "[484, 324]", "[968, 648]"),
-                          "{fx_px: 1229.5, fy_px: 1229.5, cx_px: 241.8, cy_px: 161.2}",
-                          "{fx_px: 2459, fy_px: 2459, cx_px: 483.6, cy_px: 322.4}"));
     rig_ = read_rig(files_.rig());
     scenes_ = open_objects(rig_);
   }
@@ -134,7 +123,7 @@ class BoardInTheShotTest : public ::testing::Test {
         poses);
   }
 
-  SmallRig files_;
+  CharucoRig files_{"PE_pyramid"};
   Rig rig_;
   ObjectScenes scenes_;
 };
