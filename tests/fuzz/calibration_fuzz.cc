@@ -6,28 +6,15 @@
 #include "apps/led_calibration_file.h"
 #include "apps/radiance_file.h"
 #include "calib/camera_calibration_file.h"
-#include "core/input_error.h"
 #include "tests/fuzz/fuzz_file.h"
-
-namespace {
-
-template <typename Read>
-void attempt(const Read& read, const std::string& path) {
-  try {
-    (void)read(path);
-  } catch (const scattermeter::InputError&) {
-  }
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const scattermeter::FuzzFile file("a.yaml");
   const std::string& path = file.with(data, size);
-  attempt(scattermeter::calib::read_camera_calibration_file, path);
-  attempt(scattermeter::apps::read_radiance_file, path);
-  attempt(scattermeter::apps::read_led_calibration_file, path);
+  scattermeter::read_or_refuse(scattermeter::calib::read_camera_calibration_file, path);
+  scattermeter::read_or_refuse(scattermeter::apps::read_radiance_file, path);
+  scattermeter::read_or_refuse(scattermeter::apps::read_led_calibration_file, path);
   return 0;
 }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "core/input_error.h"
+
 namespace scattermeter {
 
 // The file stands in a folder of this process, in memory where the system has such a place; both
@@ -22,5 +24,14 @@ class FuzzFile {
   std::string folder_;
   std::string path_;
 };
+
+// read(path): whatever the file holds, it is read or refused by InputError.
+template <typename Read>
+void read_or_refuse(const Read& read, const std::string& path) {
+  try {
+    (void)read(path);
+  } catch (const InputError&) {
+  }
+}
 
 }  // namespace scattermeter

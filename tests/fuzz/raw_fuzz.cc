@@ -1,18 +1,18 @@
 // Any bytes as a raw file: decoded by LibRaw, or refused by InputError.
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "capture/raw_reader.h"
-#include "core/input_error.h"
 #include "tests/fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const scattermeter::FuzzFile file("a.dng");
-  try {
-    (void)scattermeter::capture::read_raw(file.with(data, size), 4.0);
-  } catch (const scattermeter::InputError&) {
-  }
+  const auto read = [](const std::string& path) {
+    return scattermeter::capture::read_raw(path, 4.0);
+  };
+  scattermeter::read_or_refuse(read, file.with(data, size));
   return 0;
 }

@@ -3,16 +3,12 @@
 #include <cstdint>
 
 #include "apps/rig.h"
-#include "core/input_error.h"
 #include "tests/fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const scattermeter::FuzzFile file("a.yaml");
-  try {
-    (void)scattermeter::apps::read_rig(file.with(data, size));
-  } catch (const scattermeter::InputError&) {
-  }
+  scattermeter::read_or_refuse(scattermeter::apps::read_rig, file.with(data, size));
   return 0;
 }
