@@ -110,8 +110,8 @@ std::vector<MaterialsBenchRow> bench_materials(const std::vector<ListedMaterial>
           shots_from(told, all_shots(told),
                      FrameSource([&](std::size_t i, std::size_t) { return exposed.at(i); })));
       for (const ListedMaterial& material : channels) {
-        rows.push_back(judged(material, scale_std,
-                              m.results.at(channel_index(material.channel)).estimate));
+        rows.push_back(
+            judged(material, scale_std, m.results.at(channel_index(material.channel)).estimate));
       }
     }
     progress.step();
