@@ -55,9 +55,14 @@ DistanceKnots::DistanceKnots(double resolution_mm, double max_distance_mm, int p
 
 void DistanceKnots::fold(const double* fine, double* out) const {
   std::fill(out, out + size(), 0.0);
-  for (std::size_t i = 0; i < stencils_.size(); ++i) {
-    const Stencil& stencil = stencils_[i];
-    for (int a = 0; a < 4; ++a) out[stencil.first + a] += stencil.weight[a] * fine[i];
+  // Bins between the same knots, in a row, share their four.
+  for (std::size_t i = 0; i < stencils_.size();) {
+    const int first = stencils_[i].first;
+    Eigen::Array4d sum = Eigen::Array4d::Zero();
+    for (; i < stencils_.size() && stencils_[i].first == first; ++i) {
+      sum += stencils_[i].weight * fine[i];
+    }
+    Eigen::Map<Eigen::Array4d>(out + first) += sum;
   }
 }
 

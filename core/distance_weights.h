@@ -34,7 +34,7 @@ class DistanceKnots {
  private:
   struct Stencil {
     int first;
-    double weight[4];
+    Eigen::Array4d weight;
   };
   double resolution_mm_;
   double max_distance_mm_;

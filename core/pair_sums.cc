@@ -13,6 +13,21 @@ namespace {
 
 using Density = std::array<double, 3>;
 
+double area_mm2(const Triangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
+
+// visit(point, weight) for the rule's points on a triangle with a density that is linear.
+template <class Visit>
+void for_rule(const Triangle& t, const Density& e, double area, const Visit& visit) {
+  const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
+  for (const TriangleOrbit& orbit : kCowper) {
+    const double b = orbit.b();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double density = b * (e[0] + e[1] + e[2]) + (orbit.a - b) * e[i];
+      visit(center + (orbit.a - b) * (t[i] - center), density * area * orbit.weight);
+    }
+  }
+}
+
 // Integral of density times f(|p - x|) over a triangle into bins; density is linear.
 template <class Bins>
 class NearIntegral {
@@ -25,15 +40,10 @@ class NearIntegral {
     const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
     const double distance = (center - p_).norm();
     if (edge <= options_.floor_mm || edge * options_.near_ratio <= distance) {
-      for (const TriangleOrbit& orbit : kCowper) {
-        const double b = orbit.b();
-        for (int i = 0; i < 3; ++i) {
-          const Eigen::Vector3d q = center + (orbit.a - b) * (t[i] - center);
-          const double density = b * (e[0] + e[1] + e[2]) + (orbit.a - b) * e[i];
-          bins_.add(static_cast<float>((q - p_).squaredNorm()),
-                    static_cast<float>(weight_ * density * area * orbit.weight), sums_);
-        }
-      }
+      for_rule(t, e, area, [&](const Eigen::Vector3d& q, double power) {
+        bins_.add(static_cast<float>((q - p_).squaredNorm()), static_cast<float>(weight_ * power),
+                  sums_);
+      });
       return;
     }
     const Triangle m = {0.5 * (t[1] + t[2]), 0.5 * (t[2] + t[0]), 0.5 * (t[0] + t[1])};
@@ -65,9 +75,8 @@ struct SourceCloud::Moments {
     const auto& c = t.corners_mm;
     const auto& e = t.irradiance_sr_per_mm2;
     Moments m;
-    const double area_mm2 = 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
     const double sum = e[0] + e[1] + e[2];
-    m.power = sum / 3.0 * area_mm2;
+    m.power = sum / 3.0 * area_mm2(c);
     // ∫ λ_i λ_j λ_k over a triangle of unit area is 1/10 (i = j = k), 1/30 (two alike), 1/60; a
     // linear density is Σ e_i λ_i. Centroid: (sum + e_i) / (4 sum) of corner i.
     for (int i = 0; i < 3; ++i) m.mean += (sum + e[i]) / (4.0 * sum) * c[i];
@@ -153,6 +162,19 @@ SourceCloud::SourceCloud(const IncidentLight& light, const Eigen::Vector3d& orig
     for (Eigen::Vector3d& corner : t.corners_mm) corner -= origin_mm_;
     leaves.push_back(Moments::of(t));
   }
+  for (const LitTriangle& t : triangles_) {
+    Rule& rule = rules_.emplace_back();
+    rule.center = ((t.corners_mm[0] + t.corners_mm[1] + t.corners_mm[2]) / 3.0).cast<float>();
+    rule.edge = static_cast<float>(longest_edge_mm(t.corners_mm));
+    std::size_t k = 0;
+    for_rule(t.corners_mm, t.irradiance_sr_per_mm2, area_mm2(t.corners_mm),
+             [&](const Eigen::Vector3d& q, double power) {
+               rule.x[k] = static_cast<float>(q.x());
+               rule.y[k] = static_cast<float>(q.y());
+               rule.z[k] = static_cast<float>(q.z());
+               rule.power[k++] = static_cast<float>(power);
+             });
+  }
   std::vector<std::int32_t> order(triangles_.size());
   std::iota(order.begin(), order.end(), 0);
   nodes_.reserve(2 * triangles_.size());
@@ -166,7 +188,7 @@ struct SourceCloud::Sum {
   const Bins& bins;
   const PairSumOptions& options;
   double* sums;
-  float x, y, z, radius, far_ratio;
+  float x, y, z, radius, far_ratio, near_ratio;
   float xx, xy, xz, yy, yz, zz;  // the site's covariance
   ExitSite near;                 // relative to the cloud's origin
 
@@ -182,7 +204,7 @@ struct SourceCloud::Sum {
       visit(at + 1);
       visit(node.right);
     } else {
-      add_near(cloud.triangles_[static_cast<std::size_t>(node.triangle)]);
+      add_near(node.triangle);
     }
   }
 
@@ -216,13 +238,23 @@ struct SourceCloud::Sum {
     for (float s : d2) bins.add(s, quarter, sums);
   }
 
-  void add_near(const LitTriangle& t) {
-    const double area_mm2 =
-        0.5 * (t.corners_mm[1] - t.corners_mm[0]).cross(t.corners_mm[2] - t.corners_mm[0]).norm();
-    const double edge = longest_edge_mm(t.corners_mm);
+  void add_near(std::int32_t triangle) {
+    const Rule& rule = cloud.rules_[static_cast<std::size_t>(triangle)];
     for (std::size_t i = 0; i < static_cast<std::size_t>(near.n_points); ++i) {
+      const Eigen::Vector3f p = near.points_mm[i].template cast<float>();
+      if (rule.edge * near_ratio <= (rule.center - p).norm()) {
+        const auto weight = static_cast<float>(near.weights[i]);
+        for (std::size_t k = 0; k < rule.x.size(); ++k) {
+          const float rx = rule.x[k] - p.x();
+          const float ry = rule.y[k] - p.y();
+          const float rz = rule.z[k] - p.z();
+          bins.add(rx * rx + ry * ry + rz * rz, weight * rule.power[k], sums);
+        }
+        continue;
+      }
+      const LitTriangle& t = cloud.triangles_[static_cast<std::size_t>(triangle)];
       NearIntegral<Bins>(near.points_mm[i], near.weights[i], bins, options, sums)
-          .add(t.corners_mm, t.irradiance_sr_per_mm2, area_mm2, edge);
+          .add(t.corners_mm, t.irradiance_sr_per_mm2, area_mm2(t.corners_mm), rule.edge);
     }
   }
 };
@@ -242,6 +274,7 @@ void SourceCloud::add_to(const ExitSite& site, const Bins& bins, const PairSumOp
                 c.z(),
                 static_cast<float>(site.radius_mm()),
                 static_cast<float>(options.far_ratio),
+                static_cast<float>(options.near_ratio),
                 s(0, 0),
                 s(0, 1),
                 s(0, 2),

@@ -1,6 +1,7 @@
 // Sums over pairs of exit and entry points, sorted by distance.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -50,6 +51,12 @@ class SourceCloud {
     std::int32_t triangle;         // of a leaf
     std::int32_t right;
   };
+  // A lit triangle as six points, for sites that are farther away than it is large.
+  struct Rule {
+    Eigen::Vector3f center;
+    float edge;  // the longest
+    std::array<float, 6> x, y, z, power;
+  };
   struct Moments;
   template <class Bins>
   struct Sum;
@@ -58,6 +65,7 @@ class SourceCloud {
   Eigen::Vector3d origin_mm_;
   std::vector<Node> nodes_;
   std::vector<LitTriangle> triangles_;  // relative to the origin
+  std::vector<Rule> rules_;             // of the same
 };
 
 }  // namespace scattermeter
