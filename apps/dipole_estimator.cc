@@ -12,6 +12,7 @@
 #include "apps/progress.h"
 #include "core/dipole_fit.h"
 #include "core/dipole_misfit.h"
+#include "core/image_information.h"
 #include "core/row_selection.h"
 #include "core/shot_agreement.h"
 #include "core/smooth_reflectance.h"
@@ -53,7 +54,7 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
     if (is_new) {
       changed->second = changed_weights(*seen, e.rig.light(light), channel, e.library, knots);
     }
-    all.by_light[key] = sensitivity(*seen, changed->second, list, knots);
+    all.by_light[key] = sensitivity(*seen, e.weights.at(key), changed->second, list, knots);
     progress.step();
   }
   all.of_task.resize(e.tasks.size());
@@ -143,7 +144,7 @@ class DipoleEstimator {
     work.rows = rows_of(e_.rig, task);
     DenseSystem system = system_of(e_.rig, task, work.rows, e_.weights, 0.0);
     add_offsets(task, system);
-    const DipoleFit fit = fit_dipole(system, knots_, options_of(task));
+    DipoleFit fit = fit_to_some(system, options_of(task));
     e_.results[i].estimate = fit.estimate;
     report_rows(task, work.rows, e_.results[i]);
     work.estimated = fit.estimate.converged;
@@ -154,6 +155,23 @@ class DipoleEstimator {
       expect(o, fit.predicted.segment(at, n));
       at += n;
     }
+  }
+
+  // To some thousand rows evenly among all, which tell a material well enough to begin with; where
+  // they don't, to all of them.
+  DipoleFit fit_to_some(const DenseSystem& system, const DipoleFitOptions& options) const {
+    constexpr Eigen::Index kRows = 4096;
+    const Eigen::Index step = system.l.size() / kRows;
+    if (step > 1) {
+      std::vector<Eigen::Index> rows;
+      for (Eigen::Index j = 0; j < system.l.size(); j += step) rows.push_back(j);
+      DipoleFit fit = fit_dipole(selected(system, rows), knots_, options);
+      if (fit.estimate.converged) {
+        fit.predicted = predicted_image(system, knots_, fit.optimum, options.eta_int_over_ext);
+        return fit;
+      }
+    }
+    return fit_dipole(system, knots_, options);
   }
 
   bool has_ambient(const Task& task) const {
@@ -219,10 +237,17 @@ class DipoleEstimator {
     const DipoleFitOptions options = options_of(task);
     DenseSystem system = full_system(i, first);
     if (systems_ != nullptr) (*systems_)[i] = DipoleSystem{system, knots_, work_[i].rows};
-    DipoleFit fit = fit_dipole(system, knots_, options);
+    std::vector<ImageInformation> images;
+    const auto fitted = [&] {
+      images = information_by_shot(system);
+      ImageInformation all = images.at(0);
+      for (std::size_t s = 1; s < images.size(); ++s) all += images[s];
+      return fit_dipole(system, all, knots_, options);
+    };
+    DipoleFit fit = fitted();
     if (leave_outliers_out(system, fit, work_[i].rows)) {
       system = full_system(i, first);
-      fit = fit_dipole(system, knots_, options);
+      fit = fitted();
     }
     report_rows(task, work_[i].rows, result);
     result.estimate = fit.estimate;
@@ -242,8 +267,10 @@ class DipoleEstimator {
     if (task.shots.size() < 2) return;
     result.singles.clear();
     for (std::size_t s = 0; s < task.shots.size(); ++s) {
-      result.singles.push_back(
-          {task.shots[s]->rig->file, fit_dipole(shot_of(system, s), knots_, options).estimate});
+      const ImageInformation own =
+          with_nuisances(images[s], knots_.size(), nuisances_of_shot(system, s));
+      result.singles.push_back({task.shots[s]->rig->file,
+                                fit_dipole(shot_of(system, s), own, knots_, options).estimate});
     }
     result.agreement = shot_agreement(system, knots_, fit.optimum, task.eta, options.scale,
                                       std::max(1.0, fit.estimate.reduced_chi2));

@@ -67,15 +67,17 @@ ChangedWeights changed_weights(const SeenObject& seen, const RigLight& rig_light
     return smooth_weights(sites, sources, knots, pairs);
   };
   ChangedWeights out;
+  std::vector<ExitSite> centers;
+  for (const ExitSite& site : seen.sites) centers.push_back(exit_point(site.center_mm));
   if (rig_light.is_ambient) {
     // What else is uncertain matters little to a small even light.
     out.nominal = smooth_weights(
-        seen.sites,
+        centers,
         SourceCloud(library.light(object.rig->name, rig_light.name, 0), object.box.center_mm()),
         knots, pairs);
     return out;
   }
-  out.nominal = weights(seen.sites, led, eta);
+  out.nominal = weights(centers, led, eta);
   // A hundredth of the distance: shadow edges then move by several of the parts that patches are
   // cut into, and the next order is still a hundredth of the first.
   out.move_mm = 0.01 * (led.position_mm - object.box.center_mm()).norm();
@@ -83,41 +85,47 @@ ChangedWeights changed_weights(const SeenObject& seen, const RigLight& rig_light
   for (int i = 0; i < 3 && (is_calibrated || rig_light.position_std_mm > 0.0); ++i) {
     Led moved = led;
     moved.position_mm[i] += out.move_mm;
-    out.moved[static_cast<std::size_t>(i)] = weights(seen.sites, moved, eta);
+    out.moved[static_cast<std::size_t>(i)] = weights(centers, moved, eta);
   }
   if (is_calibrated || rig_light.exponent_std > 0.0) {
     Led other = led;
     other.exponent += kExponentStep;
-    out.other_exponent = weights(seen.sites, other, eta);
+    out.other_exponent = weights(centers, other, eta);
   }
   out.turn_rad = kTurnRad;
   for (std::size_t t = 0; t < 2 && is_calibrated; ++t) {
     Led other = led;
     other.axis = (led.axis + kTurnRad * rig_light.calibrated->tangents[t]).normalized();
-    out.turned[t] = weights(seen.sites, other, eta);
+    out.turned[t] = weights(centers, other, eta);
   }
-  if (object.rig->eta_std > 0.0) out.other_eta = weights(seen.sites, led, eta + kEtaStep);
-  std::array<std::vector<ExitSite>, 2> shifted = {seen.sites, seen.sites};
+  if (object.rig->eta_std > 0.0) out.other_eta = weights(centers, led, eta + kEtaStep);
   out.shift_mm = 0.1 * seen.patches->patch_size_mm();
-  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
+  std::array<std::vector<ExitSite>, 2> shifted = {centers, centers};
+  for (std::size_t j = 0; j < centers.size(); ++j) {
     const auto along = tangents(seen.patches->normal(seen.map.patch_of_row[j]));
     for (std::size_t t = 0; t < 2; ++t) {
-      shifted[t][j] = moved(seen.sites[j], out.shift_mm * along[t]);
+      shifted[t][j] = moved(centers[j], out.shift_mm * along[t]);
     }
   }
   for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = weights(shifted[t], led, eta);
   return out;
 }
 
-LightSensitivity sensitivity(const SeenObject& seen, const ChangedWeights& weights,
-                             const std::vector<LitMedium>& media, const DistanceKnots& knots) {
+LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,
+                             const ChangedWeights& weights, const std::vector<LitMedium>& media,
+                             const DistanceKnots& knots) {
   const double eta = seen.object->rig->eta_int_over_ext;
   const Eigen::MatrixXd r = curves(media, knots, eta);
+  const Eigen::MatrixXd l = weights.nominal * r;
   LightSensitivity out;
-  out.l = weights.nominal * r;
+  out.l = nominal * r;
+  const auto relative = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
+    const Eigen::ArrayXXd per_l = (changed - l).array() / (by * l.array());
+    return (l.array() > 0.0).select(per_l * out.l.array(), 0.0);
+  };
   const auto change = [&](const WeightMatrix& changed, double by) -> Eigen::MatrixXd {
     if (changed.size() == 0) return {};
-    return (changed * r - out.l) / by;
+    return relative(changed * r, by);
   };
   for (std::size_t i = 0; i < 3; ++i) out.per_mm[i] = change(weights.moved[i], weights.move_mm);
   out.per_exponent = change(weights.other_exponent, kExponentStep);
@@ -126,7 +134,7 @@ LightSensitivity sensitivity(const SeenObject& seen, const ChangedWeights& weigh
     out.per_tangent_mm[t] = change(weights.shifted[t], weights.shift_mm);
   }
   if (weights.other_eta.size() == 0) return out;
-  out.per_eta = (weights.other_eta * curves(media, knots, eta + kEtaStep) - out.l) / kEtaStep;
+  out.per_eta = relative(weights.other_eta * curves(media, knots, eta + kEtaStep), kEtaStep);
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
     const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
     // The observed l = pi L / Ft(eta) falls as Ft grows.

@@ -35,8 +35,9 @@ struct LightSensitivity {
 };
 
 // W of a view under a light, nominal and with one thing changed at a time: all that the
-// sensitivities of any medium need of the geometry. On patches of twice the size: errors of
-// discretisation cancel in differences. What the rig knows exactly is not changed (no rows).
+// sensitivities of any medium need of the geometry. At the centres of the sites, from light on
+// patches of twice the size: errors of discretisation cancel in relative changes, and these are
+// nearly the same all over a site. What the rig knows exactly is not changed (no rows).
 struct ChangedWeights {
   WeightMatrix nominal;
   std::array<WeightMatrix, 3> moved;  // the LED, by move_mm along world x, y, z
@@ -52,9 +53,11 @@ struct ChangedWeights {
 ChangedWeights changed_weights(const SeenObject& seen, const RigLight& light, std::size_t channel,
                                ObjectLibrary& library, const DistanceKnots& knots);
 
-// By differences of the changed weights and the nominal ones.
-LightSensitivity sensitivity(const SeenObject& seen, const ChangedWeights& weights,
-                             const std::vector<LitMedium>& media, const DistanceKnots& knots);
+// By differences of the changed weights and the nominal ones, relative to what `nominal`, the W
+// that is measured with, predicts.
+LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,
+                             const ChangedWeights& weights, const std::vector<LitMedium>& media,
+                             const DistanceKnots& knots);
 
 // Two unit tangents of a row's facet; per_tangent_mm goes along them.
 std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal);

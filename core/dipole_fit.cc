@@ -153,8 +153,24 @@ void DipoleFitOptions::Check() const {
   if (!(misfit_p_value > 0.0)) throw std::invalid_argument("DipoleFitOptions.misfit_p_value");
 }
 
+Eigen::VectorXd predicted_image(const DenseSystem& system, const DistanceKnots& knots,
+                                const DipoleSolver::Point& p, double eta_int_over_ext) {
+  const DipoleCurve curve = dipole_curve(knots, p.u, p.q, eta_int_over_ext);
+  Eigen::VectorXd l = system.weights * (std::exp(p.log_s) * curve.r);
+  if (!p.v.empty()) {
+    const auto n = static_cast<Eigen::Index>(p.v.size());
+    l += system.nuisance_columns.leftCols(n) * Eigen::Map<const Eigen::VectorXd>(p.v.data(), n);
+  }
+  return l;
+}
+
 DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
                      const DipoleFitOptions& options) {
+  return fit_dipole(system, image_information(system), knots, options);
+}
+
+DipoleFit fit_dipole(const DenseSystem& system, const ImageInformation& image,
+                     const DistanceKnots& knots, const DipoleFitOptions& options) {
   options.Check();
   DipoleFit fit;
   Estimate& estimate = fit.estimate;
@@ -169,7 +185,7 @@ DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
     estimate.reasons.push_back("the image or its prediction holds values that are not finite");
     return fit;
   }
-  fit.recovered = recover_reflectance(system);
+  fit.recovered = recover_reflectance(image);
   if (options.without_noise) {
     fit.recovered.floor_chi2 +=
         static_cast<double>(system.l.size() - fit.recovered.whitened.size());
@@ -187,12 +203,7 @@ DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
   const Point& p = fit.optimum;
   estimate.converged = p.converged;
   const DipoleCurve curve = dipole_curve(knots, p.u, p.q, options.eta_int_over_ext);
-  fit.predicted = system.weights * (std::exp(p.log_s) * curve.r);
-  if (!p.v.empty()) {
-    const auto n = static_cast<Eigen::Index>(p.v.size());
-    fit.predicted +=
-        system.nuisance_columns.leftCols(n) * Eigen::Map<const Eigen::VectorXd>(p.v.data(), n);
-  }
+  fit.predicted = predicted_image(system, knots, p, options.eta_int_over_ext);
   const Residual rest = residual(system.l, fit.predicted, system.std_l);
   const int n_parameters = options.scale.relative_std == 0.0 ? 2 : 3;
   estimate.reduced_chi2 = rest.chi2 / static_cast<double>(system.l.size() - n_parameters) +

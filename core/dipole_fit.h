@@ -6,6 +6,7 @@
 #include "core/dipole_solver.h"
 #include "core/distance_weights.h"
 #include "core/estimate.h"
+#include "core/image_information.h"
 #include "core/linear_shot.h"
 #include "core/recovered_reflectance.h"
 
@@ -56,5 +57,12 @@ struct DipoleFit {
 // cannot explain, a scale or an eta that the image contradicts.
 DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
                      const DipoleFitOptions& options);
+// The same with image_information(system) at hand.
+DipoleFit fit_dipole(const DenseSystem& system, const ImageInformation& image,
+                     const DistanceKnots& knots, const DipoleFitOptions& options);
+
+// l of the system's rows, with the nuisances that are fitted.
+Eigen::VectorXd predicted_image(const DenseSystem& system, const DistanceKnots& knots,
+                                const DipoleSolver::Point& point, double eta_int_over_ext);
 
 }  // namespace scattermeter

@@ -6,6 +6,19 @@
 #include <stdexcept>
 
 namespace scattermeter {
+namespace {
+
+struct RowRange {
+  Eigen::Index begin, size;
+};
+
+RowRange rows_of_shot(const DenseSystem& system, std::size_t shot) {
+  const auto before = system.shot_rows.begin() + static_cast<std::ptrdiff_t>(shot);
+  return {std::accumulate(system.shot_rows.begin(), before, Eigen::Index{0}),
+          system.shot_rows.at(shot)};
+}
+
+}  // namespace
 
 DenseSystem stack(const std::vector<LinearShot>& shots) {
   Eigen::Index rows = 0;
@@ -59,25 +72,31 @@ DenseSystem selected(const DenseSystem& system, const std::vector<Eigen::Index>&
   return out;
 }
 
+std::vector<Eigen::Index> nuisances_of_shot(const DenseSystem& system, std::size_t shot) {
+  const RowRange rows = rows_of_shot(system, shot);
+  std::vector<Eigen::Index> out;
+  for (Eigen::Index v = 0; rows.size > 0 && v < system.nuisance_columns.cols(); ++v) {
+    if (!system.nuisance_columns.col(v).segment(rows.begin, rows.size).isZero(0.0)) {
+      out.push_back(v);
+    }
+  }
+  return out;
+}
+
 DenseSystem shot_of(const DenseSystem& system, std::size_t shot) {
-  const auto before = system.shot_rows.begin() + static_cast<std::ptrdiff_t>(shot);
-  std::vector<Eigen::Index> rows(static_cast<std::size_t>(system.shot_rows.at(shot)));
-  std::iota(rows.begin(), rows.end(),
-            std::accumulate(system.shot_rows.begin(), before, Eigen::Index{0}));
-  DenseSystem out = selected(system, rows);
-  out.shot_rows = {static_cast<Eigen::Index>(rows.size())};
-  std::vector<Nuisance> touching;
-  std::vector<Eigen::Index> columns;
-  for (std::size_t v = 0; v < system.nuisances.size(); ++v) {
-    const auto column = static_cast<Eigen::Index>(v);
-    if (rows.empty() || out.nuisance_columns.col(column).isZero(0.0)) continue;
-    columns.push_back(column);
-    touching.push_back(system.nuisances[v]);
+  const RowRange rows = rows_of_shot(system, shot);
+  DenseSystem out;
+  out.weights = system.weights.middleRows(rows.begin, rows.size);
+  out.l = system.l.segment(rows.begin, rows.size);
+  out.std_l = system.std_l.segment(rows.begin, rows.size);
+  out.shot_rows = {rows.size};
+  const std::vector<Eigen::Index> touching = nuisances_of_shot(system, shot);
+  for (const Eigen::Index v : touching) {
+    out.nuisances.push_back(system.nuisances[static_cast<std::size_t>(v)]);
   }
   if (!system.nuisances.empty()) {
-    out.nuisance_columns = Eigen::MatrixXd(out.nuisance_columns(Eigen::all, columns));
+    out.nuisance_columns = system.nuisance_columns(Eigen::seqN(rows.begin, rows.size), touching);
   }
-  out.nuisances = touching;
   return out;
 }
 

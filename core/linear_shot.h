@@ -47,6 +47,9 @@ struct DenseSystem {
 // Some of the rows, in ascending order, with all nuisances.
 DenseSystem selected(const DenseSystem& system, const std::vector<Eigen::Index>& rows);
 
+// The nuisances that touch the rows of one shot, ascending.
+std::vector<Eigen::Index> nuisances_of_shot(const DenseSystem& system, std::size_t shot);
+
 // The rows of one shot, and the nuisances that touch them.
 DenseSystem shot_of(const DenseSystem& system, std::size_t shot);
 

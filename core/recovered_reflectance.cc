@@ -15,34 +15,17 @@ double RecoveredReflectance::noise_excess() const {
 Eigen::VectorXd RecoveredReflectance::values() const { return inverse * whitened; }
 
 RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_tolerance) {
-  const Eigen::Index n_knots = system.weights.cols();
-  const Eigen::Index n = n_knots + system.nuisance_columns.cols();
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
-  double l2 = 0.0;
-  // In blocks: no second copy of the whole system.
-  constexpr Eigen::Index kBlock = 512;
-  for (Eigen::Index at = 0; at < system.weights.rows(); at += kBlock) {
-    const Eigen::Index m = std::min(kBlock, system.weights.rows() - at);
-    const Eigen::VectorXd inverse_std = system.std_l.segment(at, m).cwiseInverse();
-    Eigen::MatrixXd w(m, n);
-    w.leftCols(n_knots) = inverse_std.asDiagonal() * system.weights.middleRows(at, m);
-    if (n > n_knots) {
-      w.rightCols(n - n_knots) =
-          inverse_std.asDiagonal() * system.nuisance_columns.middleRows(at, m);
-    }
-    const Eigen::VectorXd l = inverse_std.cwiseProduct(system.l.segment(at, m));
-    information.selfadjointView<Eigen::Lower>().rankUpdate(w.transpose());
-    right.noalias() += w.transpose() * l;
-    l2 += l.squaredNorm();
-  }
+  return recover_reflectance(image_information(system), rank_tolerance);
+}
+
+RecoveredReflectance recover_reflectance(const ImageInformation& image, double rank_tolerance) {
+  const Eigen::Index n = image.information.cols();
   // Columns that nothing touches scale to zero rather than to infinity.
-  const Eigen::VectorXd scale = information.diagonal().cwiseSqrt();
+  const Eigen::VectorXd scale = image.information.diagonal().cwiseSqrt();
   const Eigen::VectorXd inverse_scale =
       scale.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
-  const Eigen::MatrixXd scaled = inverse_scale.asDiagonal() *
-                                 Eigen::MatrixXd(information.selfadjointView<Eigen::Lower>()) *
-                                 inverse_scale.asDiagonal();
+  const Eigen::MatrixXd scaled =
+      inverse_scale.asDiagonal() * image.information * inverse_scale.asDiagonal();
   const SymmetricEigen eigen = symmetric_eigen(scaled);
   const Eigen::VectorXd& lambda = eigen.values;  // ascending
   const double limit = rank_tolerance * std::max(0.0, lambda[n - 1]);
@@ -54,9 +37,9 @@ RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_
   const Eigen::MatrixXd vectors = eigen.vectors.rightCols(rank);
   out.sqrt_information = root.asDiagonal() * vectors.transpose() * scale.asDiagonal();
   out.inverse = inverse_scale.asDiagonal() * vectors * root.cwiseInverse().asDiagonal();
-  out.whitened = out.inverse.transpose() * right;
-  out.floor_chi2 = std::max(0.0, l2 - out.whitened.squaredNorm());
-  out.rows = static_cast<std::size_t>(system.weights.rows());
+  out.whitened = out.inverse.transpose() * image.right;
+  out.floor_chi2 = std::max(0.0, image.l2 - out.whitened.squaredNorm());
+  out.rows = image.rows;
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "core/image_information.h"
 #include "core/linear_shot.h"
 
 namespace scattermeter {
@@ -31,6 +32,8 @@ struct RecoveredReflectance {
   Eigen::VectorXd values() const;
 };
 
+RecoveredReflectance recover_reflectance(const ImageInformation& image,
+                                         double rank_tolerance = 1e-13);
 RecoveredReflectance recover_reflectance(const DenseSystem& system, double rank_tolerance = 1e-13);
 
 }  // namespace scattermeter

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,8 @@
 #include "calib/camera_calibration_file.h"
 #include "calib/lens.h"
 #include "calib/lens_parameters.h"
+#include "core/dipole.h"
+#include "core/incident_light.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -135,8 +138,14 @@ TEST_F(CalibratedNuisances, LensColumnsByDifferences) {
     const SeenObject& seen = *opened[0].seen;
     const RigLight& light = rig.light(opened[0].rig->lights.at(0));
     const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
-    const LightSensitivity by_shift = sensitivity(
-        seen, changed_weights(seen, light, 0, library, knots), {{{1.0, 0.003, 1.3}, 1.0}}, knots);
+    const WeightMatrix weights =
+        smooth_weights(seen.sites,
+                       SourceCloud(library.light(rig.shots[0].object, light.name, 0),
+                                   seen.object->box.center_mm()),
+                       knots, pair_options(knots));
+    const LightSensitivity by_shift =
+        sensitivity(seen, weights, changed_weights(seen, light, 0, library, knots),
+                    {{{1.0, 0.003, 1.3}, 1.0}}, knots);
     const ChannelObservation& o = opened[0].observation.channel[1];
     DenseSystem system;
     add_nuisances(rig, {&opened[0]}, {o}, 1, {{{&seen, light.name, 0}, {&by_shift, 0}}}, system);
@@ -186,6 +195,65 @@ TEST_F(CalibratedNuisances, LensColumnsByDifferences) {
     }
     ASSERT_GT(largest, 0.0);
     EXPECT_LT(worst, 1e-3 * largest) << "parameter " << parameter;
+  }
+}
+
+// Columns of LED and pose against differences of all that is measured with: patches, sites and
+// their quadrature.
+TEST_F(CalibratedNuisances, SensitivitiesByFullDifferences) {
+  Rig rig = exact_;
+  for (RigLight& light : rig.lights) {
+    light.position_std_mm = 0.3;
+    light.exponent_std = 0.05;
+  }
+  ObjectLibrary library(rig, scenes_, std::nullopt, 180.0);
+  const SharedView view = see_all(rig, scenes_, library, pose_from_points(rig));
+  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
+  const SeenObject& seen = *view.objects.at(rig.shots[0].object);
+  const RigLight& light = rig.light(rig.shots[0].lights.at(0));
+  const double eta = seen.object->rig->eta_int_over_ext;
+  const auto weights = [&](const std::vector<ExitSite>& sites, const Led& led) {
+    const IncidentLight lit = illuminate(*seen.patches, *seen.object->rays, led, eta);
+    return smooth_weights(sites, SourceCloud(lit, seen.object->box.center_mm()), knots,
+                          pair_options(knots));
+  };
+  const WeightMatrix nominal = weights(seen.sites, light.led);
+  const LitMedium medium{{1.0 / seen.patches->patch_size_mm(), 0.001, eta}, 1.0};
+  const LightSensitivity s =
+      sensitivity(seen, nominal, changed_weights(seen, light, 0, library, knots), {medium}, knots);
+  const Dipole dipole(medium.medium);
+  Eigen::VectorXd r(knots.size());
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    r[i] = dipole.reflectance_per_mm2(knots.knots_mm()[static_cast<std::size_t>(i)]);
+  }
+  const Eigen::VectorXd l = nominal * r;
+  EXPECT_LT((s.l.col(0) - l).norm(), 1e-12 * l.norm());
+  const auto expect_near = [&](const char* what, const Eigen::MatrixXd& found,
+                               const WeightMatrix& up, const WeightMatrix& down, double by,
+                               double limit) {
+    const Eigen::VectorXd change = (up - down) * r / by;
+    const double error = (found.col(0) - change).norm() / change.norm();
+    std::printf("%s: %.2f %% off\n", what, 100.0 * error);
+    EXPECT_LT(error, limit) << what;
+  };
+  for (int i = 0; i < 3; ++i) {
+    Led moved = light.led;
+    moved.position_mm[i] += 1.0;
+    expect_near("LED", s.per_mm[static_cast<std::size_t>(i)], weights(seen.sites, moved), nominal,
+                1.0, 0.01);
+  }
+  const auto shifted = [&](std::size_t t, double by_mm) {
+    std::vector<ExitSite> out = seen.sites;
+    for (std::size_t j = 0; j < out.size(); ++j) {
+      const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
+      out[j] = moved(out[j], by_mm * tangents(normal)[t]);
+    }
+    return weights(out, light.led);
+  };
+  const double step_mm = 0.05 * seen.patches->patch_size_mm();
+  for (std::size_t t = 0; t < 2; ++t) {
+    expect_near("site", s.per_tangent_mm[t], shifted(t, step_mm), shifted(t, -step_mm),
+                2.0 * step_mm, 0.05);
   }
 }
 
