@@ -32,17 +32,25 @@ DenseSystem stack(const std::vector<LinearShot>& shots) {
       cols = light.weights->cols();
     }
   }
+  // Written once: zeros that are read first would cost each page a second fault.
   DenseSystem out{
-      WeightMatrix::Zero(rows, cols), Eigen::VectorXd(rows), Eigen::VectorXd(rows), {}, {}, {}};
+      WeightMatrix(rows, cols), Eigen::VectorXd(rows), Eigen::VectorXd(rows), {}, {}, {}};
   Eigen::Index at = 0;
   for (const LinearShot& shot : shots) {
     const ChannelObservation& o = *shot.observed;
     out.shot_rows.push_back(static_cast<Eigen::Index>(o.rows_used));
     for (std::size_t j = 0; j < o.l.size(); ++j) {
       if (o.state[j] != RowState::kUsed) continue;
-      for (const LinearShot::Light& light : shot.lights) {
-        out.weights.row(at) +=
-            light.intensity_W_per_sr * light.weights->row(static_cast<Eigen::Index>(j));
+      const auto part = [&](const LinearShot::Light& light) {
+        return light.intensity_W_per_sr * light.weights->row(static_cast<Eigen::Index>(j));
+      };
+      if (shot.lights.empty()) {
+        out.weights.row(at).setZero();
+      } else {
+        out.weights.row(at) = part(shot.lights.front());
+      }
+      for (std::size_t i = 1; i < shot.lights.size(); ++i) {
+        out.weights.row(at) += part(shot.lights[i]);
       }
       out.l[at] = o.l[j];
       out.std_l[at] = std::hypot(std::sqrt(o.variance[j]), shot.numerical_relative_std * o.l[j]);
