@@ -54,6 +54,15 @@ HWY_INLINE V exp2_of_minus(V t) {
   return hn::Mul(p, hn::BitCast(D(), exponent));
 }
 
+// nearest2 / s, relative error at most 4e-4.
+HWY_INLINE V quotient(V nearest2, V s) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  return hn::Mul(nearest2, hn::ApproximateReciprocal(s));
+#else
+  return hn::Div(nearest2, s);
+#endif
+}
+
 struct Places {
   HWY_ALIGN float x[kRowLanes], y[kRowLanes], z[kRowLanes];
 };
@@ -266,6 +275,24 @@ void add_cluster_sums_here(const KernelDipole* media, std::size_t n_media, const
   }
 }
 
+void add_lane_rests_here(const RowLanes& rows, const double* center, double nearest, double pole,
+                         int power, double largest, double* lanes) {
+  const D d;
+  Places p;
+  const double per_length = 1.0 / nearest;
+  places_from(rows, center, per_length, p);
+  const V pole2 = set(pole * pole * per_length * per_length);
+  for (std::size_t i = 0; i < kRowLanes; i += hn::Lanes(d)) {
+    const V x = hn::Load(d, p.x + i), y = hn::Load(d, p.y + i), z = hn::Load(d, p.z + i);
+    const V s = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::MulAdd(z, z, pole2)));
+    // Raised to 1e-6: its powers are told from 0.
+    const V w = hn::Max(quotient(set(1.0F), s), set(1e-6F));
+    V product = w;
+    for (int k = 1; k < power; ++k) product = hn::Mul(product, w);
+    add_lanes(product, 1.003 * largest, lanes + i);
+  }
+}
+
 template <int k, bool kPlanar>
 HWY_INLINE void add_monomials(V x, V y, V z, const V* below, int degree, V* raw) {
   if constexpr (k <= kLargestDegree) {
@@ -336,6 +363,7 @@ HWY_AFTER_NAMESPACE();
 namespace scattermeter {
 HWY_EXPORT(add_point_sums_here);
 HWY_EXPORT(add_cluster_sums_here);
+HWY_EXPORT(add_lane_rests_here);
 HWY_EXPORT(sum_moments_here);
 HWY_EXPORT(target_name);
 
@@ -390,6 +418,13 @@ void add_cluster_sums(std::span<const KernelDipole> media, const RowLanes& rows,
   choose_target();
   HWY_DYNAMIC_DISPATCH(add_cluster_sums_here)
   (media.data(), media.size(), rows, cluster, degree, unit, sums.data());
+}
+
+void add_lane_rests(const RowLanes& rows, const double* center_mm, double nearest_mm,
+                    double pole_mm, int power, double largest, double* lanes) {
+  choose_target();
+  HWY_DYNAMIC_DISPATCH(add_lane_rests_here)
+  (rows, center_mm, nearest_mm, pole_mm, power, largest, lanes);
 }
 
 void sum_moments(const double* x_mm, const double* y_mm, const double* z_mm, const float* weight,

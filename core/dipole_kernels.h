@@ -80,6 +80,14 @@ struct KernelCluster {
   bool planar;
 };
 
+// What a series of degree kDegrees[i] leaves out falls with that power of the distance at least.
+inline constexpr int kFalls[] = {2, 4, 6, 8, 10};
+
+// Adds for each row largest (nearest^2 / (d^2 + pole^2))^power, rounded up by at most 3e-3, d its
+// distance from the centre. Precondition: no quotient is over 1, power 1 .. 5.
+void add_lane_rests(const RowLanes& rows, const double* center_mm, double nearest_mm,
+                    double pole_mm, int power, double largest, double* lanes);
+
 // Adds the cluster's series of that degree (one of kDegrees), times `unit`. Degree 1 is the weight
 // at the centre, in any unit of length: radius_mm is then only to be neither far above nor below
 // the distances.

@@ -43,13 +43,14 @@ struct DipoleSumsCount {
 // in the order given to RowBlocks. Near points are summed one by one; farther clusters by their
 // Taylor series (core/dipole_kernels.h) of the least degree whose rest, bounded by the poles'
 // largest derivatives (core/kernel_bounds.h) and the cluster's absolute moments, is below an even
-// share of the tolerance times what the rows receive. The bounds add up; the sum is held against
-// the rows' own sums afterwards, and the block of rows repeated with smaller shares where it is
-// over the tolerance, so the tolerance is a bound, not an estimate. Single precision adds at most
-// kDipoleSumsRounding (measured). Both hold as long as a sum is over 1e-30 of what it were with all
-// points at the row; below, errors are that small. Parallel; the same digits for any number of
-// threads. std::invalid_argument for a tolerance out of its domain, a medium that Dipole refuses,
-// or outputs of the wrong size.
+// share of the tolerance times what the rows receive. The bounds add up, for each row by its own
+// distances; shares are fitted to a block of rows such that most of the tolerance is used. The sum
+// is held against the rows' own sums afterwards, and the block repeated with smaller shares where
+// it is over the tolerance, so the tolerance is a bound, not an estimate. Single precision adds at
+// most kDipoleSumsRounding (measured). Both hold as long as a sum is over 1e-30 of what it were
+// with all points at the row; below, errors are that small. Parallel; the same digits for any
+// number of threads. std::invalid_argument for a tolerance out of its domain, a medium that Dipole
+// refuses, or outputs of the wrong size.
 inline constexpr double kDipoleSumsRounding = 3e-6;
 DipoleSumsCount sum_dipoles(const SourceClusters& sources, const RowBlocks& rows,
                             std::span<const Medium> media, std::span<std::vector<DipoleSum>> out,

@@ -47,6 +47,44 @@ bool plane_of(const WeightedPoint* begin, const WeightedPoint* end, const Eigen:
   return true;
 }
 
+// The plane of many of the points, if there is one: through three of a few samples that holds at
+// least a third of them all.
+struct Plane {
+  Eigen::Vector3d at, normal;
+  double tolerance;
+  Eigen::Matrix3d frame;  // rows: axes, the third the normal
+
+  bool holds(const Eigen::Vector3d& p) const { return std::abs(normal.dot(p - at)) <= tolerance; }
+};
+
+bool plane_of_many(const WeightedPoint* begin, const WeightedPoint* end, double size,
+                   Plane& plane) {
+  constexpr std::ptrdiff_t kSamples = 16, kMany = 6;
+  const std::ptrdiff_t count = end - begin;
+  const auto sample = [&](std::ptrdiff_t i) -> const Eigen::Vector3d& {
+    return begin[i * (count - 1) / (kSamples - 1)].at;
+  };
+  for (std::ptrdiff_t i = 0; i < kSamples; ++i) {
+    // Neighbours in the order of an earlier split, and ones farther apart.
+    for (const std::ptrdiff_t step : {1, 3, 5}) {
+      const Eigen::Vector3d a = sample((i + step) % kSamples) - sample(i);
+      const Eigen::Vector3d b = sample((i + 2 * step) % kSamples) - sample(i);
+      const Eigen::Vector3d n = a.cross(b);
+      const double area = n.norm();
+      if (!(area > 1e-2 * a.norm() * b.norm()) || !(area > 1e-4 * size * size)) continue;
+      plane = {sample(i), n / area, 1e-11 * size, Eigen::Matrix3d::Zero()};
+      std::ptrdiff_t on = 0;
+      for (std::ptrdiff_t k = 0; k < kSamples; ++k) on += plane.holds(sample(k)) ? 1 : 0;
+      if (on < kMany) continue;
+      plane.frame.row(0) = a.normalized();
+      plane.frame.row(1) = plane.normal.cross(a.normalized());
+      plane.frame.row(2) = plane.normal;
+      return true;
+    }
+  }
+  return false;
+}
+
 // How coefficients come from raw moments: those of |D|^2m are sums of moments of |D|^2(m-1), two
 // degrees above.
 template <bool kPlanar>
@@ -132,7 +170,8 @@ class ClusterBuilder {
   ClusterBuilder(SourceClusters& out, std::vector<WeightedPoint>& points)
       : out_(out), points_(points) {}
 
-  std::int32_t split(std::int32_t first, std::int32_t last, std::int32_t bucket = -1) {
+  std::int32_t split(std::int32_t first, std::int32_t last, std::int32_t bucket = -1,
+                     std::int32_t plane = -1) {
     const auto at = static_cast<std::int32_t>(out_.nodes_.size());
     WeightedPoint* const begin = points_.data() + first;
     WeightedPoint* const end = points_.data() + last;
@@ -156,6 +195,11 @@ class ClusterBuilder {
     node.first = first;
     node.last = last;
     node.left = node.right = node.series = -1;
+    // A plane holds points to a share of the size it was found at.
+    if (plane >= 0 && node.radius_mm < 1e5 * planes_[static_cast<std::size_t>(plane)].tolerance) {
+      plane = -1;
+    }
+    node.plane = plane;
     if (bucket < 0 && last - first <= SourceClusters::kBucket) bucket = at;
     node.bucket = bucket < 0 ? at : bucket;
     out_.nodes_.push_back(node);
@@ -163,13 +207,29 @@ class ClusterBuilder {
     Eigen::Index axis = 0;
     const double side = (high - low).maxCoeff(&axis);
     const double cut = low[axis] + 0.5 * side;
-    const auto middle = static_cast<std::int32_t>(
-        std::partition(begin, end, [&](const WeightedPoint& p) { return p.at[axis] < cut; }) -
-        points_.data());
+    const auto place = [&](const WeightedPoint* p) {
+      return static_cast<std::int32_t>(p - points_.data());
+    };
+    std::int32_t left_plane = plane, middle = first;
+    Plane found;
+    if (plane < 0 && last - first >= kManyPoints && plane_of_many(begin, end, side, found)) {
+      middle = place(
+          std::partition(begin, end, [&](const WeightedPoint& p) { return found.holds(p.at); }));
+      left_plane = static_cast<std::int32_t>(planes_.size());
+      planes_.push_back(found);
+      if (middle == last) {
+        plane = out_.nodes_[static_cast<std::size_t>(at)].plane = left_plane;
+        middle = first;
+      }
+    }
+    if (middle == first) {
+      middle = place(
+          std::partition(begin, end, [&](const WeightedPoint& p) { return p.at[axis] < cut; }));
+    }
     // Points that coincide, or differ by a rounding.
     if (middle == first || middle == last) return at;
-    const std::int32_t left = split(first, middle, bucket);
-    const std::int32_t right = split(middle, last, bucket);
+    const std::int32_t left = split(first, middle, bucket, left_plane);
+    const std::int32_t right = split(middle, last, bucket, plane);
     out_.nodes_[static_cast<std::size_t>(at)].left = left;
     out_.nodes_[static_cast<std::size_t>(at)].right = right;
     return at;
@@ -194,7 +254,12 @@ class ClusterBuilder {
     float* const to = out_.series_.data() + node.series;
     Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
     const WeightedPoint* const begin = points_.data() + node.first;
-    node.planar = plane_of(begin, points_.data() + node.last, center, node.radius_mm, frame);
+    if (node.plane >= 0) {
+      node.planar = true;
+      frame = planes_[static_cast<std::size_t>(node.plane)].frame;
+    } else {
+      node.planar = plane_of(begin, points_.data() + node.last, center, node.radius_mm, frame);
+    }
     for (Eigen::Index i = 0; i < 9; ++i) to[i] = static_cast<float>(frame(i / 3, i % 3));
     const auto first = static_cast<std::size_t>(node.first);
     KernelMoments moments;
@@ -213,8 +278,10 @@ class ClusterBuilder {
   }
 
  private:
+  static constexpr std::int32_t kManyPoints = 128;
   SourceClusters& out_;
   std::vector<WeightedPoint>& points_;
+  std::vector<Plane> planes_;
 };
 
 SourceClusters::SourceClusters(std::span<const Eigen::Vector3d> points_mm,
@@ -258,13 +325,14 @@ SourceClusters::SourceClusters(std::span<const Eigen::Vector3d> points_mm,
     z_mm_[i] = points[i].at.z();
     weights_[i] = static_cast<float>(points[i].weight);
   }
-  const auto stride =
-      static_cast<std::int32_t>(9 + coefficient_place(largest_degree + 1, 0, false));
+  const auto stride = [&](bool planar) {
+    return static_cast<std::int32_t>(9 + coefficient_place(largest_degree + 1, 0, planar));
+  };
   std::int32_t series = 0;
   for (Node& node : nodes_) {
     if (node.left < 0 || node.radius_mm > kLargestShare * nodes_[0].radius_mm) continue;
     node.series = series;
-    series += stride;
+    series += stride(node.plane >= 0);
   }
   series_.resize(static_cast<std::size_t>(series));
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, nodes_.size(), 64),

@@ -12,8 +12,9 @@
 
 namespace scattermeter {
 
-// A binary tree over points whose weights are > 0; others are left out. Boxes are halved at their
-// longest side until kLeaf points are left, or points that coincide. Clusters of more than kLeaf
+// A binary tree over points whose weights are > 0; others are left out. Where a plane holds many of
+// a cluster's points these are told from the others; else boxes are halved at their longest side,
+// until kLeaf points are left, or points that coincide. Clusters of more than kLeaf
 // points hold the coefficients of their series (core/dipole_kernels.h) up to the given degree; but
 // not those whose radius is over kLargestShare of the whole's, which rows on the same body are
 // hardly ever far from.
@@ -34,6 +35,7 @@ class SourceClusters {
     std::int32_t left, right;     // -1: a leaf
     std::int32_t series;          // place of frame and coefficients; -1: none
     std::int32_t bucket;          // of leaves: the node about whose centre the points are told
+    std::int32_t plane;           // that splitting found it to lie in; -1: none
     bool planar;
   };
 

@@ -229,42 +229,6 @@ TEST(DipoleSums, DirectForFewPoints) {
   expect_certified(s, kMedia, 1e-4, 256);
 }
 
-// Operations of fixed cases; they may not grow by more than 5 % unnoticed. Should a change be worth
-// it, say so with the new number.
-TEST(DipoleSums, WorkDoesNotGrow) {
-  struct Case {
-    Scene scene;
-    double tolerance;
-    double pairs, series, coefficients, tests;  // per row
-  };
-  const auto with_rows = [](Scene s) {
-    s.rows.clear();
-    for (std::size_t i = 0; i < s.points.size(); i += 5) s.rows.push_back(s.points[i]);
-    return s;
-  };
-  const Case cases[] = {
-      {with_rows(surface("cube", 20000, 10.0, on_cube)), 1e-4, 442.5, 123.8, 14414.0, 21.6},
-      {with_rows(surface("sphere", 20000, 10.0, on_sphere)), 1e-4, 485.9, 106.3, 24083.0, 21.4},
-      {with_rows(surface("cube", 20000, 10.0, on_cube)), 0.1, 226.3, 70.2, 5859.0, 11.2}};
-  for (const Case& c : cases) {
-    const SourceClusters sources(c.scene.points, c.scene.weights);
-    std::vector<std::vector<DipoleSum>> out(1, std::vector<DipoleSum>(c.scene.rows.size()));
-    const DipoleSumsCount count = sum_dipoles(sources, RowBlocks(c.scene.rows), {kMedia.data(), 1},
-                                              out, {.tolerance = c.tolerance});
-    const auto rows = static_cast<double>(count.rows);
-    EXPECT_GT(count.points_left_out, 8000);
-    EXPECT_LE(static_cast<double>(count.pairs) / rows, 1.05 * c.pairs) << c.scene.name;
-    EXPECT_LE(static_cast<double>(count.series) / rows, 1.05 * c.series) << c.scene.name;
-    EXPECT_LE(static_cast<double>(count.coefficients) / rows, 1.05 * c.coefficients)
-        << c.scene.name;
-    EXPECT_LE(static_cast<double>(count.tests) / rows, 1.05 * c.tests) << c.scene.name;
-    // Nor is a number kept here that has long been bettered.
-    EXPECT_GE(static_cast<double>(count.pairs + 5 * count.series) / rows,
-              0.7 * (c.pairs + 5.0 * c.series))
-        << c.scene.name;
-  }
-}
-
 TEST(DipoleSums, EmptyAndBad) {
   const Points one = {{0, 0, 0}};
   const std::vector<double> dark = {0.0}, lit = {1.0};
