@@ -18,6 +18,16 @@ struct WeightedPoint {
   double weight;
 };
 
+// The plane of many of the points, if there is one: through three of a few samples that holds at
+// least a third of them all.
+struct ClusterPlane {
+  Eigen::Vector3d at, normal;
+  double tolerance;
+  Eigen::Matrix3d frame;  // rows: axes, the third the normal
+
+  bool holds(const Eigen::Vector3d& p) const { return std::abs(normal.dot(p - at)) <= tolerance; }
+};
+
 namespace {
 
 // Frame whose third axis is the normal of the plane that holds all the points, if one does to
@@ -47,18 +57,8 @@ bool plane_of(const WeightedPoint* begin, const WeightedPoint* end, const Eigen:
   return true;
 }
 
-// The plane of many of the points, if there is one: through three of a few samples that holds at
-// least a third of them all.
-struct Plane {
-  Eigen::Vector3d at, normal;
-  double tolerance;
-  Eigen::Matrix3d frame;  // rows: axes, the third the normal
-
-  bool holds(const Eigen::Vector3d& p) const { return std::abs(normal.dot(p - at)) <= tolerance; }
-};
-
 bool plane_of_many(const WeightedPoint* begin, const WeightedPoint* end, double size,
-                   Plane& plane) {
+                   ClusterPlane& plane) {
   constexpr std::ptrdiff_t kSamples = 16, kMany = 6;
   const std::ptrdiff_t count = end - begin;
   const auto sample = [&](std::ptrdiff_t i) -> const Eigen::Vector3d& {
@@ -211,7 +211,7 @@ class ClusterBuilder {
       return static_cast<std::int32_t>(p - points_.data());
     };
     std::int32_t left_plane = plane, middle = first;
-    Plane found;
+    ClusterPlane found;
     if (plane < 0 && last - first >= kManyPoints && plane_of_many(begin, end, side, found)) {
       middle = place(
           std::partition(begin, end, [&](const WeightedPoint& p) { return found.holds(p.at); }));
@@ -281,7 +281,7 @@ class ClusterBuilder {
   static constexpr std::int32_t kManyPoints = 128;
   SourceClusters& out_;
   std::vector<WeightedPoint>& points_;
-  std::vector<Plane> planes_;
+  std::vector<ClusterPlane> planes_;
 };
 
 SourceClusters::SourceClusters(std::span<const Eigen::Vector3d> points_mm,
