@@ -14,6 +14,7 @@
 #include "apps/grey_picture.h"
 #include "apps/raw_shot.h"
 #include "apps/rig_camera_calibration.h"
+#include "apps/rig_limits.h"
 #include "apps/text_table.h"
 #include "apps/version.h"
 #include "calib/camera_calibration_file.h"
@@ -71,10 +72,10 @@ std::vector<std::string> files_of_rig(const CalibrateCameraOptions& options,
 }
 
 void read_shot_of_board(const calib::CalibrationBoard& board, const std::string& model,
-                        bool must_be_picture, BoardShot* shot) {
+                        double max_megapixels, bool must_be_picture, BoardShot* shot) {
   GreyPicture picture;
   try {
-    picture = read_grey_picture(shot->path);
+    picture = read_grey_picture(shot->path, max_megapixels);
   } catch (const InputError& error) {
     if (must_be_picture) throw;
     shot->fault = "is no picture that can be read";
@@ -150,6 +151,7 @@ CameraCalibrationRun calibrate_camera_shots(const CalibrateCameraOptions& option
   run.board = options.board;
   calib::CameraCalibrationOptions calib_options{options.board_std_mm, options.model};
   std::string model;
+  double max_megapixels = RigLimits{}.raw_megapixels;
   std::pair<int, int> size{0, 0};
   std::vector<std::string> files = options.shots;
   bool must_be_picture = true;
@@ -158,6 +160,7 @@ CameraCalibrationRun calibrate_camera_shots(const CalibrateCameraOptions& option
     run.board = rig.calibration.board;
     calib_options.board_std_mm = rig.calibration.board_std_mm;
     model = rig.model;
+    max_megapixels = rig.max_megapixels;
     size = {rig.width_px, rig.height_px};
     files = files_of_rig(options, rig.calibration);
   } else if (options.shots.size() == 1 && fs::is_directory(options.shots.front())) {
@@ -175,7 +178,7 @@ CameraCalibrationRun calibrate_camera_shots(const CalibrateCameraOptions& option
     }
   }
   tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) {
-    read_shot_of_board(run.board, model, must_be_picture, &shots[i]);
+    read_shot_of_board(run.board, model, max_megapixels, must_be_picture, &shots[i]);
   });
   run.n_shots = shots.size();
   if (size.first == 0) size = common_size(shots);

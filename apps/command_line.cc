@@ -27,8 +27,8 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 int run_command_line(const std::vector<std::string>& arguments, std::ostream& out,
-                     std::ostream& err) {
-  CommandContext context{out, err, false, 0, "scattermeter", {}};
+                     std::ostream& err, PathPeers* peers) {
+  CommandContext context{out, err, false, 0, "scattermeter", peers, false, {}};
   for (const std::string& argument : arguments) context.command_line += " " + quoted(argument);
   CLI::App app(
       "scattermeter measures how light scatters and is absorbed below a surface, from raw camera "
@@ -64,6 +64,14 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
   try {
+    if (peers != nullptr && peers->count() > 1) {
+      if (!context.shares_paths) {
+        throw InputError("mpirun", "this command runs in one process, not in " +
+                                       std::to_string(peers->count()) +
+                                       "; those that share paths: simulate, render");
+      }
+      context.quiet = context.quiet || peers->place() > 0;
+    }
     return context.chosen();
   } catch (const InputError& e) {
     err << "scattermeter: " << e.what() << "\n";

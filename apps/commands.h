@@ -7,6 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/path_peers.h"
+
 namespace scattermeter::apps {
 
 // What every command gets.
@@ -16,6 +18,8 @@ struct CommandContext {
   bool quiet = false;
   int threads = 0;  // 0: all cores
   std::string command_line;
+  PathPeers* peers = nullptr;   // processes that run this command together
+  bool shares_paths = false;    // set by the command that was named where it can make use of them
   std::function<int()> chosen;  // set by the command that was named; returns the exit status
 };
 

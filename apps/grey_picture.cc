@@ -67,8 +67,8 @@ GreyPicture grey_picture(const capture::RawFrame& frame) {
   return out;
 }
 
-GreyPicture read_grey_picture(const std::string& path) {
-  if (!is_ordinary_picture(path)) return grey_picture(capture::read_raw(path));
+GreyPicture read_grey_picture(const std::string& path, double max_megapixels) {
+  if (!is_ordinary_picture(path)) return grey_picture(capture::read_raw(path, max_megapixels));
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     throw InputError(path, "there is no such file");

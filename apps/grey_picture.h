@@ -30,6 +30,6 @@ GreyPicture grey_picture(const capture::RawFrame& frame);
 // (EXIF's rotation is not applied: a lens belongs to the sensor), colours to grey, the values
 // linear or not as they are; anything else is a raw (capture/raw_reader.h). Throws InputError
 // naming the file.
-GreyPicture read_grey_picture(const std::string& path);
+GreyPicture read_grey_picture(const std::string& path, double max_megapixels);
 
 }  // namespace scattermeter::apps

@@ -17,8 +17,9 @@ std::string text(const Eigen::Vector3d& v) {
 }  // namespace
 
 ObjectScenes open_objects(const Rig& rig) {
-  return open_objects(rig,
-                      [](const RigObject& object) { return capture::read_obj(object.mesh_path); });
+  return open_objects(rig, [&rig](const RigObject& object) {
+    return capture::read_obj(object.mesh_path, static_cast<std::size_t>(rig.limits.mesh_triangles));
+  });
 }
 
 ObjectScenes open_objects(const Rig& rig,

@@ -26,7 +26,7 @@ bool same_camera(const std::string& wanted, const std::string& make, const std::
 }
 
 capture::RawFrame open_shot(const Rig& rig, const std::string& path) {
-  capture::RawFrame frame = capture::read_raw(path);
+  capture::RawFrame frame = capture::read_raw(path, rig.limits.raw_megapixels);
   if (!rig.camera.model.empty() && !same_camera(rig.camera.model, frame.make, frame.model)) {
     throw InputError(path, fmt::format("camera.model: shot with a {} {}, but the rig {} says {}",
                                        frame.make, frame.model, rig.path, rig.camera.model));

@@ -115,10 +115,12 @@ void add_render_command(CLI::App& app, CommandContext& context) {
   command->add_option("--seed", options->render.transport.seed, "transport: of the Monte Carlo")
       ->capture_default_str();
   command->callback([options, &context] {
+    context.shares_paths = true;
     context.chosen = [options, &context] {
       RenderOptions render_options = options->render;
       render_options.transport.volume = options->model == "transport";
       render_options.quiet = context.quiet;
+      render_options.transport.peers = context.peers;
       const Rig rig = read_rig(options->rig, false);
       std::vector<MeasuredMaterial> materials =
           materials_of(read_result(options->result), options->materials);
@@ -132,6 +134,7 @@ void add_render_command(CLI::App& app, CommandContext& context) {
         return 1;
       }
       const Rendering rendering = render(rig, materials, render_options);
+      if (context.peers != nullptr && context.peers->place() > 0) return 0;
       write_rendering(rendering, materials, options->model, options->out);
       if (!context.quiet) {
         context.out << rendering.pictures.size() << " pictures (EXR and PNG), sheet.png and "

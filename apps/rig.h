@@ -13,6 +13,7 @@
 #include <Eigen/Geometry>
 
 #include "apps/rig_calibration.h"
+#include "apps/rig_limits.h"
 #include "apps/rig_sensor_truth.h"
 #include "calib/camera_model.h"
 #include "calib/charuco_board.h"
@@ -143,6 +144,7 @@ struct RigTruthPose {
 
 struct Rig {
   std::string path;  // as given
+  RigLimits limits;
   RigCamera camera;
   RigPose pose;
   std::vector<RigObject> objects;

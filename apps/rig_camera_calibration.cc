@@ -3,6 +3,7 @@
 #include <set>
 
 #include "apps/rig_fields.h"
+#include "apps/rig_limits.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -87,6 +88,9 @@ RigCameraToCalibrate read_camera_to_calibrate(const std::string& rig_path) {
   size.numbers(2);
   out.width_px = size.items()[0].integer(2, 100'000);
   out.height_px = size.items()[1].integer(2, 100'000);
+  const RigLimits limits = read_limits(top);
+  check_image_size(size, limits);
+  out.max_megapixels = limits.raw_megapixels;
   out.calibration = read_camera_calibration(top.at("calibration").at("camera"), rig_path);
   return out;
 }

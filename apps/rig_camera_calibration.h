@@ -41,6 +41,7 @@ struct RigCameraToCalibrate {
   std::string model;  // "": any
   int width_px = 0;
   int height_px = 0;
+  double max_megapixels = 0;  // limits.raw_megapixels
   RigCameraCalibration calibration;
 };
 

@@ -34,7 +34,9 @@ RigProbes open_probes(const Rig& rig) {
         if (light.environment->image) {
           environment = *light.environment->image;
         } else {
-          capture::ProbeImage image = capture::read_probe(light.environment->image_path);
+          capture::ProbeImage image =
+              capture::read_probe(light.environment->image_path,
+                                  {static_cast<std::size_t>(1e6 * rig.limits.probe_megapixels)});
           environment.width_px = image.width_px;
           environment.height_px = image.height_px;
           environment.radiance = std::move(image.radiance);

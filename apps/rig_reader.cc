@@ -331,13 +331,15 @@ void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
 
 Rig read_rig(const std::string& path, bool with_radiance) {
   const YamlField top = YamlField::load(path);
-  top.only(
-      {"scattermeter_rig", "camera", "pose", "objects", "lights", "shots", "calibration", "truth"});
+  top.only({"scattermeter_rig", "limits", "camera", "pose", "objects", "lights", "shots",
+            "calibration", "truth"});
   const YamlField version = top.at("scattermeter_rig");
   if (version.number() != 1.0) version.fail("this program reads rigs of version 1");
   Rig rig;
   rig.path = path;
+  rig.limits = read_limits(top);
   rig.camera = read_camera(top.at("camera"), path, with_radiance);
+  check_image_size(top.at("camera").at("image_size_px"), rig.limits);
   rig.pose = read_pose(top.at("pose"));
   for (const auto& [name, field] : top.at("objects").entries()) {
     rig.objects.push_back(read_object(name, field, path));

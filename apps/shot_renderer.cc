@@ -135,9 +135,9 @@ SurfaceField ShotRenderer::volume_field(const RigShot& shot, Stage& s) {
       const ScatteringMedium medium = scattering_medium(reduced);
       const auto source = entry_of(name, light, probes_, *scene.rays, c, eta);
       const CameraConnection camera = s.camera->with(medium);
-      const VolumeLight l =
-          volume_radiosity(field, *s.patches, {*s.boundary, medium, *source, &camera},
-                           {transport_.seed * 1'000'003ULL + runs_++, transport_.paths});
+      const VolumeLight l = volume_radiosity(
+          field, *s.patches, {*s.boundary, medium, *source, &camera},
+          {transport_.seed * 1'000'003ULL + runs_++, transport_.paths, transport_.peers});
       monte_carlo_std_ = std::max(monte_carlo_std_, l.median_relative_std);
       for (std::size_t i = 0; i < values.size(); ++i) {
         values[i][c] = light.power()[c] * l.l_at_nodes[i];

@@ -21,6 +21,7 @@
 #include "core/incident_light.h"
 #include "core/patch_mesh.h"
 #include "core/path_boundary.h"
+#include "core/path_peers.h"
 #include "core/shade_map.h"
 
 namespace scattermeter::apps {
@@ -45,6 +46,7 @@ struct RenderTransport {
   bool volume = false;  // the volumetric Monte Carlo (core/path_tracer.h); else the dipole
   std::int64_t paths = 1'000'000;  // Monte Carlo: for each light of a shot and channel
   std::uint64_t seed = 1;          // Monte Carlo
+  PathPeers* peers = nullptr;      // Monte Carlo: processes that share the paths
 };
 
 // The camera that takes a simulated rig's shots: at truth.pose, else where the pose points put it.

@@ -60,10 +60,11 @@ SimulatedShots simulate(const Rig& given, const std::string& out_folder,
     transport.seed = options.seed;
     shots.emplace(rig, scenes, VirtualShotOptions{options.noise, options.quiet, transport});
   }
+  SimulatedShots made;
+  if (options.transport.peers != nullptr && options.transport.peers->place() > 0) return made;
   std::error_code error;
   std::filesystem::create_directories(out_folder, error);
   if (error) throw InputError(out_folder, "the folder cannot be made: " + error.message());
-  SimulatedShots made;
   if (!given.pose.board_shot.empty()) {
     made.paths.push_back(write_board_shot(given, out_folder, options));
   }

@@ -30,8 +30,8 @@ struct SimulatedShots {
 capture::RawFrame board_frame(const Rig& rig);
 
 // Writes every shot of the rig (VirtualShots) as a 12-bit DNG into `out_folder`, made where
-// missing. Throws InputError for bad input; each file appears complete
-// or not at all.
+// missing. Throws InputError for bad input; each file appears complete or not at all. Of peers
+// (transport.peers) the first alone writes.
 SimulatedShots simulate(const Rig& rig, const std::string& out_folder,
                         const SimulateOptions& options);
 

@@ -17,7 +17,10 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand(
       "simulate",
       "Make the raw shots that a rig would have taken of its truth materials (12-bit DNG).\n"
-      "The rig needs truth.materials; the exposure time is chosen where the rig has none.");
+      "The rig needs truth.materials; the exposure time is chosen where the rig has none.\n"
+      "Started as `mpirun -n N scattermeter simulate ... --transport volume` (where built with "
+      "Open "
+      "MPI), N processes share the light paths; the digits are the same for any N.");
   command->add_option("RIG", options->rig, "rig file (YAML)")->required();
   command->add_option("--out", options->out, "folder for the raws; made where missing")->required();
   command
@@ -42,11 +45,13 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
       ->check(CLI::IsMember({"all", "scene", "calibration"}))
       ->capture_default_str();
   command->callback([options, &context] {
+    context.shares_paths = true;
     context.chosen = [options, &context] {
       options->simulate.noise = options->noise == "on";
       options->simulate.scene = options->what != "calibration";
       options->simulate.calibration = options->what != "scene";
       options->simulate.quiet = context.quiet;
+      options->simulate.transport.peers = context.peers;
       options->simulate.transport.volume = options->transport == "volume";
       const SimulatedShots made = simulate(read_rig(options->rig), options->out, options->simulate);
       if (!context.quiet) {

@@ -71,7 +71,7 @@ ProbeImage decode(const std::string& path, const std::string& bytes, const Probe
       static_cast<std::size_t>(width * height) > limits.max_pixels) {
     throw InputError(path, "is " + std::to_string(width) + " x " + std::to_string(height) +
                                " pixels, at most " + std::to_string(limits.max_pixels) +
-                               " are read");
+                               " are read (limits.probe_megapixels of the rig)");
   }
   ProbeImage probe{static_cast<int>(width), static_cast<int>(height), {}};
   probe.radiance.resize(3 * static_cast<std::size_t>(width * height));

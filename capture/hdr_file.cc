@@ -90,7 +90,8 @@ ProbeImage decode_hdr(const std::string& path, const std::string& bytes,
   if (pixels > limits.max_pixels) {
     throw InputError(path, "is " + std::to_string(header.width) + " x " +
                                std::to_string(header.height) + " pixels, at most " +
-                               std::to_string(limits.max_pixels) + " are read");
+                               std::to_string(limits.max_pixels) +
+                               " are read (limits.probe_megapixels of the rig)");
   }
   if (!complete(bytes, header.size, header)) {
     throw InputError(path, "is cut short or damaged in its pixels");

@@ -104,7 +104,8 @@ class Scanner {
     if (corners < 3) refuse("a face takes three or more corners, got " + std::to_string(corners));
     geometry_.triangles += corners - 2;
     if (geometry_.triangles > max_triangles_) {
-      refuse("more than " + std::to_string(max_triangles_) + " triangles");
+      refuse("more than " + std::to_string(max_triangles_) +
+             " triangles (limits.mesh_triangles of the rig)");
     }
     geometry_.text += 'f';
     for (std::size_t i = 1; i < words.size(); ++i) {

@@ -85,7 +85,7 @@ void check_size(const std::string& path, const libraw_image_sizes_t& sizes, doub
       std::to_string(sizes.raw_width) + " x " + std::to_string(sizes.raw_height) + " samples";
   if (!(megapixels <= max_megapixels)) {
     throw InputError(path, "claims " + size + ", more than the allowed " + text_of(max_megapixels) +
-                               " megapixels");
+                               " megapixels (limits.raw_megapixels of the rig)");
   }
   if (sizes.width == 0 || sizes.height == 0 || sizes.left_margin + sizes.width > sizes.raw_width ||
       sizes.top_margin + sizes.height > sizes.raw_height) {

@@ -32,6 +32,13 @@ struct PathAudit {
   std::int64_t lost_paths = 0;
   std::int64_t scatterings = 0;
 
+  // Calls f for each of the above. Counts below 2^53 are exact as double.
+  template <class F>
+  void numbers(const F& f) {
+    for (double* power : {&entered, &absorbed, &escaped, &roulette, &lost}) f(*power);
+    for (std::int64_t* count : {&paths, &lost_paths, &scatterings}) f(*count);
+  }
+
   PathAudit& operator+=(const PathAudit& o) {
     entered += o.entered;
     absorbed += o.absorbed;

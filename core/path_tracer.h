@@ -13,6 +13,7 @@
 #include "core/fresnel.h"
 #include "core/henyey_greenstein.h"
 #include "core/path_boundary.h"
+#include "core/path_peers.h"
 #include "core/path_score.h"
 #include "core/random_stream.h"
 #include "core/scattering_medium.h"
@@ -25,6 +26,8 @@ struct PathOptions {
   int paths_per_block = 4096;        // >= 1
   double roulette_weight = 0.1;      // of the path's first weight; below it, roulette for ten times
   int max_scatterings = 10'000'000;  // of one path; the rest is lost
+  // Who share the blocks (trace_blocks of a tally that can be sent); none: all are traced here.
+  PathPeers* peers = nullptr;
 };
 
 // What paths run in. Pointers and references must outlive it.

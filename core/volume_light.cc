@@ -24,6 +24,11 @@ struct FieldTally {
   const TriangleMesh* mesh;
   Eigen::VectorXd at_node;  // scores times the nodes' functions
   Eigen::ArrayXd on_patch;
+  template <class F>
+  void numbers(const F& f) {
+    for (double& score : at_node) f(score);
+    for (double& score : on_patch) f(score);
+  }
   void escape(const PathScore&) {}
   void camera(const PathScore& s) {
     const PatchPoint at = patch_of(*patches, *mesh, s);
@@ -72,6 +77,7 @@ VolumeLight volume_radiosity(const SurfaceField& field, const PatchMesh& patches
   PathOptions path_options;
   path_options.seed = options.seed;
   path_options.paths_per_block = static_cast<int>((options.paths + kBlocks - 1) / kBlocks);
+  path_options.peers = options.peers;
   const auto n_nodes = static_cast<Eigen::Index>(field.nodes_mm().size());
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(n_nodes);
   Eigen::ArrayXd mean = Eigen::ArrayXd::Zero(patches.size());

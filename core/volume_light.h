@@ -13,6 +13,7 @@ namespace scattermeter {
 struct VolumeLightOptions {
   std::uint64_t seed = 1;
   std::int64_t paths = 1'000'000;  // in 64 blocks; at least one each
+  PathPeers* peers = nullptr;      // who trace them together; the digits are the same
 };
 
 struct VolumeLight {

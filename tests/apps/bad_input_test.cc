@@ -47,6 +47,57 @@ TEST_F(BadInput, MissingFolder) {
   expect_refused({rig_.shots(), "does not exist"});
 }
 
+// What a file may claim can be raised, and lowered; the message says by which key.
+TEST_F(BadInput, Limits) {
+  const std::string head = "scattermeter_rig: 1\n";
+  const std::string rig = rig_.text();
+  const auto with = [&](const std::string& limits) {
+    rig_.write(replaced(rig, head, head + "limits: {" + limits + "}\n"));
+  };
+  with("raw_megapixels: 0.1");  // 484 x 324 are 0.157
+  expect_refused({rig_.rig(), "camera.image_size_px: more than the allowed 0.1 megapixels",
+                  "limits.raw_megapixels"});
+  with("mesh_triangles: 11");
+  expect_refused({"cube.obj", "more than 11 triangles", "limits.mesh_triangles"});
+  with("mesh_triangles: 0");
+  expect_refused({"limits.mesh_triangles", "got 0"});
+  with("raw_megapixels: 1e9");
+  expect_refused({"limits.raw_megapixels: expected a number", "got 1e9"});
+  with("raw: 5");
+  expect_refused({"limits.raw", "unknown"});
+  // Before anything is allocated: 10^10 samples.
+  rig_.write(replaced(rig, "image_size_px: [484, 324]", "image_size_px: [100000, 100000]"));
+  expect_refused({"camera.image_size_px", "400 megapixels"});
+  with("raw_megapixels: 0.2, mesh_triangles: 1000, probe_megapixels: 1000");
+  EXPECT_NE(rig_.measure().status, 2);
+}
+
+// A list of lists of lists ... that are one another: 10^9 values where they were counted out.
+TEST_F(BadInput, AliasesThatExplode) {
+  std::string text = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 9; ++i) {
+    const std::string last = "*a" + std::to_string(i - 1);
+    text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + last;
+    for (int k = 1; k < 10; ++k) text += ", " + last;
+    text += "]\n";
+  }
+  const std::string rig = rig_.text();
+  rig_.write(text + rig);
+  expect_refused({rig_.rig() + ":1", "a0"});
+  rig_.write(replaced(text + rig, "a0: &a0", "objects: &a0"));
+  expect_refused({rig_.rig()});
+}
+
+TEST_F(BadInput, ALensOfBillions) {
+  rig_.write(
+      replaced(rig_.text(), "image_size_px: [484, 324]",
+               "image_size_px: [&a [1, 1, 1, 1, 1, 1, 1, 1], &b [*a, *a, *a, *a, *a, *a, *a], "
+               "&c [*b, *b, *b, *b, *b, *b, *b], &d [*c, *c, *c, *c, *c, *c, *c], &e [*d, *d, "
+               "*d, *d, *d, *d, *d], &f [*e, *e, *e, *e, *e, *e, *e], &g [*f, *f, *f, *f, *f, "
+               "*f, *f], &h [*g, *g, *g, *g, *g, *g, *g], [*h, *h, *h, *h, *h, *h]]"));
+  expect_refused({"camera.image_size_px"});
+}
+
 TEST_F(BadInput, EmptyFolder) {
   std::filesystem::remove(rig_.shots() + "/POM_cube_1.dng");
   expect_refused({rig_.shots(), "empty"});

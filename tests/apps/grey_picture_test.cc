@@ -39,14 +39,14 @@ TEST(GreyPicture, FilesAreTakenByTheirEnding) {
   const TemporaryFolder folder;
   std::ofstream(folder / "a.pgm", std::ios::binary) << "P5 3 2 255\n"
                                                     << std::string("\1\2\3\4\5\6");
-  const GreyPicture picture = read_grey_picture(folder / "a.pgm");
+  const GreyPicture picture = read_grey_picture(folder / "a.pgm", 400);
   EXPECT_EQ(picture.frame_width_px, 3);
   EXPECT_EQ(picture.frame_height_px, 2);
   EXPECT_EQ(picture.grey, (std::vector<float>{1, 2, 3, 4, 5, 6}));
   std::ofstream(folder / "b.png") << "no picture";
   std::ofstream(folder / "c.nef") << "no raw";
   for (const char* bad : {"b.png", "c.nef", "missing.jpg"}) {
-    EXPECT_THROW(read_grey_picture(folder / bad), InputError) << bad;
+    EXPECT_THROW(read_grey_picture(folder / bad, 400), InputError) << bad;
   }
 }
 

@@ -93,7 +93,7 @@ TEST(ObjGeometry, RefusesUnknownKeywordsAndContinuedLines) {
 TEST(ObjGeometry, CountsTheTrianglesOfPolygons) {
   const std::string text = kThreeVertices + "v 1 1 0\nf 1 2 4 3\nf 1 2 3\n";
   EXPECT_EQ(refusal(text, 3), "accepted");
-  EXPECT_EQ(refusal(text, 2), "a.obj:6: more than 2 triangles");
+  EXPECT_EQ(refusal(text, 2), "a.obj:6: more than 2 triangles (limits.mesh_triangles of the rig)");
 }
 
 }  // namespace

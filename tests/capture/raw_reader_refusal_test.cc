@@ -88,7 +88,9 @@ TEST_F(RawReaderRefusal, MoreMegapixelsThanAllowed) {
   const Bytes file = CfaDng(image_).file({samples_});
   EXPECT_EQ(refusal_of(file, 0.003072), "accepted");  // 64 * 48 samples
   EXPECT_EQ(refusal_of(file, 0.003),
-            path_ + ": claims 64 x 48 samples, more than the allowed 0.003 megapixels");
+            path_ +
+                ": claims 64 x 48 samples, more than the allowed 0.003 megapixels "
+                "(limits.raw_megapixels of the rig)");
   // The claim alone: a few kilobytes that ask for 7.2 GB.
   CfaDng dng(image_);
   dng.longs(256, {60000});

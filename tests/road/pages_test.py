@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""pages_test.py SOURCE: samples/first_measurement says what the program says.
+
+Every message that the page quotes stands in the sources, every reason for a refusal in the sources
+stands on the page, its tables are those of the CSV files, and its links lead somewhere.
+"""
+import re
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+SOURCE = Path(sys.argv[1]).resolve()
+FOLDER = SOURCE / "samples" / "first_measurement"
+PAGE = (FOLDER / "README.md").read_text(encoding="utf-8")
+LITERAL = r'"(?:[^"\\\n]|\\.)*"'
+
+
+def literals(text):
+    """String literals, those that the compiler joins as one."""
+    text = re.sub(r"(?m)^\s*//.*$", "", text)
+    return ["".join(part[1:-1] for part in re.findall(LITERAL, run)).replace('\\"', '"')
+            for run in re.findall(rf"{LITERAL}(?:\s*{LITERAL})*", text)]
+
+
+def said():
+    """All that the program may say."""
+    return [words for folder in ("core", "capture", "calib", "apps")
+            for path in sorted((SOURCE / folder).glob("*.cc"))
+            for words in literals(path.read_text(encoding="utf-8"))]
+
+
+class Page(unittest.TestCase):
+    def quoted(self):
+        """Code in the tables under the headings on messages."""
+        start, end = PAGE.index("## What the verdict means"), PAGE.index("## How good the numbers are")
+        for line in PAGE[start:end].splitlines():
+            if line.startswith("| ") and not line.startswith("|---"):
+                cells = line.strip("|").split("|")
+                # Messages stand in the first cell, advice of `check` in the second.
+                for cell in cells[:1] if "`" in cells[0] else cells[1:]:
+                    yield from re.findall(r"`([^`]*)`", cell)
+
+    def test_messages_are_the_programs(self):
+        everything = said()
+        quoted = list(self.quoted())
+        self.assertGreater(len(quoted), 30)
+        for message in quoted:
+            for part in re.split("…", message):
+                if len(part.strip()) > 3:
+                    self.assertTrue(any(part.strip() in words for words in everything), f"{part!r} of {message!r}")
+
+    def test_every_reason_stands_on_the_page(self):
+        quoted = "\n".join(self.quoted())
+        for path in ("core/dipole_fit.cc", "apps/transport_verdict.cc"):
+            text = (SOURCE / path).read_text(encoding="utf-8")
+            reasons = re.findall(rf"reasons\.push_back\(\s*(?:sentence\(|fmt::format\()?\s*({LITERAL}(?:\s*{LITERAL})*)",
+                                 text)
+            self.assertGreater(len(reasons), 4, path)
+            for reason in reasons:
+                words = re.split(r"[{(]", literals(reason)[0])[0].strip()
+                if words == "the image or its prediction holds values that are not finite":
+                    continue  # a defect, not a user's affair
+                known = any(words.startswith(w) or w.startswith(words) for w in
+                            (re.split("…", q)[0].strip() for q in self.quoted()) if w)
+                self.assertTrue(known or words in quoted, f"{path}: {words}")
+
+    def test_tables_are_those_of_the_figures(self):
+        subprocess.run([sys.executable, FOLDER / "figures" / "tables", "--check"], check=True)
+
+    def test_links_lead_somewhere(self):
+        links = re.findall(r"\]\(([^)#]+)\)", PAGE)
+        self.assertGreater(len(links), 3)
+        for link in links:
+            self.assertTrue((FOLDER / link).exists(), link)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
