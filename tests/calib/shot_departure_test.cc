@@ -20,6 +20,7 @@ struct Scene {
 
   Scene() {
     const Eigen::Index n = kRows * kShots;
+    system.weights.resize(n, 0);
     system.l.resize(n);
     system.std_l.resize(n);
     model.jacobian.resize(n, 2);
