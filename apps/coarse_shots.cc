@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/dipole_system.h"
+#include "apps/task_image.h"
 #include "apps/virtual_sensor.h"
 #include "capture/ideal_samples.h"
 #include "core/dipole_curve.h"
@@ -219,7 +219,7 @@ std::optional<CoarseStd> CoarseShots::forecast(const Rig& rig, const CoarseMater
     }
   }
   const DenseSystem system =
-      dipole_system(rig, task, rows, lit.weights, knots_, first, of_task, measured_patch_mm_);
+      stacked(TaskImage(rig, task, rows, lit.weights, knots_, first, of_task, measured_patch_mm_));
   // Any root of the information will do; the whitened rows themselves are one.
   RecoveredReflectance rows_as_they_are;
   const Eigen::VectorXd weight = system.std_l.cwiseInverse();
