@@ -27,10 +27,12 @@ constexpr double kMirrorConeRad = 0.17;
 
 }  // namespace
 
-std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots) {
+std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots,
+                           const std::string& channels) {
   std::vector<Task> tasks;
   for (const std::string& material : rig.materials()) {
     for (std::size_t c = 0; c < kRgb; ++c) {
+      if (!channels.empty() && channels.find(kRgbName[c]) == std::string::npos) continue;
       Task task{material, c, {}, 0.0};
       for (const OpenedShot& shot : shots) {
         if (shot.rig->material != material) continue;

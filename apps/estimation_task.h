@@ -24,9 +24,11 @@ struct Task {
   double eta = 0;
 };
 
-// Materials of the shots in the rig's order, R G B each. Throws InputError where the shots of one
+// Materials of the shots in the rig's order, of each those of R, G, B that `channels` holds; empty:
+// all. Throws InputError where the shots of one
 // material are of objects with different eta.
-std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots);
+std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots,
+                           const std::string& channels = {});
 
 // What makes a shot useless as a whole in a channel (dark, over-exposed, nothing seen); empty:
 // nothing.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/html_page.h"
@@ -57,6 +58,25 @@ Html overview(const Measurement& m) {
              : text_cell("yes", "pass")});
   }
   return html_table(table);
+}
+
+Html skipped(const Skipped& s) {
+  std::vector<std::string> parts;
+  const auto add = [&](std::size_t n, const char* what) {
+    if (n > 0) parts.push_back(fmt::format("{} {}", n, what));
+  };
+  add(s.shots_not_asked, "shots that were not asked for");
+  add(s.channels_not_asked, "channels that were not asked for");
+  add(s.shots_from_cache, "shots that had been decoded before");
+  add(s.samples_outside, "samples beside the objects");
+  add(s.patches_unseen, "patches that no shot sees");
+  add(s.patches_unlit, "patches that a light does not reach");
+  add(s.shadow_rays, "shadow rays on convex objects");
+  if (parts.empty()) return {};
+  return html_element("p",
+                      html_text(fmt::format("Left undone without a change of the answer: {}.",
+                                            fmt::join(parts, ", "))),
+                      "dim");
 }
 
 // Why values were refused, and why transport answers.
@@ -212,6 +232,7 @@ std::string result_page(const Measurement& m, const std::string& command_line) {
   body += overview(m);
   body += reasons(m);
   for (const std::string& note : m.notes) body += html_element("p", html_text(note), "dim");
+  body += skipped(m.skipped);
   for (const MergedBracket& b : m.brackets) {
     body += html_element("p", html_text("Bracket " + bracket_text(b) + "."), "dim");
   }

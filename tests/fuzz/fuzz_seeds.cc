@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/decoded_shot.h"
 #include "capture/dng_writer.h"
 #include "tests/apps/made_result.h"
 
@@ -73,7 +74,7 @@ int main(int count, char** words) {
   }
   const fs::path source = words[1];
   const fs::path out = words[2];
-  for (const char* door : {"rig", "calibration", "mesh", "probe", "raw", "result"}) {
+  for (const char* door : {"rig", "calibration", "mesh", "probe", "raw", "result", "cache"}) {
     fs::create_directories(out / door);
   }
   raws(out / "raw");
@@ -82,6 +83,16 @@ int main(int count, char** words) {
   write(out / "result/result.json",
         scattermeter::apps::made_result({{"PP", {{0.62, 0.7, 0.8}, {0.0012, 0.001, 0.0018}}}})
             .dump(1));
+  scattermeter::apps::DecodedShot shot;
+  for (scattermeter::ChannelObservation& o : shot.observation.channel) {
+    o.l = o.variance = o.variance_per_l = o.l_per_count = {0.5, 0.25};
+    o.state = {scattermeter::RowState::kUsed, scattermeter::RowState::kClipped};
+    o.rows_used = 1;
+    o.exposures = {{o.l, 2}};
+  }
+  shot.exposures = {{"a.dng", 0.1, 0.1, 0.01, 0.2, {}}};
+  const std::vector<std::uint8_t> bytes = scattermeter::apps::to_bytes(shot);
+  write(out / "cache/a.shot", {bytes.begin(), bytes.end()});
   for (const char* mesh : {"cube.obj", "pyramid_on_pedestal.obj"}) {
     copy_into(source / "samples/three_plastics" / mesh, out / "mesh");
   }
