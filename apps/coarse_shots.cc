@@ -213,8 +213,9 @@ std::optional<CoarseStd> CoarseShots::forecast(const Rig& rig, const CoarseMater
                          rig.light(name).colours_differ() ? material.channel : 0};
       const auto [it, is_new] = of_light.try_emplace(key);
       if (is_new)
-        it->second =
-            sensitivity(*shot.seen, lit.weights.at(key), lit.changed.at(key), {first}, knots_);
+        it->second = sensitivity(*shot.seen, lit.weights.at(key),
+                                 changed_images(*shot.seen, lit.changed.at(key), knots_, {first}),
+                                 {first}, knots_);
       of_task[key] = {&it->second, 0};
     }
   }

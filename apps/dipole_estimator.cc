@@ -27,6 +27,20 @@ struct Sensitivities {
   std::vector<std::map<LightKey, TaskSensitivity>> of_task;
 };
 
+// The changed W are kept for other media and other shots where there is room for some ten of them.
+ChangedImages images_of(const Estimation& e, const LightKey& key,
+                        const std::vector<LitMedium>& media, const DistanceKnots& knots) {
+  constexpr std::size_t kRoomForNumbers = 1 << 25;  // 256 MiB
+  const auto& [seen, light, channel] = key;
+  const RigLight& rig_light = e.rig.light(light);
+  if (10 * seen->sites.size() * static_cast<std::size_t>(knots.size()) > kRoomForNumbers) {
+    return changed_images(*seen, rig_light, channel, e.library, knots, media);
+  }
+  const auto [changed, is_new] = e.changed_weights.try_emplace(key);
+  if (is_new) changed->second = changed_weights(*seen, rig_light, channel, e.library, knots);
+  return changed_images(*seen, changed->second, knots, media);
+}
+
 std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
                                                    const std::vector<bool>& estimated,
                                                    const DistanceKnots& knots) {
@@ -52,12 +66,8 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
   Sensitivities& all = *made;
   Progress progress("uncertainties", static_cast<int>(media.size()), e.options.quiet);
   for (const auto& [key, list] : media) {
-    const auto& [seen, light, channel] = key;
-    const auto [changed, is_new] = e.changed_weights.try_emplace(key);
-    if (is_new) {
-      changed->second = changed_weights(*seen, e.rig.light(light), channel, e.library, knots);
-    }
-    all.by_light[key] = sensitivity(*seen, e.weights.at(key), changed->second, list, knots);
+    all.by_light[key] = sensitivity(*std::get<0>(key), e.weights.at(key),
+                                    images_of(e, key, list, knots), list, knots);
     progress.step();
   }
   all.of_task.resize(e.tasks.size());

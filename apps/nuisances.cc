@@ -46,59 +46,58 @@ std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
   return {first, normal.cross(first)};
 }
 
-ChangedWeights changed_weights(const SeenObject& seen, const RigLight& rig_light,
-                               std::size_t channel, ObjectLibrary& library,
-                               const DistanceKnots& knots) {
+namespace {
+
+// make(sites, sources, is_other_eta): of one change.
+template <class Each, class Make>
+Changed<Each> changed(const SeenObject& seen, const RigLight& rig_light, std::size_t channel,
+                      ObjectLibrary& library, const Make& make) {
   const Led& led = rig_light.led;
   const ObjectScene& object = *seen.object;
   const double eta = object.rig->eta_int_over_ext;
   const PatchMesh coarse(object.mesh(), 2.0 * seen.patches->patch_size_mm());
-  PairSumOptions pairs;
-  pairs.floor_mm = 4.0 * knots.resolution_mm();
-  pairs.far_ratio = 3.0;
-  pairs.near_ratio = 0.7;
-  const auto weights = [&](const std::vector<ExitSite>& sites, const Led& light, double eta_here) {
+  const auto under = [&](const std::vector<ExitSite>& sites, const Led& light, double eta_here) {
     const SourceCloud sources(
         rig_light.environment
             ? library.environment_light(object.rig->name, rig_light.name, channel, coarse, eta_here)
             : illuminate(coarse, seen.shadows != nullptr ? *seen.shadows : *object.rays, light,
                          eta_here),
         object.box.center_mm());
-    return smooth_weights(sites, sources, knots, pairs);
+    return make(sites, sources, eta_here != eta);
   };
-  ChangedWeights out;
+  Changed<Each> out;
   std::vector<ExitSite> centers;
   for (const ExitSite& site : seen.sites) centers.push_back(exit_point(site.center_mm));
   if (rig_light.is_ambient) {
     // What else is uncertain matters little to a small even light.
-    out.nominal = smooth_weights(
+    out.nominal = make(
         centers,
         SourceCloud(library.light(object.rig->name, rig_light.name, 0), object.box.center_mm()),
-        knots, pairs);
+        false);
     return out;
   }
-  out.nominal = weights(centers, led, eta);
+  out.nominal = under(centers, led, eta);
   // A hundredth of the distance: shadow edges then move by several of the parts that patches are
   // cut into, and the next order is still a hundredth of the first.
   out.move_mm = 0.01 * (led.position_mm - object.box.center_mm()).norm();
   const bool is_calibrated = rig_light.calibrated.has_value();
   for (int i = 0; i < 3 && (is_calibrated || rig_light.position_std_mm > 0.0); ++i) {
-    Led moved = led;
-    moved.position_mm[i] += out.move_mm;
-    out.moved[static_cast<std::size_t>(i)] = weights(centers, moved, eta);
+    Led other = led;
+    other.position_mm[i] += out.move_mm;
+    out.moved[static_cast<std::size_t>(i)] = under(centers, other, eta);
   }
   if (is_calibrated || rig_light.exponent_std > 0.0) {
     Led other = led;
     other.exponent += kExponentStep;
-    out.other_exponent = weights(centers, other, eta);
+    out.other_exponent = under(centers, other, eta);
   }
   out.turn_rad = kTurnRad;
   for (std::size_t t = 0; t < 2 && is_calibrated; ++t) {
     Led other = led;
     other.axis = (led.axis + kTurnRad * rig_light.calibrated->tangents[t]).normalized();
-    out.turned[t] = weights(centers, other, eta);
+    out.turned[t] = under(centers, other, eta);
   }
-  if (object.rig->eta_std > 0.0) out.other_eta = weights(centers, led, eta + kEtaStep);
+  if (object.rig->eta_std > 0.0) out.other_eta = under(centers, led, eta + kEtaStep);
   out.shift_mm = 0.1 * seen.patches->patch_size_mm();
   std::array<std::vector<ExitSite>, 2> shifted = {centers, centers};
   for (std::size_t j = 0; j < centers.size(); ++j) {
@@ -107,34 +106,85 @@ ChangedWeights changed_weights(const SeenObject& seen, const RigLight& rig_light
       shifted[t][j] = moved(centers[j], out.shift_mm * along[t]);
     }
   }
-  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = weights(shifted[t], led, eta);
+  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = under(shifted[t], led, eta);
+  return out;
+}
+
+PairSumOptions coarse_pairs(const DistanceKnots& knots) {
+  PairSumOptions pairs;
+  pairs.floor_mm = 4.0 * knots.resolution_mm();
+  pairs.far_ratio = 3.0;
+  pairs.near_ratio = 0.7;
+  return pairs;
+}
+
+}  // namespace
+
+ChangedWeights changed_weights(const SeenObject& seen, const RigLight& light, std::size_t channel,
+                               ObjectLibrary& library, const DistanceKnots& knots) {
+  const PairSumOptions pairs = coarse_pairs(knots);
+  return changed<WeightMatrix>(seen, light, channel, library,
+                               [&](const std::vector<ExitSite>& sites, const SourceCloud& sources,
+                                   bool) { return smooth_weights(sites, sources, knots, pairs); });
+}
+
+ChangedImages changed_images(const SeenObject& seen, const RigLight& light, std::size_t channel,
+                             ObjectLibrary& library, const DistanceKnots& knots,
+                             const std::vector<LitMedium>& media) {
+  const PairSumOptions pairs = coarse_pairs(knots);
+  const double eta = seen.object->rig->eta_int_over_ext;
+  const Eigen::MatrixXd r = curves(media, knots, eta);
+  const Eigen::MatrixXd other = curves(media, knots, eta + kEtaStep);
+  return changed<Eigen::MatrixXd>(
+      seen, light, channel, library,
+      [&](const std::vector<ExitSite>& sites, const SourceCloud& sources, bool is_other_eta) {
+        return smooth_images(sites, sources, knots, pairs, is_other_eta ? other : r);
+      });
+}
+
+ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weights,
+                             const DistanceKnots& knots, const std::vector<LitMedium>& media) {
+  const double eta = seen.object->rig->eta_int_over_ext;
+  const Eigen::MatrixXd r = curves(media, knots, eta);
+  const auto image = [&](const WeightMatrix& w) -> Eigen::MatrixXd {
+    if (w.size() == 0) return {};
+    return w * r;
+  };
+  ChangedImages out;
+  out.nominal = image(weights.nominal);
+  for (std::size_t i = 0; i < 3; ++i) out.moved[i] = image(weights.moved[i]);
+  out.move_mm = weights.move_mm;
+  out.other_exponent = image(weights.other_exponent);
+  for (std::size_t t = 0; t < 2; ++t) out.turned[t] = image(weights.turned[t]);
+  out.turn_rad = weights.turn_rad;
+  if (weights.other_eta.size() > 0) {
+    out.other_eta = weights.other_eta * curves(media, knots, eta + kEtaStep);
+  }
+  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = image(weights.shifted[t]);
+  out.shift_mm = weights.shift_mm;
   return out;
 }
 
 LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,
-                             const ChangedWeights& weights, const std::vector<LitMedium>& media,
+                             const ChangedImages& images, const std::vector<LitMedium>& media,
                              const DistanceKnots& knots) {
   const double eta = seen.object->rig->eta_int_over_ext;
-  const Eigen::MatrixXd r = curves(media, knots, eta);
-  const Eigen::MatrixXd l = weights.nominal * r;
+  const Eigen::MatrixXd& l = images.nominal;
   LightSensitivity out;
-  out.l = nominal * r;
-  const auto relative = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
+  out.l = nominal * curves(media, knots, eta);
+  const auto change = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
+    if (changed.size() == 0) return {};
     const Eigen::ArrayXXd per_l = (changed - l).array() / (by * l.array());
     return (l.array() > 0.0).select(per_l * out.l.array(), 0.0);
   };
-  const auto change = [&](const WeightMatrix& changed, double by) -> Eigen::MatrixXd {
-    if (changed.size() == 0) return {};
-    return relative(changed * r, by);
-  };
-  for (std::size_t i = 0; i < 3; ++i) out.per_mm[i] = change(weights.moved[i], weights.move_mm);
-  out.per_exponent = change(weights.other_exponent, kExponentStep);
-  for (std::size_t t = 0; t < 2; ++t) out.per_rad[t] = change(weights.turned[t], weights.turn_rad);
+  for (std::size_t i = 0; i < 3; ++i) out.per_mm[i] = change(images.moved[i], images.move_mm);
+  out.per_exponent = change(images.other_exponent, kExponentStep);
+  for (std::size_t t = 0; t < 2; ++t) out.per_rad[t] = change(images.turned[t], images.turn_rad);
   for (std::size_t t = 0; t < 2; ++t) {
-    out.per_tangent_mm[t] = change(weights.shifted[t], weights.shift_mm);
+    out.per_tangent_mm[t] = change(images.shifted[t], images.shift_mm);
   }
-  if (weights.other_eta.size() == 0) return out;
-  out.per_eta = relative(weights.other_eta * curves(media, knots, eta + kEtaStep), kEtaStep);
+  out.per_eta = change(images.other_eta, kEtaStep);
+  if (out.per_eta.size() == 0) return out;
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
     const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
     // The observed l = pi L / Ft(eta) falls as Ft grows.

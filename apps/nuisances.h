@@ -35,29 +35,38 @@ struct LightSensitivity {
   std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by moving the sites along two tangents
 };
 
-// W of a view under a light, nominal and with one thing changed at a time: all that the
-// sensitivities of any medium need of the geometry. At the centres of the sites, from light on
-// patches of twice the size: errors of discretisation cancel in relative changes, and these are
-// nearly the same all over a site. What the rig knows exactly is not changed (no rows).
-struct ChangedWeights {
-  WeightMatrix nominal;
-  std::array<WeightMatrix, 3> moved;  // the LED, by move_mm along world x, y, z
+// A view under a light, nominal and with one thing changed at a time. At the centres of the sites,
+// from light on patches of twice the size: errors of discretisation cancel in relative changes, and
+// these are nearly the same all over a site. What the rig knows exactly is not changed (no rows).
+template <class Each>
+struct Changed {
+  Each nominal;
+  std::array<Each, 3> moved;  // the LED, by move_mm along world x, y, z
   double move_mm = 0;
-  WeightMatrix other_exponent;
-  std::array<WeightMatrix, 2> turned;  // the axis, by turn_rad along the calibration's tangents
+  Each other_exponent;
+  std::array<Each, 2> turned;  // the axis, by turn_rad along the calibration's tangents
   double turn_rad = 0;
-  WeightMatrix other_eta;
-  std::array<WeightMatrix, 2> shifted;  // the sites, by shift_mm along two tangents
+  Each other_eta;
+  std::array<Each, 2> shifted;  // the sites, by shift_mm along two tangents
   double shift_mm = 0;
 };
+// W: all that the sensitivities of any medium need of the geometry.
+using ChangedWeights = Changed<WeightMatrix>;
+// The images themselves of some media, rows x media: as many numbers as W has knots times fewer.
+using ChangedImages = Changed<Eigen::MatrixXd>;
 // `channel`: of the library's light.
 ChangedWeights changed_weights(const SeenObject& seen, const RigLight& light, std::size_t channel,
                                ObjectLibrary& library, const DistanceKnots& knots);
+ChangedImages changed_images(const SeenObject& seen, const RigLight& light, std::size_t channel,
+                             ObjectLibrary& library, const DistanceKnots& knots,
+                             const std::vector<LitMedium>& media);
+ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weights,
+                             const DistanceKnots& knots, const std::vector<LitMedium>& media);
 
-// By differences of the changed weights and the nominal ones, relative to what `nominal`, the W
-// that is measured with, predicts.
+// By differences of the changed images and the nominal ones, relative to what `nominal`, the W
+// that is measured with, predicts of the same media.
 LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,
-                             const ChangedWeights& weights, const std::vector<LitMedium>& media,
+                             const ChangedImages& images, const std::vector<LitMedium>& media,
                              const DistanceKnots& knots);
 
 // Two unit tangents of a row's facet; per_tangent_mm goes along them.

@@ -20,6 +20,7 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr int kMapWidth_px = 150;
+constexpr std::size_t kMapsPerChannel = 24;
 
 std::string interval(const Quantity& q, bool known) {
   if (!known) return "–";
@@ -149,11 +150,13 @@ std::string left_out(const ChannelResult& r) {
 Html maps(const std::vector<const ChannelResult*>& channels) {
   std::vector<const ShotRows*> all;
   std::vector<char> names;
+  std::size_t more = 0;
   for (const ChannelResult* r : channels) {
-    for (const ShotRows& rows : r->rows) {
-      all.push_back(&rows);
+    for (std::size_t i = 0; i < std::min(r->rows.size(), kMapsPerChannel); ++i) {
+      all.push_back(&r->rows[i]);
       names.push_back(r->channel);
     }
+    more = std::max(more, r->rows.size() - std::min(r->rows.size(), kMapsPerChannel));
   }
   std::vector<Html> figures(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
@@ -165,7 +168,11 @@ Html maps(const std::vector<const ChannelResult*>& channels) {
     figures[i] =
         html_figure(data_address("image/png", png_bytes(map.picture)), caption, html_text(caption));
   });
-  return html_figures(figures);
+  Html out = html_figures(figures);
+  if (more > 0) {
+    out += html_element("p", html_text(fmt::format("{} more shots are not drawn.", more)), "dim");
+  }
+  return out;
 }
 
 Html material_section(const std::vector<const ChannelResult*>& channels) {

@@ -143,9 +143,9 @@ TEST_F(CalibratedNuisances, LensColumnsByDifferences) {
                        SourceCloud(library.light(rig.shots[0].object, light.name, 0),
                                    seen.object->box.center_mm()),
                        knots, pair_options(knots));
-    const LightSensitivity by_shift =
-        sensitivity(seen, weights, changed_weights(seen, light, 0, library, knots),
-                    {{{1.0, 0.003, 1.3}, 1.0}}, knots);
+    const LightSensitivity by_shift = sensitivity(
+        seen, weights, changed_images(seen, light, 0, library, knots, {{{1.0, 0.003, 1.3}, 1.0}}),
+        {{{1.0, 0.003, 1.3}, 1.0}}, knots);
     const ChannelObservation& o = opened[0].observation.channel[1];
     std::vector<Eigen::Index> used;
     for (std::size_t j = 0; j < o.l.size(); ++j) {
@@ -223,8 +223,10 @@ TEST_F(CalibratedNuisances, SensitivitiesByFullDifferences) {
   };
   const WeightMatrix nominal = weights(seen.sites, light.led);
   const LitMedium medium{{1.0 / seen.patches->patch_size_mm(), 0.001, eta}, 1.0};
-  const LightSensitivity s =
-      sensitivity(seen, nominal, changed_weights(seen, light, 0, library, knots), {medium}, knots);
+  const LightSensitivity s = sensitivity(
+      seen, nominal,
+      changed_images(seen, changed_weights(seen, light, 0, library, knots), knots, {medium}),
+      {medium}, knots);
   const Dipole dipole(medium.medium);
   Eigen::VectorXd r(knots.size());
   for (Eigen::Index i = 0; i < r.size(); ++i) {
