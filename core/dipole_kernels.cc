@@ -5,6 +5,8 @@
 #include <cstring>
 #include <numbers>
 
+#include <hwy/cache_control.h>
+
 // The baseline, AVX2 and AVX-512 are worth their build time.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 // Compiled once for each instruction set.
@@ -63,24 +65,33 @@ HWY_INLINE V quotient(V nearest2, V s) {
 #endif
 }
 
-struct Places {
-  HWY_ALIGN float x[kRowLanes], y[kRowLanes], z[kRowLanes];
-};
-
-// (rows - center) * scale, differences in double.
-HWY_INLINE void places_from(const RowLanes& rows, const double* center, double scale, Places& out) {
-  const double cx = center[0], cy = center[1], cz = center[2];
-  for (std::size_t i = 0; i < kRowLanes; ++i) {
-    out.x[i] = static_cast<float>((rows.x[i] - cx) * scale);
-    out.y[i] = static_cast<float>((rows.y[i] - cy) * scale);
-    out.z[i] = static_cast<float>((rows.z[i] - cz) * scale);
-  }
+// (rows - center) * scale for the lanes from `rows` on, differences in double.
+HWY_INLINE V places_from(const double* rows, double center, double scale) {
+  const D d;
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Set(d, static_cast<float>((*rows - center) * scale));
+#else
+  const hn::Repartition<double, D> dd;
+  const hn::Rebind<float, decltype(dd)> half;
+  const auto c = hn::Set(dd, center), f = hn::Set(dd, scale);
+  const auto low = hn::Mul(hn::Sub(hn::LoadU(dd, rows), c), f);
+  const auto high = hn::Mul(hn::Sub(hn::LoadU(dd, rows + hn::Lanes(dd)), c), f);
+  return hn::Combine(d, hn::DemoteTo(half, high), hn::DemoteTo(half, low));
+#endif
 }
 
 HWY_INLINE void add_lanes(const V& v, double scale, double* to) {
-  HWY_ALIGN float lane[kRowLanes];
-  hn::Store(v, D(), lane);
-  for (std::size_t i = 0; i < hn::Lanes(D()); ++i) to[i] += scale * static_cast<double>(lane[i]);
+#if HWY_TARGET == HWY_SCALAR
+  *to += scale * static_cast<double>(hn::GetLane(v));
+#else
+  const hn::Repartition<double, D> dd;
+  const hn::Rebind<float, decltype(dd)> half;
+  const auto f = hn::Set(dd, scale);
+  double* const high = to + hn::Lanes(dd);
+  hn::StoreU(hn::MulAdd(f, hn::PromoteTo(dd, hn::LowerHalf(half, v)), hn::LoadU(dd, to)), dd, to);
+  hn::StoreU(hn::MulAdd(f, hn::PromoteTo(dd, hn::UpperHalf(half, v)), hn::LoadU(dd, high)), dd,
+             high);
+#endif
 }
 
 // A pole of depth a: value / a, z dg/dz / a, and exp(-x) / rho, for rho^2 = s.
@@ -103,10 +114,9 @@ HWY_INLINE PoleVectors pole_vectors(V s, V kappa, V a2_3, V a2_kappa2) {
 }
 
 void add_point_sums_here(const KernelDipole* media, std::size_t n_media, const RowLanes& rows,
-                         const KernelPoints& k, double unit, LaneSums* sums) {
+                         const KernelPoints* points, std::size_t n_points, double unit,
+                         LaneSums* sums) {
   const D d;
-  Places p;
-  places_from(rows, k.center_mm, 1.0, p);
   for (std::size_t m = 0; m < n_media; ++m) {
     // Lengths in units of z_r, so that floats neither overflow nor vanish.
     const double per_length = 1.0 / media[m].z_r_mm;
@@ -119,23 +129,33 @@ void add_point_sums_here(const KernelDipole* media, std::size_t n_media, const R
     const V a = set(depth), a2 = set(depth * depth), a2_3 = set(3.0 * depth * depth);
     const V a2_kappa2 = set(depth * depth * kappa_unit * kappa_unit);
     for (std::size_t i = 0; i < kRowLanes; i += hn::Lanes(d)) {
-      const V x = hn::Load(d, p.x + i), y = hn::Load(d, p.y + i), z = hn::Load(d, p.z + i);
-      V value = hn::Zero(d), z_d_z = hn::Zero(d), decay = hn::Zero(d);
-      for (std::size_t j = 0; j < k.count; ++j) {
-        const V dx = hn::Sub(x, set(k.x_mm[j]));
-        const V dy = hn::Sub(y, set(k.y_mm[j]));
-        const V dz = hn::Sub(z, set(k.z_mm[j]));
-        const V d2 = hn::Mul(scale, hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz))));
-        const PoleVectors r = pole_vectors(hn::Add(d2, one), kappa, three, kappa2);
-        const PoleVectors v = pole_vectors(hn::Add(d2, a2), kappa, a2_3, a2_kappa2);
-        const V c = set(k.weight[j]);
-        value = hn::MulAdd(c, hn::MulAdd(a, v.value, r.value), value);
-        z_d_z = hn::MulAdd(c, hn::MulAdd(a, v.z_d_z, r.z_d_z), z_d_z);
-        decay = hn::MulAdd(c, hn::MulAdd(a, v.decay, r.decay), decay);
+      for (const KernelPoints* k = points; k != points + n_points; ++k) {
+        const V x = places_from(rows.x + i, k->center_mm[0], 1.0);
+        const V y = places_from(rows.y + i, k->center_mm[1], 1.0);
+        const V z = places_from(rows.z + i, k->center_mm[2], 1.0);
+        if (k + 1 != points + n_points) {
+          for (const float* p : {k[1].x_mm, k[1].y_mm, k[1].z_mm, k[1].weight}) {
+            hwy::Prefetch(p);
+            hwy::Prefetch(p + 16);
+          }
+        }
+        V value = hn::Zero(d), z_d_z = hn::Zero(d), decay = hn::Zero(d);
+        for (std::size_t j = 0; j < k->count; ++j) {
+          const V dx = hn::Sub(x, set(k->x_mm[j]));
+          const V dy = hn::Sub(y, set(k->y_mm[j]));
+          const V dz = hn::Sub(z, set(k->z_mm[j]));
+          const V d2 = hn::Mul(scale, hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz))));
+          const PoleVectors r = pole_vectors(hn::Add(d2, one), kappa, three, kappa2);
+          const PoleVectors v = pole_vectors(hn::Add(d2, a2), kappa, a2_3, a2_kappa2);
+          const V c = set(k->weight[j]);
+          value = hn::MulAdd(c, hn::MulAdd(a, v.value, r.value), value);
+          z_d_z = hn::MulAdd(c, hn::MulAdd(a, v.z_d_z, r.z_d_z), z_d_z);
+          decay = hn::MulAdd(c, hn::MulAdd(a, v.decay, r.decay), decay);
+        }
+        add_lanes(value, unit * per_area, sums[m].value + i);
+        add_lanes(z_d_z, unit * per_area, sums[m].z_d_z + i);
+        add_lanes(decay, unit, sums[m].decay + i);
       }
-      add_lanes(value, unit * per_area, sums[m].value + i);
-      add_lanes(z_d_z, unit * per_area, sums[m].z_d_z + i);
-      add_lanes(decay, unit, sums[m].decay + i);
     }
   }
 }
@@ -194,11 +214,11 @@ void cluster_sums(const KernelDipole* media, std::size_t n_media, const RowLanes
                   const KernelCluster& c, double unit, LaneSums* sums) {
   const D d;
   constexpr int kTerms = kDegree == 1 ? 1 : kDegree + 1;
-  Places p;
   const double per_radius = 1.0 / c.radius_mm;
-  places_from(rows, c.center_mm, per_radius, p);
   for (std::size_t i = 0; i < kRowLanes; i += hn::Lanes(d)) {
-    V x = hn::Load(d, p.x + i), y = hn::Load(d, p.y + i), z = hn::Load(d, p.z + i);
+    V x = places_from(rows.x + i, c.center_mm[0], per_radius);
+    V y = places_from(rows.y + i, c.center_mm[1], per_radius);
+    V z = places_from(rows.z + i, c.center_mm[2], per_radius);
     const V r2 = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
     V term[kTerms];
     term[0] = set(c.coefficients[0]);
@@ -267,29 +287,40 @@ void cluster_sums_of(const KernelDipole* media, std::size_t n_media, const RowLa
 }
 
 void add_cluster_sums_here(const KernelDipole* media, std::size_t n_media, const RowLanes& rows,
-                           const KernelCluster& c, int degree, double unit, LaneSums* sums) {
-  if (c.planar) {
-    cluster_sums_of<true>(media, n_media, rows, c, degree, unit, sums);
-  } else {
-    cluster_sums_of<false>(media, n_media, rows, c, degree, unit, sums);
+                           const KernelSeries* series, std::size_t n_series, LaneSums* sums) {
+  for (const KernelSeries* s = series; s != series + n_series; ++s) {
+    // Frame and coefficients come from far away.
+    constexpr std::ptrdiff_t kAhead = 3;
+    if (series + n_series - s > kAhead) {
+      const float* const next = s[kAhead].cluster.frame;
+      const int lines = s[kAhead].degree > 6 && !s[kAhead].cluster.planar ? 10 : 6;
+      for (int line = 0; line < lines; ++line) hwy::Prefetch(next + 16 * line);
+    }
+    if (s->cluster.planar) {
+      cluster_sums_of<true>(media, n_media, rows, s->cluster, s->degree, s->unit, sums);
+    } else {
+      cluster_sums_of<false>(media, n_media, rows, s->cluster, s->degree, s->unit, sums);
+    }
   }
 }
 
-void add_lane_rests_here(const RowLanes& rows, const double* center, double nearest, double pole,
-                         int power, double largest, double* lanes) {
+void add_lane_rests_here(const RowLanes& rows, const LaneRest* rests, std::size_t n_rests,
+                         double pole, double* lanes) {
   const D d;
-  Places p;
-  const double per_length = 1.0 / nearest;
-  places_from(rows, center, per_length, p);
-  const V pole2 = set(pole * pole * per_length * per_length);
   for (std::size_t i = 0; i < kRowLanes; i += hn::Lanes(d)) {
-    const V x = hn::Load(d, p.x + i), y = hn::Load(d, p.y + i), z = hn::Load(d, p.z + i);
-    const V s = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::MulAdd(z, z, pole2)));
-    // Raised to 1e-6: its powers are told from 0.
-    const V w = hn::Max(quotient(set(1.0F), s), set(1e-6F));
-    V product = w;
-    for (int k = 1; k < power; ++k) product = hn::Mul(product, w);
-    add_lanes(product, 1.003 * largest, lanes + i);
+    for (const LaneRest* rest = rests; rest != rests + n_rests; ++rest) {
+      const double per_length = 1.0 / rest->nearest_mm;
+      const V x = places_from(rows.x + i, rest->center_mm[0], per_length);
+      const V y = places_from(rows.y + i, rest->center_mm[1], per_length);
+      const V z = places_from(rows.z + i, rest->center_mm[2], per_length);
+      const V pole2 = set(pole * pole * per_length * per_length);
+      const V s = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::MulAdd(z, z, pole2)));
+      // Raised to 1e-6: its powers are told from 0.
+      const V w = hn::Max(quotient(set(1.0F), s), set(1e-6F));
+      V product = w;
+      for (int k = 1; k < rest->power; ++k) product = hn::Mul(product, w);
+      add_lanes(product, 1.003 * rest->largest, lanes + i);
+    }
   }
 }
 
@@ -406,25 +437,24 @@ bool choose_kernel_instruction_set(const char* name) {
 }
 
 void add_point_sums(std::span<const KernelDipole> media, const RowLanes& rows,
-                    const KernelPoints& points, double unit, std::span<LaneSums> sums) {
+                    std::span<const KernelPoints> points, double unit, std::span<LaneSums> sums) {
   choose_target();
   HWY_DYNAMIC_DISPATCH(add_point_sums_here)
-  (media.data(), media.size(), rows, points, unit, sums.data());
+  (media.data(), media.size(), rows, points.data(), points.size(), unit, sums.data());
 }
 
 void add_cluster_sums(std::span<const KernelDipole> media, const RowLanes& rows,
-                      const KernelCluster& cluster, int degree, double unit,
-                      std::span<LaneSums> sums) {
+                      std::span<const KernelSeries> series, std::span<LaneSums> sums) {
   choose_target();
   HWY_DYNAMIC_DISPATCH(add_cluster_sums_here)
-  (media.data(), media.size(), rows, cluster, degree, unit, sums.data());
+  (media.data(), media.size(), rows, series.data(), series.size(), sums.data());
 }
 
-void add_lane_rests(const RowLanes& rows, const double* center_mm, double nearest_mm,
-                    double pole_mm, int power, double largest, double* lanes) {
+void add_lane_rests(const RowLanes& rows, std::span<const LaneRest> rests, double pole_mm,
+                    double* lanes) {
   choose_target();
   HWY_DYNAMIC_DISPATCH(add_lane_rests_here)
-  (rows, center_mm, nearest_mm, pole_mm, power, largest, lanes);
+  (rows, rests.data(), rests.size(), pole_mm, lanes);
 }
 
 void sum_moments(const double* x_mm, const double* y_mm, const double* z_mm, const float* weight,

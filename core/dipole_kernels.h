@@ -42,7 +42,7 @@ struct KernelPoints {
 // stands for). Precondition: as many sums as media. Relative rounding error for positive weights:
 // 1e-6 (tests/core/dipole_pairs_test.cc) where the exponential is at least 1e-30.
 void add_point_sums(std::span<const KernelDipole> media, const RowLanes& rows,
-                    const KernelPoints& points, double unit, std::span<LaneSums> sums);
+                    std::span<const KernelPoints> points, double unit, std::span<LaneSums> sums);
 
 // Taylor series of a cluster of points about its centre c, in its own frame and in units of its
 // radius a: with psi_q = (-1/rho d/drho)^q exp(-kappa rho)/rho, rho^2 = |r|^2 + z^2, a point at
@@ -83,17 +83,29 @@ struct KernelCluster {
 // What a series of degree kDegrees[i] leaves out falls with that power of the distance at least.
 inline constexpr int kFalls[] = {2, 4, 6, 8, 10};
 
-// Adds for each row largest (nearest^2 / (d^2 + pole^2))^power, rounded up by at most 3e-3, d its
-// distance from the centre. Precondition: no quotient is over 1, power 1 .. 5.
-void add_lane_rests(const RowLanes& rows, const double* center_mm, double nearest_mm,
-                    double pole_mm, int power, double largest, double* lanes);
+// What a series leaves out for a row at a distance d from the cluster's centre:
+// largest (nearest^2 / (d^2 + pole^2))^power.
+struct LaneRest {
+  double center_mm[3];
+  double nearest_mm;
+  double largest;
+  int power;  // 1 .. 5
+};
 
-// Adds the cluster's series of that degree (one of kDegrees), times `unit`. Degree 1 is the weight
-// at the centre, in any unit of length: radius_mm is then only to be neither far above nor below
-// the distances.
+// Adds them for each row, rounded up by at most 3e-3. Precondition: no quotient is over 1.
+void add_lane_rests(const RowLanes& rows, std::span<const LaneRest> rests, double pole_mm,
+                    double* lanes);
+
+// A cluster's series of a degree (one of kDegrees), times `unit`. Degree 1 is the weight at the
+// centre, in any unit of length: radius_mm is then only to be neither far above nor below the
+// distances.
+struct KernelSeries {
+  KernelCluster cluster;
+  int degree;
+  double unit;
+};
 void add_cluster_sums(std::span<const KernelDipole> media, const RowLanes& rows,
-                      const KernelCluster& cluster, int degree, double unit,
-                      std::span<LaneSums> sums);
+                      std::span<const KernelSeries> series, std::span<LaneSums> sums);
 
 // Moments of points about a centre, in a frame and in units of a radius: raw[i] is the sum of
 // weight times the i-th monomial, monomials of degree 0 .. `degree` in the order above;

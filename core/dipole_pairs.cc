@@ -76,14 +76,13 @@ void DipolePairs::sum(const PairSources& sources, std::span<const Eigen::Vector3
     }
     LaneSums sums{};
     for (const PairSources::Block& b : sources.blocks_) {
-      add_point_sums({&kernel, 1}, rows,
-                     {{b.origin_mm.x(), b.origin_mm.y(), b.origin_mm.z()},
-                      &sources.x_[b.first],
-                      &sources.y_[b.first],
-                      &sources.z_[b.first],
-                      &sources.c_[b.first],
-                      b.count},
-                     b.weight, {&sums, 1});
+      const KernelPoints points{{b.origin_mm.x(), b.origin_mm.y(), b.origin_mm.z()},
+                                &sources.x_[b.first],
+                                &sources.y_[b.first],
+                                &sources.z_[b.first],
+                                &sources.c_[b.first],
+                                b.count};
+      add_point_sums({&kernel, 1}, rows, {&points, 1}, b.weight, {&sums, 1});
     }
     for (std::size_t i = 0; i < count; ++i) {
       out[first + i] = dipole_sum(medium_, {sums.value[i], sums.z_d_z[i], -0.5 * sums.decay[i]});

@@ -17,15 +17,14 @@ namespace scattermeter {
 namespace {
 
 constexpr std::size_t kSeries = std::size(kDegrees);
+constexpr std::size_t kBoundCells = KernelBounds::kCells, kReaches = KernelBounds::kReaches;
 constexpr double kFloor = 1e-30;
-// A cluster is worth its series of degree kDegrees[i] from so many points on: measured costs over
-// that of a pair, planar or not (tests/bench/dipole_sums_bench.cc).
-constexpr std::array<std::int32_t, kSeries> kWorthPlanar = {2, 3, 4, 4, 6};
-constexpr std::array<std::int32_t, kSeries> kWorth = {2, 3, 4, 6, 12};
 // Float is good for buckets of a radius below so many distances to the pole.
 constexpr double kFloatReach = 16.0;
 // Blocks whose far clusters are found together.
 constexpr std::size_t kTogether = 8;
+// A table for limits that differ by this factor at most among quantities costs less than it saves.
+constexpr double kAlike = 1.05;
 // Blocks that are summed one after the other, each by what the one before has learned.
 constexpr std::size_t kInTurn = 32;
 // Share of the tolerance that a single cluster may use up for a typical row of a block, at first;
@@ -37,6 +36,18 @@ constexpr double kShare = 1.0 / 16.0;
 constexpr double kDarker = 0.8;
 constexpr double kTypical = 0.9;
 constexpr double kTypicalTogether = 0.9;
+
+// Of a series, planar or not.
+constexpr auto kCoefficients = [] {
+  std::array<std::array<std::int64_t, kSeries>, 2> count{};
+  for (std::size_t planar = 0; planar < 2; ++planar) {
+    for (std::size_t i = 0; i < kSeries; ++i) {
+      count[planar][i] =
+          static_cast<std::int64_t>(coefficient_place(kDegrees[i] + 1, 0, planar == 1));
+    }
+  }
+  return count;
+}();
 
 using Three = std::array<double, 3>;
 
@@ -73,9 +84,6 @@ class BlockSums {
         options_(options),
         bounds_(dipoles),
         direct_(sources.size() <= options.direct_up_to) {
-    while (most_series_ > 0 && kDegrees[most_series_ - 1] > sources.largest_degree()) {
-      --most_series_;
-    }
     for (const KernelDipole& d : dipoles) farthest_pole_mm_ = std::max(farthest_pole_mm_, d.z_v_mm);
   }
 
@@ -111,6 +119,7 @@ class BlockSums {
     std::vector<std::int32_t> open;
     std::vector<Three> dropped;
     std::vector<Three> limits;
+    Place place;
   };
   // Points of one bucket that follow each other.
   struct Run {
@@ -125,13 +134,14 @@ class BlockSums {
     std::vector<Run> runs;
     LeftOut shared, own;
     // Of a cell of distances, the largest over media and quantities: of a series' rest over its
-    // limit, by degree; of all the light over its limit.
-    std::array<std::array<std::array<float, kSeries>, KernelBounds::kReaches>, KernelBounds::kCells>
-        need;
-    std::array<float, KernelBounds::kCells> all;
-    std::array<std::array<bool, KernelBounds::kReaches>, KernelBounds::kCells> known;
-    std::array<bool, KernelBounds::kCells> known_all;
-    std::vector<std::int32_t> stack;
+    // limit, by degree and reach; of all the light over its limit.
+    std::vector<float> need, all;
+    std::vector<Three> known;  // the limits they are told for
+    std::vector<std::int32_t> stack, next, verdicts, open, leaves;
+    std::vector<float> rests, nearest_mm;
+    std::vector<LaneRest> lane_rests;
+    std::vector<KernelSeries> series;
+    std::vector<KernelPoints> points;
     DipoleSumsCount count;
   };
 
@@ -179,115 +189,104 @@ class BlockSums {
     for (std::size_t m = 0; m < media_.size(); ++m) {
       for (std::size_t q = 0; q < 3; ++q) s.limits[m][q] = options_.tolerance * light[m][q];
     }
-    s.known.fill({});
-    s.known_all.fill(false);
   }
 
-  void know_all(State& s, std::size_t cell) const {
-    if (s.known_all[cell]) return;
-    s.known_all[cell] = true;
-    s.all[cell] = 0.0F;
+  // Tables for those limits, for places up to so far from the middle of all clusters.
+  void know(State& s, const std::vector<Three>& limits, double farthest_mm) const {
+    const std::size_t cells = bounds_.cell(farthest_mm + 1.1 * sources_.nodes()[0].radius_mm) + 2;
+    const std::size_t end = std::min(cells, kBoundCells);
+    s.known = limits;
+    s.need.assign(kSeries * kReaches * kBoundCells, 0.0F);
+    s.all.assign(kBoundCells, 0.0F);
     for (std::size_t m = 0; m < media_.size(); ++m) {
-      const ThreeBounds& most = bounds_.largest(m, cell);
+      ThreeBounds per_limit;
       for (std::size_t q = 0; q < 3; ++q) {
-        const double all = double(most[q]) / s.limits[m][q];
-        s.all[cell] = std::max(s.all[cell], static_cast<float>(all));
+        per_limit[q] = static_cast<float>((1.0 + 1e-6) / limits[m][q]);
+      }
+      const auto raise = [&](const ThreeBounds* bounds, float* to) {
+        for (std::size_t k = 0; k < end; ++k) {
+          const float most = std::max({bounds[k][0] * per_limit[0], bounds[k][1] * per_limit[1],
+                                       bounds[k][2] * per_limit[2]});
+          to[k] = std::max(to[k], most);
+        }
+      };
+      raise(&bounds_.largest(m, 0), s.all.data());
+      for (std::size_t i = 0; i < kSeries * kReaches; ++i) {
+        raise(bounds_.rests(m, i / kReaches) + i % kReaches * kBoundCells,
+              &s.need[i * kBoundCells]);
       }
     }
   }
 
-  void know(State& s, std::size_t cell, std::size_t reach) const {
-    if (s.known[cell][reach]) return;
-    s.known[cell][reach] = true;
-    std::array<float, kSeries>& need = s.need[cell][reach];
-    need = {};
-    for (std::size_t m = 0; m < media_.size(); ++m) {
-      for (std::size_t q = 0; q < 3; ++q) {
-        const double per_limit = 1.0 / s.limits[m][q];
-        for (std::size_t i = 0; i < most_series_; ++i) {
-          const double rest = double(bounds_.rest(m, i, reach, cell)[q]);
-          need[i] = std::max(need[i], static_cast<float>(rest * per_limit));
+  // Whether the clusters are left out for rows at that place, for giving too little; or their
+  // series will do, and of which degree: for a row that is so many radii of the place nearer than
+  // its middle each is to leave out no more than that share of the limits.
+  void judge(State& s, std::span<const std::int32_t> nodes, const Place& place, double typical,
+             double share) const {
+    VerdictPlace p;
+    const double* const middle = sources_.nodes()[0].center_mm;
+    double far = sources_.nodes()[0].radius_mm;
+    for (int i = 0; i < 3; ++i) {
+      const double at = place.center_mm[i] - middle[i];
+      p.center_mm[i] = static_cast<float>(at);
+      far += std::abs(at);
+    }
+    p.radius_mm = static_cast<float>(1.000001 * place.radius_mm);
+    p.slack_mm = static_cast<float>(1e-6 * far);
+    p.typical = static_cast<float>(typical);
+    p.share = static_cast<float>(share);
+    p.nearest_pole_mm = static_cast<float>(bounds_.nearest_pole_mm());
+    p.farthest_pole_mm = static_cast<float>(farthest_pole_mm_);
+    p.per_cell_unit = static_cast<float>(bounds_.cells_per_mm());
+    p.need = s.need.data();
+    p.all = s.all.data();
+    p.tail = bounds_.tails();
+    const std::size_t room = nodes.size() + kRowLanes;
+    if (s.verdicts.size() < room) {
+      s.verdicts.resize(room);
+      s.rests.resize(room);
+      s.nearest_mm.resize(room);
+    }
+    s.count.tests += static_cast<std::int64_t>(nodes.size());
+    judge_clusters(sources_.traits(), nodes, p,
+                   {s.verdicts.data(), s.rests.data(), s.nearest_mm.data()});
+  }
+
+  // The clusters in s.stack and their parts: those whose series will do are accepted, others
+  // opened, unless smaller than `smallest_mm` or leaves: s.open.
+  void choose(State& s, const Place& place, double typical, double share, double smallest_mm,
+              std::vector<Accepted>& accepted, std::vector<Three>& dropped) const {
+    const auto& nodes = sources_.nodes();
+    s.open.clear();
+    while (!s.stack.empty()) {
+      judge(s, s.stack, place, typical, share);
+      s.next.clear();
+      for (std::size_t k = 0; k < s.stack.size(); ++k) {
+        const std::int32_t at = s.stack[k];
+        const auto& node = nodes[static_cast<std::size_t>(at)];
+        if (s.verdicts[k] >= 0) {
+          accepted.push_back({at, static_cast<std::size_t>(s.verdicts[k]), double(s.rests[k]),
+                              double(s.nearest_mm[k])});
+        } else if (s.verdicts[k] == kVerdictDrop) {
+          const std::size_t cell = bounds_.cell(double(s.nearest_mm[k]));
+          for (std::size_t m = 0; m < media_.size(); ++m) {
+            const ThreeBounds& most = bounds_.largest(m, cell);
+            for (std::size_t q = 0; q < 3; ++q) dropped[m][q] += node.weight * double(most[q]);
+          }
+          ++s.count.dropped;
+        } else if (node.left >= 0 && node.radius_mm > smallest_mm) {
+          for (const std::int32_t part : {node.left, node.right}) {
+            s.next.push_back(part);
+            __builtin_prefetch(sources_.traits() + part);
+            __builtin_prefetch(&nodes[static_cast<std::size_t>(part)]);
+            __builtin_prefetch(&nodes[static_cast<std::size_t>(part)].first);
+          }
+        } else {
+          s.open.push_back(at);
         }
       }
+      std::swap(s.stack, s.next);
     }
-  }
-
-  enum class Verdict { kOpen, kSum, kDrop };
-
-  // Whether the cluster is left out for rows at that place, for giving too little; or its series
-  // will do, and of which degree: for a row that is so many radii of the place nearer than its
-  // middle it is to leave out no more than that share of the limits.
-  Verdict judge(State& s, std::int32_t at, const Place& place, double typical_nearer, double share,
-                std::vector<Three>& dropped, Accepted& as) const {
-    const auto& node = sources_.nodes()[static_cast<std::size_t>(at)];
-    ++s.count.tests;
-    const double pole2 = bounds_.nearest_pole_mm() * bounds_.nearest_pole_mm();
-    const double center = distance(node, place);
-    const double d = std::max(0.0, center - place.radius_mm);
-    const double nearest2 = d * d + pole2;
-    const double radius2 = node.radius_mm * node.radius_mm;
-    if (!(radius2 < KernelBounds::kLargestRatio * KernelBounds::kLargestRatio * nearest2)) {
-      return Verdict::kOpen;
-    }
-    if (drop(s, node, d - node.radius_mm, share, dropped)) return Verdict::kDrop;
-    if (node.series < 0) return Verdict::kOpen;
-    const auto& worth = node.planar ? kWorthPlanar : kWorth;
-    const std::int32_t points = node.last - node.first;
-    std::size_t last = most_series_;
-    while (last > 0 && points < worth[last - 1]) --last;
-    if (last == 0) return Verdict::kOpen;
-    const std::size_t cell = bounds_.cell(d);
-    const std::size_t reach = KernelBounds::reach(cell, bounds_.cell(center + place.radius_mm));
-    know(s, cell, reach);
-    const double u2 = radius2 / nearest2;
-    const auto ratio = static_cast<std::size_t>(32.0 * std::sqrt(u2));
-    const double typical = std::max(0.0, center - typical_nearer * place.radius_mm);
-    const double v = radius2 / (typical * typical + pole2);
-    const auto rest = [&](std::size_t i, double x) {
-      const double all = node.weight * double(node.spread[i]) *
-                         double(bounds_.tail(i, reach, cell, ratio)) *
-                         double(s.need[cell][reach][i]) * x;
-      // (a / rho)^(T+1) rho^-1, of degree 1 without.
-      const double x2 = x * x;
-      switch (i) {
-        case 0:
-          return all;
-        case 1:
-          return all * x / node.radius_mm;
-        case 2:
-          return all * x2 / node.radius_mm;
-        case 3:
-          return all * x2 * x / node.radius_mm;
-        default:
-          return all * x2 * x2 / node.radius_mm;
-      }
-    };
-    // Most clusters fail at the highest degree, or never.
-    if (!(rest(last - 1, v) <= share)) return Verdict::kOpen;
-    std::size_t i = 0;
-    while (i + 1 < last && !(rest(i, v) <= share)) ++i;
-    // Powers of the place in units of the radius are to be floats. (Degree 1 has another unit.)
-    const double far = (center + place.radius_mm + farthest_pole_mm_) / node.radius_mm;
-    if (i > 0 && far > 1e3 && (far > 1e10 || std::pow(far, kDegrees[i]) > 1e30)) {
-      return Verdict::kOpen;
-    }
-    as = {at, i, rest(i, u2), std::sqrt(nearest2)};
-    return Verdict::kSum;
-  }
-
-  // Leaves the cluster out, at least so far from any row, where it gives too little.
-  bool drop(State& s, const SourceClusters::Node& node, double nearest, double share,
-            std::vector<Three>& error) const {
-    if (nearest <= 0.0) return false;
-    const std::size_t cell = bounds_.cell(nearest);
-    know_all(s, cell);
-    if (node.weight * double(s.all[cell]) > share) return false;
-    for (std::size_t m = 0; m < media_.size(); ++m) {
-      const ThreeBounds& most = bounds_.largest(m, cell);
-      for (std::size_t q = 0; q < 3; ++q) error[m][q] += node.weight * double(most[q]);
-    }
-    ++s.count.dropped;
-    return true;
   }
 
   Shared find_shared(State& s, std::span<const RowBlocks::Block> blocks,
@@ -309,26 +308,20 @@ class BlockSums {
           std::max(place.radius_mm, (b.center_mm - place.center_mm).norm() + b.radius_mm);
     }
     set_limits(s, least);
+    know_at(s, s.limits, place);
+    shared.place = place;
     shared.limits = s.limits;
     shared.dropped.assign(media_.size(), {});
     s.stack.assign(1, 0);
-    Accepted as;
-    while (!s.stack.empty()) {
-      const std::int32_t at = s.stack.back();
-      s.stack.pop_back();
-      const auto& node = sources_.nodes()[static_cast<std::size_t>(at)];
-      const Verdict verdict = judge(s, at, place, kTypicalTogether, share, shared.dropped, as);
-      if (verdict == Verdict::kDrop) continue;
-      if (verdict == Verdict::kSum) {
-        shared.accepted.push_back(as);
-      } else if (node.left >= 0 && node.radius_mm > 0.5 * place.radius_mm) {
-        s.stack.push_back(node.right);
-        s.stack.push_back(node.left);
-      } else {
-        shared.open.push_back(at);
-      }
-    }
+    choose(s, place, kTypicalTogether, share, 0.5 * place.radius_mm, shared.accepted,
+           shared.dropped);
+    shared.open = s.open;
     return shared;
+  }
+
+  void know_at(State& s, const std::vector<Three>& limits, const Place& place) const {
+    const Eigen::Map<const Eigen::Vector3d> middle(sources_.nodes()[0].center_mm);
+    know(s, limits, (place.center_mm - middle).norm() + place.radius_mm);
   }
 
   void sum_block(State& s, const RowBlocks::Block& block, std::span<const std::uint32_t> rows,
@@ -345,11 +338,11 @@ class BlockSums {
       } else {
         set_limits(s, light);
         if (fit_plan(s, block, attempt == 0 ? &shared : nullptr, share)) {
-          for (const Accepted& as : shared.accepted) add_series(s, block, as);
+          add_series(s, block, shared.accepted);
         }
       }
-      for (const Accepted& as : s.accepted) add_series(s, block, as);
-      for (const Run& run : s.runs) add_points(s, block, run);
+      add_series(s, block, s.accepted);
+      add_points(s, block);
       worst = worst_error(s, block, light);
       if (worst <= options_.tolerance) break;
       ++s.count.repeated_blocks;
@@ -398,35 +391,42 @@ class BlockSums {
     return worst;
   }
 
-  void add_series(State& s, const RowBlocks::Block& block, const Accepted& as) const {
-    const auto& node = sources_.nodes()[static_cast<std::size_t>(as.node)];
-    const int degree = kDegrees[as.series];
-    KernelCluster cluster = sources_.cluster(node);
-    if (degree == 1) {
-      cluster.radius_mm = distance(node, {block.center_mm, 0.0}) + farthest_pole_mm_;
-    }
-    add_cluster_sums(dipoles_, block.lanes, cluster, degree, node.weight, s.sums);
+  void add_series(State& s, const RowBlocks::Block& block,
+                  std::span<const Accepted> accepted) const {
+    s.series.clear();
     const auto rows = static_cast<std::int64_t>(block.count);
-    s.count.series += rows;
-    s.count.coefficients +=
-        rows * static_cast<std::int64_t>(coefficient_place(degree + 1, 0, node.planar));
+    s.count.series += rows * static_cast<std::int64_t>(accepted.size());
+    for (const Accepted& as : accepted) {
+      const auto& node = sources_.nodes()[static_cast<std::size_t>(as.node)];
+      const int degree = kDegrees[as.series];
+      s.series.push_back({sources_.cluster(node), degree, node.weight});
+      if (degree == 1) {
+        s.series.back().cluster.radius_mm =
+            distance(node, {block.center_mm, 0.0}) + farthest_pole_mm_;
+      }
+      s.count.coefficients += rows * kCoefficients[node.planar][as.series];
+    }
+    add_cluster_sums(dipoles_, block.lanes, s.series, s.sums);
   }
 
-  void add_points(State& s, const RowBlocks::Block& block, const Run& run) const {
-    const auto& bucket = sources_.nodes()[static_cast<std::size_t>(run.bucket)];
+  void add_points(State& s, const RowBlocks::Block& block) const {
     const Place place{block.center_mm, block.radius_mm};
-    const double d = std::max(0.0, distance(bucket, place) - block.radius_mm - bucket.radius_mm);
-    const auto pairs = static_cast<std::int64_t>(block.count) * (run.last - run.first);
-    s.count.pairs += pairs;
     const double reach = kFloatReach * kFloatReach;
     const double pole = bounds_.nearest_pole_mm();
-    if (bucket.radius_mm * bucket.radius_mm <= reach * (d * d + pole * pole)) {
-      add_point_sums(dipoles_, block.lanes, sources_.points(run.bucket, run.first, run.last), 1.0,
-                     s.sums);
-      return;
+    s.points.clear();
+    for (const Run& run : s.runs) {
+      const auto& bucket = sources_.nodes()[static_cast<std::size_t>(run.bucket)];
+      const auto pairs = static_cast<std::int64_t>(block.count) * (run.last - run.first);
+      s.count.pairs += pairs;
+      const double d = std::max(0.0, distance(bucket, place) - block.radius_mm - bucket.radius_mm);
+      if (bucket.radius_mm * bucket.radius_mm <= reach * (d * d + pole * pole)) {
+        s.points.push_back(sources_.points(run.bucket, run.first, run.last));
+      } else {
+        s.count.exact_pairs += pairs;
+        sources_.add_exact_sums(run.first, run.last, dipoles_, block.lanes, s.sums);
+      }
     }
-    s.count.exact_pairs += pairs;
-    sources_.add_exact_sums(run.first, run.last, dipoles_, block.lanes, s.sums);
+    add_point_sums(dipoles_, block.lanes, s.points, 1.0, s.sums);
   }
 
   void add_run(State& s, const SourceClusters::Node& leaf) const {
@@ -455,43 +455,49 @@ class BlockSums {
     }
   }
 
-  // Bound of what the series leaves out for each row.
-  void add_rest(const RowBlocks::Block& block, const Accepted& as, LeftOut& left) const {
-    const auto& node = sources_.nodes()[static_cast<std::size_t>(as.node)];
-    add_lane_rests(block.lanes, node.center_mm, as.nearest_mm, bounds_.nearest_pole_mm(),
-                   kFalls[as.series] / 2, as.rest, left.series.data());
+  // Bounds of what the series leave out for each row.
+  void add_rests(State& s, const RowBlocks::Block& block, std::span<const Accepted> accepted,
+                 LeftOut& left) const {
+    s.lane_rests.clear();
+    for (const Accepted& as : accepted) {
+      const double* const c = sources_.nodes()[static_cast<std::size_t>(as.node)].center_mm;
+      s.lane_rests.push_back({{c[0], c[1], c[2]}, as.nearest_mm, as.rest, kFalls[as.series] / 2});
+    }
+    add_lane_rests(block.lanes, s.lane_rests, bounds_.nearest_pole_mm(), left.series.data());
   }
 
-  // What is summed for a block, by that share.
+  // What is summed for a block, by that share of its limits.
   void plan(State& s, const RowBlocks::Block& block, const Shared* shared, double share) const {
     clear_plan(s);
-    s.own.limits = s.limits;
+    // Tables are made for the limits that neighbours share; where a block's own are not about the
+    // same multiple of each, for its own.
+    double larger = 1.0;
+    bool alike = shared != nullptr;
     if (shared != nullptr) {
       s.shared.dropped = shared->dropped;
       s.shared.limits = shared->limits;
-      for (const Accepted& as : shared->accepted) add_rest(block, as, s.shared);
+      add_rests(s, block, shared->accepted, s.shared);
       s.stack.assign(shared->open.begin(), shared->open.end());
+      double least = std::numeric_limits<double>::infinity(), most = 0.0;
+      for (std::size_t m = 0; m < media_.size(); ++m) {
+        for (std::size_t q = 0; q < 3; ++q) {
+          const double ratio = s.limits[m][q] / shared->limits[m][q];
+          least = std::min(least, ratio);
+          most = std::max(most, ratio);
+        }
+      }
+      alike = most <= kAlike * least;
+      if (alike) larger = least;
     } else {
       s.stack.assign(1, 0);
     }
     const Place place{block.center_mm, block.radius_mm};
-    Accepted as;
-    while (!s.stack.empty()) {
-      const std::int32_t at = s.stack.back();
-      s.stack.pop_back();
-      const auto& node = sources_.nodes()[static_cast<std::size_t>(at)];
-      const Verdict verdict = judge(s, at, place, kTypical, share, s.own.dropped, as);
-      if (verdict == Verdict::kDrop) continue;
-      if (verdict == Verdict::kSum) {
-        add_rest(block, as, s.own);
-        s.accepted.push_back(as);
-      } else if (node.left < 0) {
-        add_run(s, node);
-      } else {
-        s.stack.push_back(node.right);
-        s.stack.push_back(node.left);
-      }
-    }
+    s.own.limits = alike ? shared->limits : s.limits;
+    if (s.known != s.own.limits) know_at(s, s.own.limits, alike ? shared->place : place);
+    choose(s, place, kTypical, share * larger, 0.0, s.accepted, s.own.dropped);
+    add_rests(s, block, s.accepted, s.own);
+    std::sort(s.open.begin(), s.open.end());
+    for (const std::int32_t at : s.open) add_run(s, sources_.nodes()[static_cast<std::size_t>(at)]);
   }
 
   // The largest error of a row over the tolerance, by the light that was guessed.
@@ -544,7 +550,6 @@ class BlockSums {
   const DipoleSumsOptions& options_;
   KernelBounds bounds_;
   bool direct_;
-  std::size_t most_series_ = kSeries;
   double farthest_pole_mm_ = 0;
 };
 

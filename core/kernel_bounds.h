@@ -43,9 +43,11 @@ class KernelBounds {
   std::size_t cell(double distance_mm) const {
     const auto x = static_cast<float>(distance_mm * per_z_r_);
     const auto bits = static_cast<std::int64_t>(std::bit_cast<std::uint32_t>(x) >> 19);
-    const std::int64_t i = bits - (std::int64_t{127 + kFirstOctave} << 4) + 1;
+    const std::int64_t i = bits - kCellBits;
     return static_cast<std::size_t>(std::clamp<std::int64_t>(i, 0, kCells - 1));
   }
+  static constexpr int kCellBits = ((127 - 6) << 4) - 1;
+  double cells_per_mm() const { return per_z_r_; }  // of the number whose bits tell the cell
   double nearest_pole_mm() const { return nearest_pole_mm_; }  // least z_r
   const ThreeBounds& largest(std::size_t medium, std::size_t cell) const {
     return largest_[medium * kCells + cell];
@@ -71,11 +73,16 @@ class KernelBounds {
                           std::size_t cell) const {
     return rest_[((medium * std::size(kDegrees) + i) * kReaches + reach) * kCells + cell];
   }
+  // All of a medium and series, by reach and cell.
+  const ThreeBounds* rests(std::size_t medium, std::size_t i) const {
+    return &rest(medium, i, 0, 0);
+  }
   static constexpr std::size_t kTails = 24;  // u in steps of 1/32; from 3/4 on there is no bound
   static constexpr double kLargestRatio = 0.75;
   float tail(std::size_t i, std::size_t reach, std::size_t cell, std::size_t ratio) const {
     return tail_[((i * kReaches + reach) * kCells + cell) * kTails + ratio];
   }
+  const float* tails() const { return tail_.data(); }
 
  private:
   static constexpr int kFirstOctave = -6;

@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 namespace scattermeter {
 
 RowBlocks::RowBlocks(std::span<const Eigen::Vector3d> rows_mm) : order_(rows_mm.size()) {
@@ -16,7 +18,7 @@ RowBlocks::RowBlocks(std::span<const Eigen::Vector3d> rows_mm) : order_(rows_mm.
     throw std::invalid_argument(text.str());
   }
   std::iota(order_.begin(), order_.end(), 0U);
-  blocks_.reserve(rows_mm.size() / kRowLanes + 1);
+  blocks_.resize((rows_mm.size() + kRowLanes - 1) / kRowLanes);
   if (!order_.empty()) split(rows_mm, 0, order_.size());
 }
 
@@ -39,11 +41,19 @@ void RowBlocks::split(std::span<const Eigen::Vector3d> rows_mm, std::size_t firs
       const double xa = rows_mm[a][axis], xb = rows_mm[b][axis];
       return xa != xb ? xa < xb : a < b;
     });
-    split(rows_mm, first, middle);
-    split(rows_mm, middle, last);
+    constexpr std::size_t kLarge = 4096;
+    if (last - first > kLarge) {
+      oneapi::tbb::parallel_invoke([&] { split(rows_mm, first, middle); },
+                                   [&] { split(rows_mm, middle, last); });
+    } else {
+      split(rows_mm, first, middle);
+      split(rows_mm, middle, last);
+    }
     return;
   }
-  Block block{{}, 0.5 * (low + high), 0.0, first, last - first};
+  // All before are full.
+  Block& block = blocks_[first / kRowLanes];
+  block = {{}, 0.5 * (low + high), 0.0, first, last - first};
   for (std::size_t i = 0; i < kRowLanes; ++i) {
     const Eigen::Vector3d& p = row(i < block.count ? first + i : first);
     block.lanes.x[i] = p.x();
@@ -51,7 +61,6 @@ void RowBlocks::split(std::span<const Eigen::Vector3d> rows_mm, std::size_t firs
     block.lanes.z[i] = p.z();
     block.radius_mm = std::max(block.radius_mm, (p - block.center_mm).norm());
   }
-  blocks_.push_back(block);
 }
 
 }  // namespace scattermeter

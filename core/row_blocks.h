@@ -12,7 +12,7 @@
 
 namespace scattermeter {
 
-// Made once for many sums over the same rows.
+// Made once for many sums over the same rows, in parallel; the same for any number of threads.
 class RowBlocks {
  public:
   struct Block {

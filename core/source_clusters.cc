@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -29,6 +30,11 @@ struct ClusterPlane {
 };
 
 namespace {
+
+// A cluster is worth its series of degree kDegrees[i] from so many points on: measured costs over
+// that of a pair, planar or not (tests/bench/dipole_sums_bench.cc).
+constexpr std::array<std::int32_t, std::size(kDegrees)> kWorthPlanar = {2, 3, 4, 4, 6};
+constexpr std::array<std::int32_t, std::size(kDegrees)> kWorth = {2, 3, 4, 6, 12};
 
 // Frame whose third axis is the normal of the plane that holds all the points, if one does to
 // 1e-7 of the radius, which is less than floats resolve.
@@ -165,30 +171,47 @@ void coefficients_from(const KernelMoments& moments, int degree, double weight, 
 
 }  // namespace
 
-class ClusterBuilder {
+// Splits points into clusters; large parts may be left to be split by others.
+class ClusterSplit {
  public:
-  ClusterBuilder(SourceClusters& out, std::vector<WeightedPoint>& points)
-      : out_(out), points_(points) {}
+  using Node = SourceClusters::Node;
+  struct Part {
+    std::int32_t first, last, parent, plane;
+    bool left;
+  };
 
-  std::int32_t split(std::int32_t first, std::int32_t last, std::int32_t bucket = -1,
-                     std::int32_t plane = -1) {
-    const auto at = static_cast<std::int32_t>(out_.nodes_.size());
-    WeightedPoint* const begin = points_.data() + first;
-    WeightedPoint* const end = points_.data() + last;
+  // `room` for as many points as there are.
+  ClusterSplit(WeightedPoint* points, WeightedPoint* room) : points_(points), room_(room) {}
+
+  std::vector<Node> nodes;
+  std::vector<ClusterPlane> planes;
+  std::vector<Part> parts;
+
+  // Parts of up to `whole` points are left to others.
+  std::int32_t split(std::int32_t first, std::int32_t last, std::int32_t whole,
+                     std::int32_t bucket = -1, std::int32_t plane = -1) {
+    const auto at = static_cast<std::int32_t>(nodes.size());
+    WeightedPoint* const begin = points_ + first;
+    WeightedPoint* const end = points_ + last;
     Eigen::Vector3d low = begin->at, high = begin->at, mean = Eigen::Vector3d::Zero();
+    const Eigen::Vector3d origin = begin->at;
     double weight = 0.0;
     for (const WeightedPoint* p = begin; p != end; ++p) {
-      low = low.cwiseMin(p->at);
-      high = high.cwiseMax(p->at);
-      mean += p->weight * (p->at - begin->at);
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        const double x = p->at[i];
+        low[i] = x < low[i] ? x : low[i];
+        high[i] = x > high[i] ? x : high[i];
+        mean[i] += p->weight * (x - origin[i]);
+      }
       weight += p->weight;
     }
-    SourceClusters::Node node{};
-    const Eigen::Vector3d center = begin->at + mean / weight;
+    Node node{};
+    const Eigen::Vector3d center = origin + mean / weight;
     Eigen::Map<Eigen::Vector3d>(node.center_mm) = center;
     double radius2 = 0.0;
     for (const WeightedPoint* p = begin; p != end; ++p) {
-      radius2 = std::max(radius2, (p->at - center).squaredNorm());
+      const double r2 = (p->at - center).squaredNorm();
+      radius2 = r2 > radius2 ? r2 : radius2;
     }
     node.radius_mm = std::sqrt(radius2) * (1.0 + 1e-12);
     node.weight = weight;
@@ -196,43 +219,136 @@ class ClusterBuilder {
     node.last = last;
     node.left = node.right = node.series = -1;
     // A plane holds points to a share of the size it was found at.
-    if (plane >= 0 && node.radius_mm < 1e5 * planes_[static_cast<std::size_t>(plane)].tolerance) {
+    if (plane >= 0 && node.radius_mm < 1e5 * planes[static_cast<std::size_t>(plane)].tolerance) {
       plane = -1;
     }
     node.plane = plane;
     if (bucket < 0 && last - first <= SourceClusters::kBucket) bucket = at;
     node.bucket = bucket < 0 ? at : bucket;
-    out_.nodes_.push_back(node);
+    nodes.push_back(node);
     if (last - first <= SourceClusters::kLeaf) return at;
     Eigen::Index axis = 0;
     const double side = (high - low).maxCoeff(&axis);
     const double cut = low[axis] + 0.5 * side;
-    const auto place = [&](const WeightedPoint* p) {
-      return static_cast<std::int32_t>(p - points_.data());
-    };
     std::int32_t left_plane = plane, middle = first;
     ClusterPlane found;
     if (plane < 0 && last - first >= kManyPoints && plane_of_many(begin, end, side, found)) {
-      middle = place(
-          std::partition(begin, end, [&](const WeightedPoint& p) { return found.holds(p.at); }));
-      left_plane = static_cast<std::int32_t>(planes_.size());
-      planes_.push_back(found);
+      middle =
+          first + divide(begin, end, [&](const WeightedPoint& p) { return found.holds(p.at); });
+      left_plane = static_cast<std::int32_t>(planes.size());
+      planes.push_back(found);
       if (middle == last) {
-        plane = out_.nodes_[static_cast<std::size_t>(at)].plane = left_plane;
+        plane = nodes[static_cast<std::size_t>(at)].plane = left_plane;
         middle = first;
       }
     }
     if (middle == first) {
-      middle = place(
-          std::partition(begin, end, [&](const WeightedPoint& p) { return p.at[axis] < cut; }));
+      middle = first + divide(begin, end, [&](const WeightedPoint& p) { return p.at[axis] < cut; });
     }
     // Points that coincide, or differ by a rounding.
     if (middle == first || middle == last) return at;
-    const std::int32_t left = split(first, middle, bucket, left_plane);
-    const std::int32_t right = split(middle, last, bucket, plane);
-    out_.nodes_[static_cast<std::size_t>(at)].left = left;
-    out_.nodes_[static_cast<std::size_t>(at)].right = right;
+    const auto next = [&](std::int32_t from, std::int32_t to, std::int32_t in, bool is_left) {
+      if (to - from > SourceClusters::kBucket && to - from <= whole) {
+        parts.push_back({from, to, at, in, is_left});
+        return std::int32_t{-1};
+      }
+      return split(from, to, whole, bucket, in);
+    };
+    const std::int32_t left = next(first, middle, left_plane, true);
+    const std::int32_t right = next(middle, last, plane, false);
+    nodes[static_cast<std::size_t>(at)].left = left;
+    nodes[static_cast<std::size_t>(at)].right = right;
     return at;
+  }
+
+ private:
+  static constexpr std::int32_t kManyPoints = 128;
+
+  // Those for which it holds first, each kind in its order; how many they are. Points are moved
+  // without a branch, which half of the time would be foretold wrongly.
+  template <class Holds>
+  std::int32_t divide(WeightedPoint* begin, WeightedPoint* end, const Holds& holds) const {
+    WeightedPoint* const other = room_ + (begin - points_);
+    std::ptrdiff_t left = 0, right = 0;
+    for (WeightedPoint* p = begin; p != end; ++p) {
+      const WeightedPoint point = *p;
+      const bool is_left = holds(point);
+      begin[left] = point;
+      other[right] = point;
+      left += is_left ? 1 : 0;
+      right += is_left ? 0 : 1;
+    }
+    std::copy(other, other + right, begin + left);
+    return static_cast<std::int32_t>(left);
+  }
+
+  WeightedPoint* points_;
+  WeightedPoint* room_;
+};
+
+class ClusterBuilder {
+ public:
+  ClusterBuilder(SourceClusters& out, std::vector<WeightedPoint>& points)
+      : out_(out), points_(points) {}
+
+  // Large parts at a time, then each by itself.
+  void split() {
+    constexpr std::int32_t kPart = 4096;
+    std::vector<WeightedPoint> room(points_.size());
+    ClusterSplit top(points_.data(), room.data());
+    const auto count = static_cast<std::int32_t>(points_.size());
+    top.split(0, count, count > kPart ? kPart : 0);
+    std::vector<std::unique_ptr<ClusterSplit>> below(top.parts.size());
+    oneapi::tbb::parallel_for(std::size_t{0}, below.size(), [&](std::size_t i) {
+      const ClusterSplit::Part& part = top.parts[i];
+      below[i] = std::make_unique<ClusterSplit>(points_.data(), room.data());
+      if (part.plane >= 0) below[i]->planes = {top.planes[static_cast<std::size_t>(part.plane)]};
+      below[i]->nodes.reserve(static_cast<std::size_t>(part.last - part.first) / 2);
+      below[i]->split(part.first, part.last, 0, -1, part.plane >= 0 ? 0 : -1);
+    });
+    out_.nodes_ = std::move(top.nodes);
+    planes_ = std::move(top.planes);
+    std::size_t size = out_.nodes_.size();
+    for (const auto& part : below) size += part->nodes.size();
+    out_.nodes_.reserve(size);
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      const auto offset = static_cast<std::int32_t>(out_.nodes_.size());
+      const auto plane = static_cast<std::int32_t>(planes_.size());
+      const ClusterSplit::Part& part = top.parts[i];
+      SourceClusters::Node& parent = out_.nodes_[static_cast<std::size_t>(part.parent)];
+      (part.left ? parent.left : parent.right) = offset;
+      for (SourceClusters::Node node : below[i]->nodes) {
+        node.bucket += offset;
+        if (node.left >= 0) {
+          node.left += offset;
+          node.right += offset;
+        }
+        if (node.plane >= 0) node.plane += plane;
+        out_.nodes_.push_back(node);
+      }
+      planes_.insert(planes_.end(), below[i]->planes.begin(), below[i]->planes.end());
+    }
+  }
+
+  // What is to be told of a cluster where it is judged.
+  void tell(const SourceClusters::Node& node, ClusterTraits& traits) const {
+    const double* const middle = out_.nodes_[0].center_mm;
+    for (int i = 0; i < 3; ++i) {
+      traits.center_mm[i] = static_cast<float>(node.center_mm[i] - middle[i]);
+    }
+    constexpr double kUp = 1.0 + 1e-6;
+    traits.radius_mm = static_cast<float>(kUp * node.radius_mm);
+    traits.weight = static_cast<float>(kUp * node.weight);
+    traits.last = -1;
+    if (node.series < 0) return;
+    const auto& worth = node.planar ? kWorthPlanar : kWorth;
+    for (std::size_t i = 0; i < std::size(kDegrees); ++i) {
+      traits.spread[i] = static_cast<float>(kUp * node.weight * double(node.spread[i]) /
+                                            (i == 0 ? 1.0 : node.radius_mm));
+      if (kDegrees[i] <= out_.largest_degree_ && node.last - node.first >= worth[i]) {
+        traits.last = static_cast<std::int32_t>(i);
+      }
+    }
   }
 
   // The moments of one cluster.
@@ -278,7 +394,6 @@ class ClusterBuilder {
   }
 
  private:
-  static constexpr std::int32_t kManyPoints = 128;
   SourceClusters& out_;
   std::vector<WeightedPoint>& points_;
   std::vector<ClusterPlane> planes_;
@@ -314,8 +429,7 @@ SourceClusters::SourceClusters(std::span<const Eigen::Vector3d> points_mm,
   const double scale = 1.0 / weight_;
   for (WeightedPoint& p : points) p.weight *= scale;
   ClusterBuilder builder(*this, points);
-  nodes_.reserve(points.size() / 3 + 1);
-  builder.split(0, static_cast<std::int32_t>(points.size()));
+  builder.split();
   const std::size_t n = points.size();
   for (auto* v : {&x_mm_, &y_mm_, &z_mm_}) v->resize(n);
   for (auto* v : {&weights_, &dx_mm_, &dy_mm_, &dz_mm_}) v->resize(n);
@@ -335,10 +449,12 @@ SourceClusters::SourceClusters(std::span<const Eigen::Vector3d> points_mm,
     series += stride(node.plane >= 0);
   }
   series_.resize(static_cast<std::size_t>(series));
+  traits_.resize(nodes_.size());
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, nodes_.size(), 64),
                             [&](const auto& range) {
                               for (std::size_t i = range.begin(); i != range.end(); ++i) {
                                 builder.finish(nodes_[i]);
+                                builder.tell(nodes_[i], traits_[i]);
                               }
                             });
 }

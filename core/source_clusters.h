@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "core/cluster_verdicts.h"
 #include "core/dipole_kernels.h"
 
 namespace scattermeter {
@@ -50,8 +51,9 @@ class SourceClusters {
   std::size_t left_out() const { return left_out_; }  // points of weight 0
   double weight() const { return weight_; }           // of all
   int largest_degree() const { return largest_degree_; }
-  const std::vector<Node>& nodes() const { return nodes_; }  // the root first
-  KernelCluster cluster(const Node& node) const;             // precondition: node.series >= 0
+  const std::vector<Node>& nodes() const { return nodes_; }       // the root first
+  const ClusterTraits* traits() const { return traits_.data(); }  // of all nodes
+  KernelCluster cluster(const Node& node) const;                  // precondition: node.series >= 0
   // Points [first, last) of one bucket.
   KernelPoints points(std::int32_t bucket, std::int32_t first, std::int32_t last) const;
   // As add_point_sums, in double precision throughout.
@@ -64,6 +66,7 @@ class SourceClusters {
   double weight_ = 0;
   int largest_degree_;
   std::vector<Node> nodes_;
+  std::vector<ClusterTraits> traits_;
   std::vector<double> x_mm_, y_mm_, z_mm_;
   std::vector<float> weights_;                // relative to that of all
   std::vector<float> dx_mm_, dy_mm_, dz_mm_;  // from the bucket's centre

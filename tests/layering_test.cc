@@ -71,7 +71,7 @@ TEST(Layering, EachForeignLibraryHasItsDoor) {
        "calib/[a-z_]+\\.cc|calib/(charuco_opencv|opencv_storage|tone_picture)\\.h|"
        "capture/hdr_file\\.cc|apps/(overlay_picture|picture|grey_picture)\\.cc"},
       {"embree", "core/ray_scene\\.cc"},
-      {"hwy/", "core/dipole_kernels\\.cc"},
+      {"hwy/", "core/(dipole_kernels|cluster_verdicts)\\.cc"},
       {"ceres/", "core/dipole_solver\\.cc|calib/[a-z_]+\\.cc"},
       {"yaml-cpp/", "apps/(yaml_field\\.(h|cc)|[a-z]+_calibration_file\\.cc)"},
       {"nlohmann/", "apps/((check|plan|result)_json|decoded_shot|result_reader)\\.cc"},

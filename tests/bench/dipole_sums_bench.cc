@@ -26,16 +26,17 @@ using V8 = float __attribute__((vector_size(32)));
 using V16 = float __attribute__((vector_size(64)));
 
 // Twelve independent chains of multiply-adds.
-#define SCATTERMETER_PEAK(name, set, Vector)                     \
-  __attribute__((target(set), noinline)) float name(int turns) { \
-    Vector a[12] = {};                                           \
-    const Vector m = a[0] + 0.999F, b = a[0] + 1e-3F;            \
-    for (int i = 0; i < turns; ++i) {                            \
-      for (Vector & x : a) x = x * m + b;                        \
-    }                                                            \
-    Vector sum = a[0];                                           \
-    for (int i = 1; i < 12; ++i) sum += a[i];                    \
-    return sum[0];                                               \
+#define SCATTERMETER_PEAK(name, set, Vector)                              \
+  __attribute__((target(set), noinline)) float name(int turns) {          \
+    Vector a[12];                                                         \
+    for (int i = 0; i < 12; ++i) a[i] = Vector{} + static_cast<float>(i); \
+    const Vector m = Vector{} + 0.999F, b = Vector{} + 1e-3F;             \
+    for (int i = 0; i < turns; ++i) {                                     \
+      for (Vector & x : a) x = x * m + b;                                 \
+    }                                                                     \
+    Vector sum = a[0];                                                    \
+    for (int i = 1; i < 12; ++i) sum += a[i];                             \
+    return sum[0];                                                        \
   }
 SCATTERMETER_PEAK(peak_avx2, "avx2,fma", V8)
 SCATTERMETER_PEAK(peak_avx3, "avx512f", V16)
@@ -92,10 +93,10 @@ void bm_points(benchmark::State& state, const char* set) {
   }
   const RowLanes rows = bench_rows();
   const KernelDipole dipole = bench_dipole();
+  const KernelPoints points{{0, 0, 0}, x.data(), y.data(), z.data(), w.data(), n};
   LaneSums sums{};
   for (auto _ : state) {
-    add_point_sums({&dipole, 1}, rows, {{0, 0, 0}, x.data(), y.data(), z.data(), w.data(), n}, 1.0,
-                   {&sums, 1});
+    add_point_sums({&dipole, 1}, rows, {&points, 1}, 1.0, {&sums, 1});
     benchmark::DoNotOptimize(sums);
   }
   report(state, set, static_cast<double>(kRowLanes * n), kPairOperations);
@@ -111,10 +112,10 @@ void bm_series(benchmark::State& state, const char* set) {
   const float frame[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   const RowLanes rows = bench_rows();
   const KernelDipole dipole = bench_dipole();
+  const KernelSeries series{{{0, 0, 0}, 1.0, frame, coefficients.data(), planar}, degree, 1.0};
   LaneSums sums{};
   for (auto _ : state) {
-    add_cluster_sums({&dipole, 1}, rows, {{0, 0, 0}, 1.0, frame, coefficients.data(), planar},
-                     degree, 1.0, {&sums, 1});
+    add_cluster_sums({&dipole, 1}, rows, {&series, 1}, {&sums, 1});
     benchmark::DoNotOptimize(sums);
   }
   // An operation a coefficient, one a monomial, and by pole: 18 and 5 a term.

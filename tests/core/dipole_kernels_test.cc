@@ -43,7 +43,7 @@ TEST(DipoleKernels, EveryInstructionSetGivesTheSame) {
     }
     std::vector<LaneSums> sums(2);
     sums[0].value[3] = 1000.0;
-    add_point_sums(kernels, rows, points, 2.0, sums);
+    add_point_sums(kernels, rows, {&points, 1}, 2.0, sums);
     for (std::size_t m = 0; m < media.size(); ++m) {
       const Dipole dipole(media[m]);
       for (std::size_t i = 0; i < kRowLanes; ++i) {

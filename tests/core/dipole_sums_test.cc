@@ -187,6 +187,30 @@ TEST(DipoleSums, CertifiedForAdversaries) {
     s.rows = {s.points[0], s.points[1] + Eigen::Vector3d(0.1, 0, 0), {0, 0, 0}};
     scenes.push_back(s);
   }
+  // About as far from a plane as tells a planar cluster from another, and less.
+  for (const double off : {1e-5, 1e-7, 1e-9, 1e-12}) {
+    Scene s{"off a plane by " + std::to_string(off), {}, {}, {}};
+    const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, 3).normalized();
+    for (int i = 0; i < 1500; ++i) {
+      const Eigen::Vector3d p = 10.0 * vector();
+      s.points.push_back(p + (10.0 * off * uniform(random) - normal.dot(p)) * normal);
+    }
+    s.rows = {{0, 0, 0}, s.points[3], 0.1 * normal, 10.0 * normal, -0.3 * normal};
+    scenes.push_back(s);
+  }
+  {
+    // Blocks of rows and clusters that hold parts of both.
+    Scene s{"two faces", {}, {}, {}};
+    for (int i = 0; i < 2000; ++i) {
+      const double u = 5.0 * std::abs(uniform(random)), v = 10.0 * uniform(random);
+      s.points.emplace_back(i % 2 == 0 ? Eigen::Vector3d(u, v, 0) : Eigen::Vector3d(0, v, u));
+    }
+    for (int i = 0; i < 40; ++i) {
+      const double u = 0.2 * std::abs(uniform(random)), v = 10.0 * uniform(random);
+      s.rows.emplace_back(i % 2 == 0 ? Eigen::Vector3d(u, v, 0) : Eigen::Vector3d(0, v, u));
+    }
+    scenes.push_back(s);
+  }
   for (Scene& s : scenes) {
     for (std::size_t i = 0; i < s.points.size(); ++i) {
       s.weights.push_back(i % 7 == 0 ? 0.0 : std::exp(4.0 * uniform(random)));

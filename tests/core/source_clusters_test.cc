@@ -85,7 +85,8 @@ TEST(SourceClusters, SeriesIsTheSumOverThePoints) {
         rows.z[i] = node.center_mm[2] + 0.1 * far * std::cos(3.0 * turn);
       }
       LaneSums series{}, points{};
-      add_cluster_sums({&dipole, 1}, rows, tree.cluster(node), 8, node.weight, {&series, 1});
+      const KernelSeries one{tree.cluster(node), 8, node.weight};
+      add_cluster_sums({&dipole, 1}, rows, {&one, 1}, {&series, 1});
       for (const auto& leaf : tree.nodes()) {
         if (leaf.left >= 0 || leaf.first < node.first || leaf.last > node.last) continue;
         tree.add_exact_sums(leaf.first, leaf.last, {&dipole, 1}, rows, {&points, 1});
