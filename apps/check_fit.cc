@@ -46,7 +46,7 @@ void add_departures(const Rig& rig, const DipoleSystem& fitted, double eta, Chec
     model.scale_relative_std = scale_prior(rig).relative_std;
     return model;
   };
-  const DenseSystem& all = fitted.system;
+  const DenseSystem all = fitted.system();
   const std::vector<Eigen::Index> far = outliers(all.l, model_of(all).predicted, all.std_l);
   std::vector<Eigen::Index> kept;
   for (Eigen::Index j = 0; j < all.l.size(); ++j) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/dipole_system.h"
+#include "apps/task_image.h"
 #include "apps/virtual_sensor.h"
 #include "capture/ideal_samples.h"
 #include "core/dipole_curve.h"
@@ -213,13 +213,14 @@ std::optional<CoarseStd> CoarseShots::forecast(const Rig& rig, const CoarseMater
                          rig.light(name).colours_differ() ? material.channel : 0};
       const auto [it, is_new] = of_light.try_emplace(key);
       if (is_new)
-        it->second =
-            sensitivity(*shot.seen, lit.weights.at(key), lit.changed.at(key), {first}, knots_);
+        it->second = sensitivity(*shot.seen, lit.weights.at(key),
+                                 changed_images(*shot.seen, lit.changed.at(key), knots_, {first}),
+                                 {first}, knots_);
       of_task[key] = {&it->second, 0};
     }
   }
   const DenseSystem system =
-      dipole_system(rig, task, rows, lit.weights, knots_, first, of_task, measured_patch_mm_);
+      stacked(TaskImage(rig, task, rows, lit.weights, knots_, first, of_task, measured_patch_mm_));
   // Any root of the information will do; the whitened rows themselves are one.
   RecoveredReflectance rows_as_they_are;
   const Eigen::VectorXd weight = system.std_l.cwiseInverse();

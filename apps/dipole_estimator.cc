@@ -3,13 +3,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "apps/dipole_system.h"
 #include "apps/estimation_task.h"
 #include "apps/nuisances.h"
 #include "apps/progress.h"
+#include "apps/task_image.h"
 #include "core/dipole_fit.h"
 #include "core/dipole_misfit.h"
 #include "core/image_information.h"
@@ -26,8 +27,23 @@ struct Sensitivities {
   std::vector<std::map<LightKey, TaskSensitivity>> of_task;
 };
 
-Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estimated,
-                            const DistanceKnots& knots) {
+// The changed W are kept for other media and other shots where there is room for some ten of them.
+ChangedImages images_of(const Estimation& e, const LightKey& key,
+                        const std::vector<LitMedium>& media, const DistanceKnots& knots) {
+  constexpr std::size_t kRoomForNumbers = 1 << 25;  // 256 MiB
+  const auto& [seen, light, channel] = key;
+  const RigLight& rig_light = e.rig.light(light);
+  if (10 * seen->sites.size() * static_cast<std::size_t>(knots.size()) > kRoomForNumbers) {
+    return changed_images(*seen, rig_light, channel, e.library, knots, media);
+  }
+  const auto [changed, is_new] = e.changed_weights.try_emplace(key);
+  if (is_new) changed->second = changed_weights(*seen, rig_light, channel, e.library, knots);
+  return changed_images(*seen, changed->second, knots, media);
+}
+
+std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
+                                                   const std::vector<bool>& estimated,
+                                                   const DistanceKnots& knots) {
   std::map<LightKey, std::vector<LitMedium>> media;
   std::vector<std::map<LightKey, Eigen::Index>> column(e.tasks.size());
   for (std::size_t i = 0; i < e.tasks.size(); ++i) {
@@ -46,15 +62,12 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
       }
     }
   }
-  Sensitivities all;
+  const auto made = std::make_shared<Sensitivities>();
+  Sensitivities& all = *made;
   Progress progress("uncertainties", static_cast<int>(media.size()), e.options.quiet);
   for (const auto& [key, list] : media) {
-    const auto& [seen, light, channel] = key;
-    const auto [changed, is_new] = e.changed_weights.try_emplace(key);
-    if (is_new) {
-      changed->second = changed_weights(*seen, e.rig.light(light), channel, e.library, knots);
-    }
-    all.by_light[key] = sensitivity(*seen, e.weights.at(key), changed->second, list, knots);
+    all.by_light[key] = sensitivity(*std::get<0>(key), e.weights.at(key),
+                                    images_of(e, key, list, knots), list, knots);
     progress.step();
   }
   all.of_task.resize(e.tasks.size());
@@ -63,7 +76,7 @@ Sensitivities sensitivities(const Estimation& e, const std::vector<bool>& estima
       all.of_task[i][key] = {&all.by_light.at(key), medium};
     }
   }
-  return all;
+  return made;
 }
 
 // One material and channel on its way to an estimate.
@@ -142,9 +155,8 @@ class DipoleEstimator {
     Work& work = work_[i];
     const Task& task = e_.tasks[i];
     work.rows = rows_of(e_.rig, task);
-    DenseSystem system = system_of(e_.rig, task, work.rows, e_.weights, 0.0);
-    add_offsets(task, system);
-    DipoleFit fit = fit_to_some(system, options_of(task));
+    const DipoleFit fit =
+        fit_to_some(FirstTaskImage(e_.rig, task, work.rows, e_.weights), task, work.rows);
     e_.results[i].estimate = fit.estimate;
     report_rows(task, work.rows, e_.results[i]);
     work.estimated = fit.estimate.converged;
@@ -152,26 +164,29 @@ class DipoleEstimator {
     Eigen::Index at = 0;
     for (ChannelObservation& o : work.rows) {
       const auto n = static_cast<Eigen::Index>(o.rows_used);
-      expect(o, fit.predicted.segment(at, n));
+      expect(o, fit.image.predicted.segment(at, n));
       at += n;
     }
   }
 
   // To some thousand rows evenly among all, which tell a material well enough to begin with; where
   // they don't, to all of them.
-  DipoleFit fit_to_some(const DenseSystem& system, const DipoleFitOptions& options) const {
-    constexpr Eigen::Index kRows = 4096;
-    const Eigen::Index step = system.l.size() / kRows;
-    if (step > 1) {
-      std::vector<Eigen::Index> rows;
-      for (Eigen::Index j = 0; j < system.l.size(); j += step) rows.push_back(j);
-      DipoleFit fit = fit_dipole(selected(system, rows), knots_, options);
+  DipoleFit fit_to_some(const ImageRows& image, const Task& task, const TaskRows& rows) const {
+    constexpr std::size_t kRows = 4096;
+    const DipoleFitOptions options = options_of(task);
+    std::size_t used = 0;
+    for (const ChannelObservation& o : rows) used += o.rows_used;
+    if (used / kRows > 1) {
+      const DenseSystem some = stacked(image, static_cast<Eigen::Index>(used / kRows));
+      DipoleFit fit = fit_dipole(some, knots_, options);
       if (fit.estimate.converged) {
-        fit.predicted = predicted_image(system, knots_, fit.optimum, options.eta_int_over_ext);
+        fit.image = compared_image(image, knots_, fit.optimum, options.eta_int_over_ext);
         return fit;
       }
     }
-    return fit_dipole(system, knots_, options);
+    return fit_dipole(image,
+                      joint_information(information_by_shot(image), image.nuisances().size()),
+                      knots_, options);
   }
 
   bool has_ambient(const Task& task) const {
@@ -183,38 +198,9 @@ class DipoleEstimator {
     return false;
   }
 
-  // While the material is not known, ambient light stands as a free constant in the shots that it
-  // falls into: on a body without hollows it is nearly that.
-  void add_offsets(const Task& task, DenseSystem& system) const {
-    Eigen::VectorXd offset = Eigen::VectorXd::Zero(system.l.size());
-    Eigen::Index at = 0;
-    for (std::size_t s = 0; s < task.shots.size(); ++s) {
-      const Eigen::Index rows = system.shot_rows[s];
-      for (const std::string& name : task.shots[s]->rig->lights) {
-        const RigLight& light = e_.rig.light(name);
-        if (light.ambient_std_W_per_mm2_sr[static_cast<Eigen::Index>(task.channel)] > 0.0) {
-          offset.segment(at, rows).setConstant(system.l.mean());
-        }
-      }
-      at += rows;
-    }
-    if (offset.isZero(0.0)) return;
-    system.nuisances.push_back({"ambient", std::numeric_limits<double>::infinity(), true});
-    system.nuisance_columns = offset;
-  }
-
-  // The system with all that the rig knows only to a standard deviation, and with the errors of the
-  // method.
-  DenseSystem full_system(std::size_t i, const Estimate& first) const {
-    return dipole_system(
-        e_.rig, e_.tasks[i], work_[i].rows, e_.weights, knots_,
-        {{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0}, first.scale.value},
-        sensitivities_.of_task[i]);
-  }
-
-  bool leave_outliers_out(const DenseSystem& system, const DipoleFit& fit, TaskRows& rows) const {
-    if (fit.predicted.size() == 0) return false;
-    const std::vector<Eigen::Index> far = outliers(system.l, fit.predicted, system.std_l);
+  bool leave_outliers_out(const ComparedImage& image, TaskRows& rows) const {
+    if (image.l.size() == 0) return false;
+    const std::vector<Eigen::Index> far = outliers(image.l, image.predicted, image.std_l);
     auto next = far.begin();
     Eigen::Index at = 0;
     for (ChannelObservation& o : rows) {
@@ -230,50 +216,62 @@ class DipoleEstimator {
     return !far.empty();
   }
 
+  void remember(std::size_t i, const LitMedium& first, double image_in_std) {
+    const auto rows = std::make_shared<const TaskRows>(work_[i].rows);
+    const auto of_lights = sensitivities_;
+    const Estimation& e = e_;
+    const DistanceKnots knots = knots_;
+    (*systems_)[i] = DipoleSystem{[&e, i, rows, of_lights, knots, first] {
+                                    return stacked(TaskImage(e.rig, e.tasks[i], *rows, e.weights,
+                                                             knots, first, of_lights->of_task[i]));
+                                  },
+                                  knots_, rows, image_in_std};
+  }
+
   void final_fit(std::size_t i) {
     const Task& task = e_.tasks[i];
     ChannelResult& result = e_.results[i];
     const Estimate first = result.estimate;
     const DipoleFitOptions options = options_of(task);
-    DenseSystem system = full_system(i, first);
-    if (systems_ != nullptr) (*systems_)[i] = DipoleSystem{system, knots_, work_[i].rows};
-    std::vector<ImageInformation> images;
+    const LitMedium medium{{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
+                           first.scale.value};
+    const TaskImage image(e_.rig, task, work_[i].rows, e_.weights, knots_, medium,
+                          sensitivities_->of_task[i]);
+    std::vector<ShotInformation> shots;
+    ImageInformation joint;
     const auto fitted = [&] {
-      images = information_by_shot(system);
-      ImageInformation all = images.at(0);
-      for (std::size_t s = 1; s < images.size(); ++s) all += images[s];
-      return fit_dipole(system, all, knots_, options);
+      shots = information_by_shot(image);
+      joint = joint_information(shots, image.nuisances().size());
+      return fit_dipole(image, joint, knots_, options);
     };
     DipoleFit fit = fitted();
-    if (leave_outliers_out(system, fit, work_[i].rows)) {
-      system = full_system(i, first);
-      fit = fitted();
-    }
+    if (systems_ != nullptr) remember(i, medium, std::sqrt(joint.l2));
+    if (leave_outliers_out(fit.image, work_[i].rows)) fit = fitted();
     report_rows(task, work_[i].rows, result);
     result.estimate = fit.estimate;
     if (!fit.estimate.converged) return;
     if (e_.options.keep_rows) {
-      result.rows = shot_rows(task, work_[i].rows, fit.predicted, system.std_l);
+      result.rows = shot_rows(task, work_[i].rows, fit.image.predicted, fit.image.std_l);
     }
     SmoothReflectanceOptions smooth;
     smooth.scale = options.scale;
-    result.recovered = smooth_reflectance(fit.recovered, system.nuisances, knots_, smooth);
+    result.recovered = smooth_reflectance(fit.recovered, image.nuisances(), knots_, smooth);
     DipoleMisfitOptions misfit;
     misfit.scale = options.scale;
     result.misfit =
-        dipole_misfit(fit.recovered, system.nuisances, knots_,
+        dipole_misfit(fit.recovered, image.nuisances(), knots_,
                       {fit.optimum.sigma_s_prime_per_mm(), fit.optimum.sigma_a_per_mm(), task.eta},
                       std::exp(fit.optimum.log_s), misfit);
     if (task.shots.size() < 2) return;
     result.singles.clear();
     for (std::size_t s = 0; s < task.shots.size(); ++s) {
-      const ImageInformation own =
-          with_nuisances(images[s], knots_.size(), nuisances_of_shot(system, s));
-      result.singles.push_back({task.shots[s]->rig->file,
-                                fit_dipole(shot_of(system, s), own, knots_, options).estimate});
+      const ShotSystem own = image.shot(s);
+      result.singles.push_back(
+          {task.shots[s]->rig->file,
+           fit_dipole(SystemRows(*own.system), shots[s].image, knots_, options).estimate});
     }
-    result.agreement = shot_agreement(system, knots_, fit.optimum, task.eta, options.scale,
-                                      std::max(1.0, fit.estimate.reduced_chi2));
+    result.agreement = shot_agreement(shots, image.nuisances(), knots_, fit.optimum, task.eta,
+                                      options.scale, std::max(1.0, fit.estimate.reduced_chi2));
     widen_by_disagreement(result.agreement, result.estimate);
   }
 
@@ -282,7 +280,7 @@ class DipoleEstimator {
   DistanceKnots knots_;
   DipoleFitOptions fit_;
   std::vector<Work> work_;
-  Sensitivities sensitivities_;
+  std::shared_ptr<const Sensitivities> sensitivities_;
 };
 
 }  // namespace

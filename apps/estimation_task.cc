@@ -27,10 +27,12 @@ constexpr double kMirrorConeRad = 0.17;
 
 }  // namespace
 
-std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots) {
+std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots,
+                           const std::string& channels) {
   std::vector<Task> tasks;
   for (const std::string& material : rig.materials()) {
     for (std::size_t c = 0; c < kRgb; ++c) {
+      if (!channels.empty() && channels.find(kRgbName[c]) == std::string::npos) continue;
       Task task{material, c, {}, 0.0};
       for (const OpenedShot& shot : shots) {
         if (shot.rig->material != material) continue;
@@ -122,23 +124,38 @@ double patch_size_mm(const Task& task) {
   return size_mm;
 }
 
+namespace {
+
+LinearShot linear_shot(const Rig& rig, const Task& task, std::size_t shot_idx,
+                       const ChannelObservation& rows, const Weights& weights,
+                       double mean_free_path_mm, std::optional<double> patch_mm) {
+  const OpenedShot* shot = task.shots[shot_idx];
+  LinearShot linear{{}, &rows, kFirstNumericalStd};
+  if (mean_free_path_mm > 0.0) {
+    linear.numerical_relative_std =
+        row_numerics(patch_mm.value_or(shot->seen->patches->patch_size_mm()), mean_free_path_mm);
+  }
+  for (const std::string& light : shot->rig->lights) {
+    const std::size_t own = rig.light(light).colours_differ() ? task.channel : 0;
+    linear.lights.push_back({&weights.at({shot->seen.get(), light, own}),
+                             rig.light(light).power()[static_cast<Eigen::Index>(task.channel)]});
+  }
+  return linear;
+}
+
+}  // namespace
+
+DenseSystem system_of(const Rig& rig, const Task& task, std::size_t shot,
+                      const ChannelObservation& rows, const Weights& weights,
+                      double mean_free_path_mm, std::optional<double> patch_mm) {
+  return stack({linear_shot(rig, task, shot, rows, weights, mean_free_path_mm, patch_mm)});
+}
+
 DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,
-                      const Weights& weights, double mean_free_path_mm,
-                      std::optional<double> patch_mm) {
+                      const Weights& weights, double mean_free_path_mm) {
   std::vector<LinearShot> shots;
   for (std::size_t i = 0; i < task.shots.size(); ++i) {
-    const OpenedShot* shot = task.shots[i];
-    LinearShot linear{{}, &rows[i], kFirstNumericalStd};
-    if (mean_free_path_mm > 0.0) {
-      linear.numerical_relative_std =
-          row_numerics(patch_mm.value_or(shot->seen->patches->patch_size_mm()), mean_free_path_mm);
-    }
-    for (const std::string& light : shot->rig->lights) {
-      const std::size_t own = rig.light(light).colours_differ() ? task.channel : 0;
-      linear.lights.push_back({&weights.at({shot->seen.get(), light, own}),
-                               rig.light(light).power()[static_cast<Eigen::Index>(task.channel)]});
-    }
-    shots.push_back(linear);
+    shots.push_back(linear_shot(rig, task, i, rows[i], weights, mean_free_path_mm, std::nullopt));
   }
   return stack(shots);
 }

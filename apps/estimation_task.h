@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -23,9 +24,11 @@ struct Task {
   double eta = 0;
 };
 
-// Materials of the shots in the rig's order, R G B each. Throws InputError where the shots of one
+// Materials of the shots in the rig's order, of each those of R, G, B that `channels` holds; empty:
+// all. Throws InputError where the shots of one
 // material are of objects with different eta.
-std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots);
+std::vector<Task> tasks_of(const Rig& rig, const std::vector<OpenedShot>& shots,
+                           const std::string& channels = {});
 
 // What makes a shot useless as a whole in a channel (dark, over-exposed, nothing seen); empty:
 // nothing.
@@ -50,12 +53,15 @@ TaskRows rows_of(const Rig& rig, const Task& task);
 // Of the task's objects, the largest.
 double patch_size_mm(const Task& task);
 
-// The used rows under all their lights. `mean_free_path_mm`: of the material, for the error of
-// patches that are not small against it; 0: not known yet. patch_mm: of the patches that this error
-// is stated for, where they are others.
+// The used rows of one of the task's shots under all its lights. `mean_free_path_mm`: of the
+// material, for the error of patches that are not small against it; 0: not known yet. patch_mm: of
+// the patches that this error is stated for, where they are others.
+DenseSystem system_of(const Rig& rig, const Task& task, std::size_t shot,
+                      const ChannelObservation& rows, const Weights& weights,
+                      double mean_free_path_mm, std::optional<double> patch_mm = std::nullopt);
+// Of all its shots, one below the other.
 DenseSystem system_of(const Rig& rig, const Task& task, const TaskRows& rows,
-                      const Weights& weights, double mean_free_path_mm,
-                      std::optional<double> patch_mm = std::nullopt);
+                      const Weights& weights, double mean_free_path_mm);
 
 // Counts of rows by what kept them out.
 void report_rows(const Task& task, const TaskRows& rows, ChannelResult& result);
@@ -92,9 +98,11 @@ ScalePrior scale_prior(const Rig& rig);
 
 // What the dipole is fitted to, before it calls rows outliers.
 struct DipoleSystem {
-  DenseSystem system;
+  // Of all shots; made when asked for, since it is large. As long as the estimation is there.
+  std::function<DenseSystem()> system;
   DistanceKnots knots;
-  TaskRows rows;
+  std::shared_ptr<const TaskRows> rows;
+  double image_in_std = 0;  // |l / std|
 };
 
 // The estimators: fill the results' estimates. systems: if given, those of the tasks that came to a

@@ -1,6 +1,7 @@
 #include "apps/instrument.h"
 
 #include <algorithm>
+#include <set>
 
 #include "apps/shot_pose.h"
 
@@ -43,6 +44,24 @@ std::vector<MergedBracket> brackets_of(const std::vector<OpenedShot>& shots) {
         file.samples[c] = shot.observation.channel[c].exposures[k].samples;
       }
     }
+  }
+  return out;
+}
+
+Skipped skipped_of(const std::vector<OpenedShot>& shots, const ObjectLibrary& library) {
+  Skipped out;
+  std::set<const SeenObject*> views;
+  for (const OpenedShot& shot : shots) {
+    out.samples_outside += shot.samples_outside;
+    if (views.insert(shot.seen.get()).second) {
+      out.patches_unseen +=
+          static_cast<std::size_t>(shot.seen->patches->size()) - shot.seen->map.patch_of_row.size();
+    }
+  }
+  for (const IncidentLight* light : library.lights_so_far()) {
+    out.patches_unlit += static_cast<std::size_t>(
+        std::count(light->patch_power_sr.begin(), light->patch_power_sr.end(), 0.0));
+    out.shadow_rays += light->shadow_rays_skipped;
   }
   return out;
 }
@@ -98,7 +117,7 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch, bool
   shots = open_shots(rig_, source, scenes_, library_, view, options_.quiet);
   watch.lap("shots");
   out.brackets = brackets_of(shots);
-  const std::vector<Task> tasks = tasks_of(rig_, shots);
+  const std::vector<Task> tasks = tasks_of(rig_, shots, options_.channels);
   for (const Task& task : tasks) {
     ChannelResult result;
     result.material = task.material;
@@ -122,6 +141,8 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch, bool
   } else {
     estimate_dipole(estimation);
   }
+  out.skipped = skipped_of(shots, library_);
+  out.skipped.channels_not_asked = tasks_of(rig_, shots).size() - tasks.size();
   return out;
 }
 

@@ -31,6 +31,11 @@ struct MeasureOptions {
   std::int64_t paths = 1'000'000'000;
   double time_limit_s = 50;  // of transport: per material and channel
   bool keep_rows = false;    // fill ChannelResult::rows
+  // What is asked for; empty: all of it. Materials of the rig; letters of "RGB".
+  std::vector<std::string> materials;
+  std::string channels;
+  // Folder that keeps decoded shots (apps/shot_cache.h); empty: none is kept, none is looked for.
+  std::string cache_folder;
   bool quiet = false;
 };
 
@@ -95,6 +100,17 @@ struct InputFile {
   std::string sha256;
 };
 
+// What was not done, since nothing asked for it or depended on it; the answers are the same.
+struct Skipped {
+  std::size_t shots_not_asked = 0;     // of the rig
+  std::size_t channels_not_asked = 0;  // of materials, of those shots that were
+  std::size_t shots_from_cache = 0;    // not decoded
+  std::size_t samples_outside = 0;     // of decoded frames, beside the object: not converted
+  std::size_t patches_unseen = 0;      // of the objects' views: no row
+  std::size_t patches_unlit = 0;       // of objects under each light: c_k = 0, in no sum
+  std::size_t shadow_rays = 0;         // on convex objects
+};
+
 struct Measurement {
   Model model = Model::kDipole;
   std::vector<ChannelResult> results;                    // materials in the rig's order, R G B each
@@ -103,6 +119,7 @@ struct Measurement {
   std::vector<InputFile> inputs;                         // rig, meshes, probes, shots
   std::vector<MergedBracket> brackets;                   // in the rig's order
   std::map<std::string, double> patch_size_mm;           // by object
+  Skipped skipped;
   bool any_refused() const;
 };
 
@@ -116,7 +133,8 @@ struct DipoleDistance {
 // Empty where there are not two answers.
 std::optional<DipoleDistance> dipole_distance(const ChannelResult& result);
 
-// Throws InputError for bad input; nothing is written. A shot that is dark or clipped as a whole
+// Throws InputError for bad input, and for a material or channel that the rig does not have;
+// nothing is written but what the options' cache keeps. A shot that is dark or clipped as a whole
 // refuses its material's channel and spoils nothing else.
 Measurement measure(const Rig& rig, const std::string& shots_folder, const MeasureOptions& options);
 

@@ -16,6 +16,9 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
     double patch_mm = 0.0;
     double time_limit_s = 50.0;
     std::int64_t paths = MeasureOptions{}.paths;
+    std::vector<std::string> materials;
+    std::string channels;
+    bool no_cache = false;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
@@ -56,6 +59,17 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
                    "first, the digits are the same on any machine")
       ->check(CLI::Range(std::int64_t{300'000}, std::int64_t{1'000'000'000'000}))
       ->capture_default_str();
+  command->add_option("--material", options->materials,
+                      "only this material (may be given several times): shots of others are not "
+                      "opened");
+  command
+      ->add_option("--channels", options->channels,
+                   "only these, letters of RGB (default: all three)")
+      ->check(CLI::IsMember({"R", "G", "B", "RG", "RB", "GB", "RGB"}));
+  command->add_flag("--no-cache", options->no_cache,
+                    "decode every shot and keep none (else what was decoded stays in OUT/cache, "
+                    "and is used again while files, camera, pose, lens, meshes and patches are the "
+                    "same)");
   command->callback([options, &context] {
     context.chosen = [options, &context] {
       Rig rig = read_rig(options->rig);
@@ -69,6 +83,9 @@ void add_measure_command(CLI::App& app, CommandContext& context) {
       measure_options.paths = options->paths;
       measure_options.quiet = context.quiet;
       measure_options.keep_rows = true;
+      measure_options.materials = options->materials;
+      measure_options.channels = options->channels;
+      if (!options->no_cache) measure_options.cache_folder = options->out + "/cache";
       if (options->patch_mm > 0.0) measure_options.patch_size_mm = options->patch_mm;
       const Measurement measurement = measure(rig, options->shots, measure_options);
       const std::string path = options->out + "/result.json";

@@ -4,7 +4,7 @@
 
 namespace scattermeter::apps {
 
-std::string why_transport(const ChannelResult& result, const DenseSystem& system) {
+std::string why_transport(const ChannelResult& result, double image_in_std) {
   constexpr double kPValue = 1e-6;
   constexpr double kMisfit = 1e-3;
   // A misfit stands out where it exceeds the noise in the directions that the dipole might miss
@@ -17,7 +17,7 @@ std::string why_transport(const ChannelResult& result, const DenseSystem& system
     return fmt::format("the dipole misses {:.2g} % of the image", 100.0 * e.misfit_relative);
   }
   if (result.agreement.disagree()) return "by the dipole the shots do not agree";
-  const double visible = kDeviations / system.l.cwiseQuotient(system.std_l).norm();
+  const double visible = kDeviations / image_in_std;
   if (visible > kVisible) {
     return fmt::format("noise hides what the dipole may miss, up to {:.2g} % of the image",
                        100.0 * visible);

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "apps/measure.h"
-#include "core/linear_shot.h"
 
 namespace scattermeter::apps {
 
@@ -13,7 +12,8 @@ namespace scattermeter::apps {
 // the shape alone: on a 20 mm cube the dipole misses several per cent of the light. Its answer
 // stands where it is not refused, its misfit is insignificant or below a thousandth of the image,
 // the shots agree, and the image is good enough to have shown a misfit of half a per cent.
-// result: of the dipole; system: what it was fitted to.
-std::string why_transport(const ChannelResult& result, const DenseSystem& system);
+// result: of the dipole; image_in_std: how many deviations all of the image is that it was fitted
+// to, |l / std|.
+std::string why_transport(const ChannelResult& result, double image_in_std);
 
 }  // namespace scattermeter::apps

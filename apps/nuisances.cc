@@ -1,13 +1,13 @@
 #include "apps/nuisances.h"
 
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <fmt/core.h>
 
 #include "apps/radiance_file.h"
-#include "apps/rig_lens.h"
 #include "calib/lens_reaction.h"
 #include "core/covariance_root.h"
 #include "core/dipole.h"
@@ -46,59 +46,58 @@ std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
   return {first, normal.cross(first)};
 }
 
-ChangedWeights changed_weights(const SeenObject& seen, const RigLight& rig_light,
-                               std::size_t channel, ObjectLibrary& library,
-                               const DistanceKnots& knots) {
+namespace {
+
+// make(sites, sources, is_other_eta): of one change.
+template <class Each, class Make>
+Changed<Each> changed(const SeenObject& seen, const RigLight& rig_light, std::size_t channel,
+                      ObjectLibrary& library, const Make& make) {
   const Led& led = rig_light.led;
   const ObjectScene& object = *seen.object;
   const double eta = object.rig->eta_int_over_ext;
   const PatchMesh coarse(object.mesh(), 2.0 * seen.patches->patch_size_mm());
-  PairSumOptions pairs;
-  pairs.floor_mm = 4.0 * knots.resolution_mm();
-  pairs.far_ratio = 3.0;
-  pairs.near_ratio = 0.7;
-  const auto weights = [&](const std::vector<ExitSite>& sites, const Led& light, double eta_here) {
+  const auto under = [&](const std::vector<ExitSite>& sites, const Led& light, double eta_here) {
     const SourceCloud sources(
         rig_light.environment
             ? library.environment_light(object.rig->name, rig_light.name, channel, coarse, eta_here)
             : illuminate(coarse, seen.shadows != nullptr ? *seen.shadows : *object.rays, light,
                          eta_here),
         object.box.center_mm());
-    return smooth_weights(sites, sources, knots, pairs);
+    return make(sites, sources, eta_here != eta);
   };
-  ChangedWeights out;
+  Changed<Each> out;
   std::vector<ExitSite> centers;
   for (const ExitSite& site : seen.sites) centers.push_back(exit_point(site.center_mm));
   if (rig_light.is_ambient) {
     // What else is uncertain matters little to a small even light.
-    out.nominal = smooth_weights(
+    out.nominal = make(
         centers,
         SourceCloud(library.light(object.rig->name, rig_light.name, 0), object.box.center_mm()),
-        knots, pairs);
+        false);
     return out;
   }
-  out.nominal = weights(centers, led, eta);
+  out.nominal = under(centers, led, eta);
   // A hundredth of the distance: shadow edges then move by several of the parts that patches are
   // cut into, and the next order is still a hundredth of the first.
   out.move_mm = 0.01 * (led.position_mm - object.box.center_mm()).norm();
   const bool is_calibrated = rig_light.calibrated.has_value();
   for (int i = 0; i < 3 && (is_calibrated || rig_light.position_std_mm > 0.0); ++i) {
-    Led moved = led;
-    moved.position_mm[i] += out.move_mm;
-    out.moved[static_cast<std::size_t>(i)] = weights(centers, moved, eta);
+    Led other = led;
+    other.position_mm[i] += out.move_mm;
+    out.moved[static_cast<std::size_t>(i)] = under(centers, other, eta);
   }
   if (is_calibrated || rig_light.exponent_std > 0.0) {
     Led other = led;
     other.exponent += kExponentStep;
-    out.other_exponent = weights(centers, other, eta);
+    out.other_exponent = under(centers, other, eta);
   }
   out.turn_rad = kTurnRad;
   for (std::size_t t = 0; t < 2 && is_calibrated; ++t) {
     Led other = led;
     other.axis = (led.axis + kTurnRad * rig_light.calibrated->tangents[t]).normalized();
-    out.turned[t] = weights(centers, other, eta);
+    out.turned[t] = under(centers, other, eta);
   }
-  if (object.rig->eta_std > 0.0) out.other_eta = weights(centers, led, eta + kEtaStep);
+  if (object.rig->eta_std > 0.0) out.other_eta = under(centers, led, eta + kEtaStep);
   out.shift_mm = 0.1 * seen.patches->patch_size_mm();
   std::array<std::vector<ExitSite>, 2> shifted = {centers, centers};
   for (std::size_t j = 0; j < centers.size(); ++j) {
@@ -107,34 +106,85 @@ ChangedWeights changed_weights(const SeenObject& seen, const RigLight& rig_light
       shifted[t][j] = moved(centers[j], out.shift_mm * along[t]);
     }
   }
-  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = weights(shifted[t], led, eta);
+  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = under(shifted[t], led, eta);
+  return out;
+}
+
+PairSumOptions coarse_pairs(const DistanceKnots& knots) {
+  PairSumOptions pairs;
+  pairs.floor_mm = 4.0 * knots.resolution_mm();
+  pairs.far_ratio = 3.0;
+  pairs.near_ratio = 0.7;
+  return pairs;
+}
+
+}  // namespace
+
+ChangedWeights changed_weights(const SeenObject& seen, const RigLight& light, std::size_t channel,
+                               ObjectLibrary& library, const DistanceKnots& knots) {
+  const PairSumOptions pairs = coarse_pairs(knots);
+  return changed<WeightMatrix>(seen, light, channel, library,
+                               [&](const std::vector<ExitSite>& sites, const SourceCloud& sources,
+                                   bool) { return smooth_weights(sites, sources, knots, pairs); });
+}
+
+ChangedImages changed_images(const SeenObject& seen, const RigLight& light, std::size_t channel,
+                             ObjectLibrary& library, const DistanceKnots& knots,
+                             const std::vector<LitMedium>& media) {
+  const PairSumOptions pairs = coarse_pairs(knots);
+  const double eta = seen.object->rig->eta_int_over_ext;
+  const Eigen::MatrixXd r = curves(media, knots, eta);
+  const Eigen::MatrixXd other = curves(media, knots, eta + kEtaStep);
+  return changed<Eigen::MatrixXd>(
+      seen, light, channel, library,
+      [&](const std::vector<ExitSite>& sites, const SourceCloud& sources, bool is_other_eta) {
+        return smooth_images(sites, sources, knots, pairs, is_other_eta ? other : r);
+      });
+}
+
+ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weights,
+                             const DistanceKnots& knots, const std::vector<LitMedium>& media) {
+  const double eta = seen.object->rig->eta_int_over_ext;
+  const Eigen::MatrixXd r = curves(media, knots, eta);
+  const auto image = [&](const WeightMatrix& w) -> Eigen::MatrixXd {
+    if (w.size() == 0) return {};
+    return w * r;
+  };
+  ChangedImages out;
+  out.nominal = image(weights.nominal);
+  for (std::size_t i = 0; i < 3; ++i) out.moved[i] = image(weights.moved[i]);
+  out.move_mm = weights.move_mm;
+  out.other_exponent = image(weights.other_exponent);
+  for (std::size_t t = 0; t < 2; ++t) out.turned[t] = image(weights.turned[t]);
+  out.turn_rad = weights.turn_rad;
+  if (weights.other_eta.size() > 0) {
+    out.other_eta = weights.other_eta * curves(media, knots, eta + kEtaStep);
+  }
+  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = image(weights.shifted[t]);
+  out.shift_mm = weights.shift_mm;
   return out;
 }
 
 LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,
-                             const ChangedWeights& weights, const std::vector<LitMedium>& media,
+                             const ChangedImages& images, const std::vector<LitMedium>& media,
                              const DistanceKnots& knots) {
   const double eta = seen.object->rig->eta_int_over_ext;
-  const Eigen::MatrixXd r = curves(media, knots, eta);
-  const Eigen::MatrixXd l = weights.nominal * r;
+  const Eigen::MatrixXd& l = images.nominal;
   LightSensitivity out;
-  out.l = nominal * r;
-  const auto relative = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
+  out.l = nominal * curves(media, knots, eta);
+  const auto change = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
+    if (changed.size() == 0) return {};
     const Eigen::ArrayXXd per_l = (changed - l).array() / (by * l.array());
     return (l.array() > 0.0).select(per_l * out.l.array(), 0.0);
   };
-  const auto change = [&](const WeightMatrix& changed, double by) -> Eigen::MatrixXd {
-    if (changed.size() == 0) return {};
-    return relative(changed * r, by);
-  };
-  for (std::size_t i = 0; i < 3; ++i) out.per_mm[i] = change(weights.moved[i], weights.move_mm);
-  out.per_exponent = change(weights.other_exponent, kExponentStep);
-  for (std::size_t t = 0; t < 2; ++t) out.per_rad[t] = change(weights.turned[t], weights.turn_rad);
+  for (std::size_t i = 0; i < 3; ++i) out.per_mm[i] = change(images.moved[i], images.move_mm);
+  out.per_exponent = change(images.other_exponent, kExponentStep);
+  for (std::size_t t = 0; t < 2; ++t) out.per_rad[t] = change(images.turned[t], images.turn_rad);
   for (std::size_t t = 0; t < 2; ++t) {
-    out.per_tangent_mm[t] = change(weights.shifted[t], weights.shift_mm);
+    out.per_tangent_mm[t] = change(images.shifted[t], images.shift_mm);
   }
-  if (weights.other_eta.size() == 0) return out;
-  out.per_eta = relative(weights.other_eta * curves(media, knots, eta + kEtaStep), kEtaStep);
+  out.per_eta = change(images.other_eta, kEtaStep);
+  if (out.per_eta.size() == 0) return out;
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
     const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
     // The observed l = pi L / Ft(eta) falls as Ft grows.
@@ -150,231 +200,212 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
   return out;
 }
 
-namespace {
-
-// Places of the columns, made on first use so that shots of one LED or pose share theirs.
-class Columns {
+// Columns by the names of their nuisances; lights that share a nuisance add up.
+class RigNuisances::Columns {
  public:
-  // The column of a nuisance, by a name that only this nuisance has.
-  Eigen::Index at(const std::string& name, const std::string& group, double std) {
-    const auto [it, is_new] = place_.try_emplace(name, static_cast<Eigen::Index>(list_.size()));
-    if (is_new) list_.push_back({group, std, true, name});
-    return it->second;
+  explicit Columns(const std::vector<Eigen::Index>& rows) : rows_(rows) {}
+  const std::vector<Eigen::Index>& rows() const { return rows_; }
+  template <class Change>
+  void add(const std::string& name, const std::string& group, double std, const Change& change) {
+    for (NuisanceColumn& column : list_) {
+      if (column.nuisance.name != name) continue;
+      column.change += change;
+      return;
+    }
+    list_.push_back({{group, std, true, name}, change});
   }
-  const std::vector<Nuisance>& list() const { return list_; }
+  // Of a quantity on all rows of the view.
+  Eigen::VectorXd of(const Eigen::MatrixXd& on_view, Eigen::Index medium) const {
+    return on_view(rows_, medium);
+  }
+  std::vector<NuisanceColumn> take() { return std::move(list_); }
 
  private:
-  std::map<std::string, Eigen::Index> place_;
-  std::vector<Nuisance> list_;
+  const std::vector<Eigen::Index>& rows_;
+  std::vector<NuisanceColumn> list_;
 };
 
-// One entry of a row: column and dl/dv.
-using Entries = std::vector<std::pair<Eigen::Index, double>>;
+namespace {
 
-struct RowContext {
-  const Rig& rig;
-  const OpenedShot& shot;
-  std::size_t row;
-  Eigen::Matrix<double, 6, 6> pose_root;  // pose covariance = root root^T
-  const std::map<std::string, Eigen::Matrix<double, 7, 7>>& led_root;  // of calibrated LEDs
-  const LensRoot& lens_root;
-};
-
-// The rows of an LED's covariance that one channel sees.
-constexpr Eigen::Index kSeen = 7;
-using SeenVector = Eigen::Matrix<double, kSeen, 1>;
-using SeenMatrix = Eigen::Matrix<double, kSeen, kSeen>;
-
-std::array<Eigen::Index, kSeen> seen_by(std::size_t channel) {
+template <class Parameters>
+Parameters seen_by(std::size_t channel) {
   return {0, 1, 2, 3, 4, 5, calib::kLedLogIntensity + static_cast<Eigen::Index>(channel)};
-}
-
-// Of what a calibrated LED does not share with others.
-SeenMatrix own_root(const calib::LedUncertainty& u, std::size_t channel) {
-  const auto seen = seen_by(channel);
-  const calib::LedMatrix own = u.covariance - u.common * u.common.transpose();
-  return covariance_root(own(seen, seen));
-}
-
-// Columns are combinations of the parameters, so that what the calibration could not tell apart
-// stays together (distance and power, say).
-void add_calibrated(const RowContext& c, const RigLight& light, std::size_t channel,
-                    double intensity, const TaskSensitivity& task, Columns& columns,
-                    Entries& entries) {
-  const auto row = static_cast<Eigen::Index>(c.row);
-  const LightSensitivity& s = *task.sensitivity;
-  SeenVector by;
-  for (std::size_t i = 0; i < 3; ++i) {
-    by[static_cast<Eigen::Index>(i)] = s.per_mm[i](row, task.medium);
-  }
-  for (std::size_t t = 0; t < 2; ++t) {
-    by[calib::kLedAxis + static_cast<Eigen::Index>(t)] = s.per_rad[t](row, task.medium);
-  }
-  by[calib::kLedExponent] = s.per_exponent(row, task.medium);
-  by[calib::kLedLogIntensity] = s.l(row, task.medium);
-  const SeenVector change = intensity * (c.led_root.at(light.name).transpose() * by);
-  const auto add = [&](const std::string& name, double value) {
-    entries.emplace_back(columns.at(name, "LED calibration", 1.0), value);
-  };
-  for (Eigen::Index k = 0; k < kSeen; ++k) {
-    add(light.name + ".calibration" + std::to_string(k), change[k]);
-  }
-  const calib::LedVector& common = light.calibrated->common;
-  if (!common.isZero(0.0)) {
-    add("white plane", intensity * SeenVector(common(seen_by(channel))).dot(by));
-  }
-}
-
-void add_light(const RowContext& c, const RigLight& light, double intensity,
-               const TaskSensitivity& task, Columns& columns, Entries& entries) {
-  const auto row = static_cast<Eigen::Index>(c.row);
-  const LightSensitivity& s = *task.sensitivity;
-  for (std::size_t i = 0; light.position_std_mm > 0.0 && i < 3; ++i) {
-    entries.emplace_back(columns.at(light.name + ".position" + std::to_string(i), "LED position",
-                                    light.position_std_mm),
-                         intensity * s.per_mm[i](row, task.medium));
-  }
-  if (light.exponent_std > 0.0) {
-    entries.emplace_back(columns.at(light.name + ".exponent", "LED exponent", light.exponent_std),
-                         intensity * s.per_exponent(row, task.medium));
-  }
-  if (light.power_relative_std > 0.0) {
-    entries.emplace_back(
-        columns.at(light.name + ".power", light.environment ? "environment power" : "LED power",
-                   light.power_relative_std),
-        intensity * s.l(row, task.medium));
-  }
-}
-
-// What the radiance calibration leaves open: each shot's black, the glare, the shutter.
-void add_radiance(const RowContext& c, const ChannelObservation& o, std::size_t channel,
-                  double l_predicted, Columns& columns, Entries& entries) {
-  const OpenedShot& shot = c.shot;
-  if (!c.rig.camera.radiance) return;
-  const capture::RadianceCorrection& correction = c.rig.camera.radiance->correction;
-  for (std::size_t k = 0; k < shot.exposures.size(); ++k) {
-    const ShotExposure& e = shot.exposures[k];
-    // What part of the row's l comes from this exposure.
-    const double part = o.exposures.empty() ? 1.0 : o.exposures[k].of_row[c.row];
-    if (e.black_std_counts > 0.0) {
-      entries.emplace_back(columns.at("black " + e.file, "black level", e.black_std_counts),
-                           part * shot.exposure_s / e.true_s * o.l_per_count[c.row]);
-    }
-    if (e.relative_std > 0.0) {
-      entries.emplace_back(
-          columns.at(fmt::format("exposure {:.4g}", e.stated_s), "exposure time", e.relative_std),
-          part * l_predicted);
-    }
-  }
-  if (correction.glare_std[channel] > 0.0) {
-    entries.emplace_back(columns.at("glare", "veiling glare", correction.glare_std[channel]),
-                         o.l_per_count[c.row] * shot.frame_mean_counts[channel]);
-  }
-}
-
-// Changes of l by shifts of what the row's samples see: one column a nuisance of deviation 1, named
-// `name` and counted.
-void add_shifts(const RowContext& c, const Eigen::Matrix3Xd& shifts_mm, const std::string& name,
-                const std::string& group, double intensity, const TaskSensitivity& task,
-                Columns& columns, Entries& entries) {
-  const auto row = static_cast<Eigen::Index>(c.row);
-  const SeenObject& seen = *c.shot.seen;
-  const auto along = tangents(seen.patches->normal(seen.map.patch_of_row[c.row]));
-  for (Eigen::Index k = 0; k < shifts_mm.cols(); ++k) {
-    double change = 0.0;
-    for (std::size_t t = 0; t < 2; ++t) {
-      change +=
-          task.sensitivity->per_tangent_mm[t](row, task.medium) * along[t].dot(shifts_mm.col(k));
-    }
-    entries.emplace_back(columns.at(name + std::to_string(k), group, 1.0), intensity * change);
-  }
-}
-
-// What pose and lens do to the row. The lens is one for all shots; where it was wrong, the pose was
-// fitted through the wrong lens, too, and has taken up part of it (PoseResult::per_lens_parameter):
-// the two go together. What the pose's own marks leave open is independent of that.
-void add_view(const RowContext& c, double intensity, const TaskSensitivity& task, Columns& columns,
-              Entries& entries) {
-  const SeenObject& seen = *c.shot.seen;
-  const Rigid3d& pose = c.shot.pose.camera_from_world;
-  const Eigen::Vector3d& site_mm = seen.sites[c.row].center_mm;
-  const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[c.row]);
-  const Eigen::Matrix<double, 3, 6> by_pose = surface_shift_by_pose(pose, site_mm, normal);
-  // One pose for all shots, or one a shot.
-  const std::string name =
-      c.rig.pose.charuco || c.rig.pose.per_shot ? "pose " + c.shot.rig->file : "pose";
-  add_shifts(c, by_pose * c.pose_root, name, "pose", intensity, task, columns, entries);
-  if (c.lens_root.cols() == 0) return;
-  const Eigen::Matrix<double, 3, calib::kLensParameters> by_lens =
-      surface_shift_by_ray(pose, site_mm, normal) *
-          calib::ray_per_lens_parameter(c.rig.camera.intrinsics, (pose * site_mm).hnormalized()) +
-      by_pose * c.shot.pose.per_lens_parameter;
-  add_shifts(c, by_lens * c.lens_root, "lens", "lens", intensity, task, columns, entries);
-}
-
-Entries row_entries(const RowContext& c, const ChannelObservation& o, std::size_t channel,
-                    const std::map<LightKey, TaskSensitivity>& sensitivities, Columns& columns) {
-  Entries entries;
-  double l_predicted = 0.0;
-  const double eta_std = c.shot.seen->object->rig->eta_std;
-  for (const std::string& name : c.shot.rig->lights) {
-    const RigLight& light = c.rig.light(name);
-    const TaskSensitivity& task =
-        sensitivities.at({c.shot.seen.get(), name, light.colours_differ() ? channel : 0});
-    const double intensity = light.power()[static_cast<Eigen::Index>(channel)];
-    const double ambient_std = light.ambient_std_W_per_mm2_sr[static_cast<Eigen::Index>(channel)];
-    if (ambient_std > 0.0) {
-      entries.emplace_back(columns.at(light.name + ".ambient", "ambient", ambient_std),
-                           task.sensitivity->l(static_cast<Eigen::Index>(c.row), task.medium));
-    }
-    l_predicted += intensity * task.sensitivity->l(static_cast<Eigen::Index>(c.row), task.medium);
-    if (light.is_ambient) continue;
-    if (light.calibrated) {
-      add_calibrated(c, light, channel, intensity, task, columns, entries);
-    } else {
-      add_light(c, light, intensity, task, columns, entries);
-    }
-    add_view(c, intensity, task, columns, entries);
-    if (eta_std > 0.0) {
-      entries.emplace_back(
-          columns.at("eta", "eta", eta_std),
-          intensity * task.sensitivity->per_eta(static_cast<Eigen::Index>(c.row), task.medium));
-    }
-  }
-  add_radiance(c, o, channel, l_predicted, columns, entries);
-  return entries;
 }
 
 }  // namespace
 
-void add_nuisances(const Rig& rig, const std::vector<const OpenedShot*>& shots,
-                   const std::vector<ChannelObservation>& rows, std::size_t channel,
-                   const std::map<LightKey, TaskSensitivity>& sensitivities, DenseSystem& system) {
-  Columns columns;
-  std::vector<Entries> entries;
-  std::map<std::string, SeenMatrix> led_root;
-  const LensRoot of_lens = lens_root(rig.camera);
+RigNuisances::RigNuisances(const Rig& rig, std::size_t channel,
+                           std::map<LightKey, TaskSensitivity> sensitivities)
+    : rig_(rig),
+      channel_(channel),
+      sensitivities_(std::move(sensitivities)),
+      lens_root_(lens_root(rig.camera)) {
+  const auto seen = seen_by<std::array<Eigen::Index, kSeen>>(channel);
   for (const RigLight& light : rig.lights) {
-    if (light.calibrated) led_root[light.name] = own_root(*light.calibrated, channel);
+    if (!light.calibrated) continue;
+    // Of what the LED does not share with others.
+    const calib::LedUncertainty& u = *light.calibrated;
+    const calib::LedMatrix own = u.covariance - u.common * u.common.transpose();
+    led_root_[light.name] = covariance_root(own(seen, seen));
   }
-  for (std::size_t i = 0; i < shots.size(); ++i) {
-    const OpenedShot* shot = shots[i];
-    const Eigen::Matrix<double, 6, 6> root = covariance_root(shot->pose.covariance);
-    const ChannelObservation& o = rows[i];
-    for (std::size_t j = 0; j < o.l.size(); ++j) {
-      if (o.state[j] != RowState::kUsed) continue;
-      entries.push_back(row_entries({rig, *shot, j, root, led_root, of_lens}, o, channel,
-                                    sensitivities, columns));
+}
+
+// Columns are combinations of the parameters, so that what the calibration could not tell apart
+// stays together (distance and power, say).
+void RigNuisances::add_calibrated(const RigLight& light, double intensity,
+                                  const TaskSensitivity& task, Columns& columns) const {
+  const LightSensitivity& s = *task.sensitivity;
+  const auto seen = seen_by<std::array<Eigen::Index, kSeen>>(channel_);
+  Eigen::MatrixXd by(static_cast<Eigen::Index>(columns.rows().size()), kSeen);
+  for (std::size_t i = 0; i < 3; ++i) {
+    by.col(static_cast<Eigen::Index>(i)) = columns.of(s.per_mm[i], task.medium);
+  }
+  for (std::size_t t = 0; t < 2; ++t) {
+    by.col(calib::kLedAxis + static_cast<Eigen::Index>(t)) = columns.of(s.per_rad[t], task.medium);
+  }
+  by.col(calib::kLedExponent) = columns.of(s.per_exponent, task.medium);
+  by.col(calib::kLedLogIntensity) = columns.of(s.l, task.medium);
+  const Eigen::MatrixXd change = intensity * (by * led_root_.at(light.name));
+  for (Eigen::Index k = 0; k < kSeen; ++k) {
+    columns.add(light.name + ".calibration" + std::to_string(k), "LED calibration", 1.0,
+                change.col(k));
+  }
+  const calib::LedVector& common = light.calibrated->common;
+  if (!common.isZero(0.0)) {
+    columns.add("white plane", "LED calibration", 1.0,
+                intensity * (by * Eigen::VectorXd(common(seen))));
+  }
+}
+
+void RigNuisances::add_light(const RigLight& light, double intensity, const TaskSensitivity& task,
+                             Columns& columns) const {
+  const LightSensitivity& s = *task.sensitivity;
+  for (std::size_t i = 0; light.position_std_mm > 0.0 && i < 3; ++i) {
+    columns.add(light.name + ".position" + std::to_string(i), "LED position", light.position_std_mm,
+                intensity * columns.of(s.per_mm[i], task.medium));
+  }
+  if (light.exponent_std > 0.0) {
+    columns.add(light.name + ".exponent", "LED exponent", light.exponent_std,
+                intensity * columns.of(s.per_exponent, task.medium));
+  }
+  if (light.power_relative_std > 0.0) {
+    columns.add(light.name + ".power", light.environment ? "environment power" : "LED power",
+                light.power_relative_std, intensity * columns.of(s.l, task.medium));
+  }
+}
+
+// What the radiance calibration leaves open: each shot's black, the glare, the shutter.
+void RigNuisances::add_radiance(const OpenedShot& shot, const ChannelObservation& observed,
+                                const Eigen::VectorXd& predicted, Columns& columns) const {
+  if (!rig_.camera.radiance) return;
+  const std::vector<Eigen::Index>& rows = columns.rows();
+  const auto pick = [&](const std::vector<double>& of_row) -> Eigen::VectorXd {
+    return Eigen::Map<const Eigen::VectorXd>(of_row.data(),
+                                             static_cast<Eigen::Index>(of_row.size()))(rows);
+  };
+  const Eigen::VectorXd l_per_count = pick(observed.l_per_count);
+  for (std::size_t k = 0; k < shot.exposures.size(); ++k) {
+    const ShotExposure& e = shot.exposures[k];
+    // What part of the rows' l comes from this exposure.
+    const Eigen::VectorXd part = observed.exposures.empty()
+                                     ? Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows.size()))
+                                     : pick(observed.exposures[k].of_row);
+    if (e.black_std_counts > 0.0) {
+      columns.add("black " + e.file, "black level", e.black_std_counts,
+                  (shot.exposure_s / e.true_s) * part.cwiseProduct(l_per_count));
+    }
+    if (e.relative_std > 0.0) {
+      columns.add(fmt::format("exposure {:.4g}", e.stated_s), "exposure time", e.relative_std,
+                  part.cwiseProduct(predicted));
     }
   }
-  system.nuisances = columns.list();
-  system.nuisance_columns = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(entries.size()),
-                                                  static_cast<Eigen::Index>(columns.list().size()));
-  for (std::size_t j = 0; j < entries.size(); ++j) {
-    for (const auto& [column, value] : entries[j]) {
-      system.nuisance_columns(static_cast<Eigen::Index>(j), column) += value;
-    }
+  const double glare_std = rig_.camera.radiance->correction.glare_std[channel_];
+  if (glare_std > 0.0) {
+    columns.add("glare", "veiling glare", glare_std,
+                shot.frame_mean_counts[channel_] * l_per_count);
   }
+}
+
+// What pose and lens do to the rows. The lens is one for all shots; where it was wrong, the pose
+// was fitted through the wrong lens, too, and has taken up part of it
+// (PoseResult::per_lens_parameter): the two go together. What the pose's own marks leave open is
+// independent of that. per_mm: change of each row's l where what its samples see shifts along the
+// surface.
+void RigNuisances::add_view(const OpenedShot& shot, const Eigen::Matrix3Xd& per_mm,
+                            Columns& columns) const {
+  const SeenObject& seen = *shot.seen;
+  const Rigid3d& pose = shot.pose.camera_from_world;
+  const Eigen::Matrix<double, 6, 6> pose_root = covariance_root(shot.pose.covariance);
+  const auto n = static_cast<Eigen::Index>(columns.rows().size());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> by_pose_root(n, 6);
+  Eigen::MatrixXd by_lens_root(n, lens_root_.cols());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto row = static_cast<std::size_t>(columns.rows()[static_cast<std::size_t>(i)]);
+    const Eigen::Vector3d& site_mm = seen.sites[row].center_mm;
+    const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[row]);
+    const Eigen::Matrix<double, 3, 6> by_pose = surface_shift_by_pose(pose, site_mm, normal);
+    by_pose_root.row(i) = per_mm.col(i).transpose() * by_pose * pose_root;
+    if (lens_root_.cols() == 0) continue;
+    const Eigen::Matrix<double, 3, calib::kLensParameters> by_lens =
+        surface_shift_by_ray(pose, site_mm, normal) *
+            calib::ray_per_lens_parameter(rig_.camera.intrinsics, (pose * site_mm).hnormalized()) +
+        by_pose * shot.pose.per_lens_parameter;
+    by_lens_root.row(i) = per_mm.col(i).transpose() * by_lens * lens_root_;
+  }
+  // One pose for all shots, or one a shot.
+  const std::string name =
+      rig_.pose.charuco || rig_.pose.per_shot ? "pose " + shot.rig->file : "pose";
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    columns.add(name + std::to_string(k), "pose", 1.0, by_pose_root.col(k));
+  }
+  for (Eigen::Index k = 0; k < by_lens_root.cols(); ++k) {
+    columns.add("lens" + std::to_string(k), "lens", 1.0, by_lens_root.col(k));
+  }
+}
+
+std::vector<NuisanceColumn> RigNuisances::columns(const OpenedShot& shot,
+                                                  const ChannelObservation& observed,
+                                                  const std::vector<Eigen::Index>& rows) const {
+  Columns columns(rows);
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::VectorXd predicted = Eigen::VectorXd::Zero(n);
+  Eigen::Matrix3Xd per_mm = Eigen::Matrix3Xd::Zero(3, n);
+  Eigen::VectorXd per_eta = Eigen::VectorXd::Zero(n);
+  bool has_view = false;
+  const double eta_std = shot.seen->object->rig->eta_std;
+  for (const std::string& name : shot.rig->lights) {
+    const RigLight& light = rig_.light(name);
+    const TaskSensitivity& task =
+        sensitivities_.at({shot.seen.get(), name, light.colours_differ() ? channel_ : 0});
+    const LightSensitivity& s = *task.sensitivity;
+    const double intensity = light.power()[static_cast<Eigen::Index>(channel_)];
+    const double ambient_std = light.ambient_std_W_per_mm2_sr[static_cast<Eigen::Index>(channel_)];
+    const Eigen::VectorXd l = columns.of(s.l, task.medium);
+    if (ambient_std > 0.0) columns.add(light.name + ".ambient", "ambient", ambient_std, l);
+    predicted += intensity * l;
+    if (light.is_ambient) continue;
+    if (light.calibrated) {
+      add_calibrated(light, intensity, task, columns);
+    } else {
+      add_light(light, intensity, task, columns);
+    }
+    has_view = true;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+      const auto along = tangents(
+          shot.seen->patches->normal(shot.seen->map.patch_of_row[static_cast<std::size_t>(row)]));
+      for (std::size_t t = 0; t < 2; ++t) {
+        per_mm.col(i) += intensity * s.per_tangent_mm[t](row, task.medium) * along[t];
+      }
+    }
+    if (eta_std > 0.0) per_eta += intensity * columns.of(s.per_eta, task.medium);
+  }
+  if (has_view) {
+    add_view(shot, per_mm, columns);
+    if (eta_std > 0.0) columns.add("eta", "eta", eta_std, per_eta);
+  }
+  add_radiance(shot, observed, predicted, columns);
+  return columns.take();
 }
 
 }  // namespace scattermeter::apps

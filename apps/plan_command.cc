@@ -75,7 +75,8 @@ void add_plan_command(CLI::App& app, CommandContext& context) {
       const Rig rig = read_rig(options->rig);
       const ObjectScenes scenes = open_objects(rig);
       Plan made = plan(rig, scenes, plan_options);
-      made.inputs = rig_inputs(rig, scenes);
+      FileDigests digests;
+      made.inputs = rig_inputs(rig, scenes, digests);
       if (!context.quiet) context.out << plan_table(made);
       if (options->out.empty()) return made.any_refused() ? 1 : 0;
       std::vector<std::string> written = {options->out + "/plan.json", options->out + "/plan.html"};

@@ -161,6 +161,13 @@ std::string result_json(const Measurement& m, const std::string& command_line) {
   j["patch_size_mm"] = Json::object();
   for (const auto& [object, size] : m.patch_size_mm) j["patch_size_mm"][object] = size;
   if (!m.brackets.empty()) j["brackets"] = brackets_json(m);
+  j["skipped"] = {{"shots_not_asked_for", m.skipped.shots_not_asked},
+                  {"channels_not_asked_for", m.skipped.channels_not_asked},
+                  {"shots_decoded_before", m.skipped.shots_from_cache},
+                  {"samples_beside_the_objects", m.skipped.samples_outside},
+                  {"patches_not_seen", m.skipped.patches_unseen},
+                  {"patches_not_lit", m.skipped.patches_unlit},
+                  {"shadow_rays_on_convex_objects", m.skipped.shadow_rays}};
   j["notes"] = m.notes;
   j["timing_s"] = Json::object();
   for (const auto& [stage, seconds] : m.timing_s) j["timing_s"][stage] = seconds;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/html_page.h"
@@ -19,6 +20,7 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr int kMapWidth_px = 150;
+constexpr std::size_t kMapsPerChannel = 24;
 
 std::string interval(const Quantity& q, bool known) {
   if (!known) return "–";
@@ -57,6 +59,25 @@ Html overview(const Measurement& m) {
              : text_cell("yes", "pass")});
   }
   return html_table(table);
+}
+
+Html skipped(const Skipped& s) {
+  std::vector<std::string> parts;
+  const auto add = [&](std::size_t n, const char* what) {
+    if (n > 0) parts.push_back(fmt::format("{} {}", n, what));
+  };
+  add(s.shots_not_asked, "shots that were not asked for");
+  add(s.channels_not_asked, "channels that were not asked for");
+  add(s.shots_from_cache, "shots that had been decoded before");
+  add(s.samples_outside, "samples beside the objects");
+  add(s.patches_unseen, "patches that no shot sees");
+  add(s.patches_unlit, "patches that a light does not reach");
+  add(s.shadow_rays, "shadow rays on convex objects");
+  if (parts.empty()) return {};
+  return html_element("p",
+                      html_text(fmt::format("Left undone without a change of the answer: {}.",
+                                            fmt::join(parts, ", "))),
+                      "dim");
 }
 
 // Why values were refused, and why transport answers.
@@ -129,11 +150,13 @@ std::string left_out(const ChannelResult& r) {
 Html maps(const std::vector<const ChannelResult*>& channels) {
   std::vector<const ShotRows*> all;
   std::vector<char> names;
+  std::size_t more = 0;
   for (const ChannelResult* r : channels) {
-    for (const ShotRows& rows : r->rows) {
-      all.push_back(&rows);
+    for (std::size_t i = 0; i < std::min(r->rows.size(), kMapsPerChannel); ++i) {
+      all.push_back(&r->rows[i]);
       names.push_back(r->channel);
     }
+    more = std::max(more, r->rows.size() - std::min(r->rows.size(), kMapsPerChannel));
   }
   std::vector<Html> figures(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
@@ -145,7 +168,11 @@ Html maps(const std::vector<const ChannelResult*>& channels) {
     figures[i] =
         html_figure(data_address("image/png", png_bytes(map.picture)), caption, html_text(caption));
   });
-  return html_figures(figures);
+  Html out = html_figures(figures);
+  if (more > 0) {
+    out += html_element("p", html_text(fmt::format("{} more shots are not drawn.", more)), "dim");
+  }
+  return out;
 }
 
 Html material_section(const std::vector<const ChannelResult*>& channels) {
@@ -212,6 +239,7 @@ std::string result_page(const Measurement& m, const std::string& command_line) {
   body += overview(m);
   body += reasons(m);
   for (const std::string& note : m.notes) body += html_element("p", html_text(note), "dim");
+  body += skipped(m.skipped);
   for (const MergedBracket& b : m.brackets) {
     body += html_element("p", html_text("Bracket " + bracket_text(b) + "."), "dim");
   }

@@ -4,11 +4,9 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "apps/file_digest.h"
-
 namespace scattermeter::apps {
 
-std::vector<InputFile> rig_inputs(const Rig& rig, const ObjectScenes& scenes,
+std::vector<InputFile> rig_inputs(const Rig& rig, const ObjectScenes& scenes, FileDigests& digests,
                                   const std::vector<std::string>& more) {
   std::vector<std::string> files = {rig.path};
   for (const std::string& calibration : {rig.camera.intrinsics_path, rig.camera.radiance_path}) {
@@ -35,7 +33,7 @@ std::vector<InputFile> rig_inputs(const Rig& rig, const ObjectScenes& scenes,
   files.insert(files.end(), more.begin(), more.end());
   std::vector<InputFile> out(files.size());
   tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
-    out[i] = {files[i], sha256_of_file(files[i])};
+    out[i] = {files[i], digests.of(files[i])};
   });
   return out;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/digest.h"
 #include "apps/measure.h"
 #include "apps/object_scene.h"
 #include "apps/rig.h"
@@ -12,7 +13,7 @@ namespace scattermeter::apps {
 
 // The rig, its calibrations, meshes and probes that a shot refers to, each once, then `more`, with
 // their digests. Throws InputError naming a file that cannot be read.
-std::vector<InputFile> rig_inputs(const Rig& rig, const ObjectScenes& scenes,
+std::vector<InputFile> rig_inputs(const Rig& rig, const ObjectScenes& scenes, FileDigests& digests,
                                   const std::vector<std::string>& more = {});
 
 }  // namespace scattermeter::apps

@@ -16,12 +16,13 @@ std::vector<std::size_t> all_shots(const Rig& rig) {
 ShotSource shots_in_files(const Rig& rig, const std::vector<std::vector<std::string>>& paths) {
   return {all_shots(rig), paths, FrameSource([&rig, paths](std::size_t i, std::size_t k) {
             return open_shot(rig, paths.at(i).at(k));
-          })};
+          }),
+          nullptr, nullptr};
 }
 
 ShotSource shots_from(const Rig& rig, std::vector<std::size_t> shot_idxs,
                       std::variant<FrameSource, SampleSource> open) {
-  ShotSource source{std::move(shot_idxs), {}, std::move(open)};
+  ShotSource source{std::move(shot_idxs), {}, std::move(open), nullptr, nullptr};
   for (std::size_t i : source.shot_idxs) source.names.push_back(rig.shots.at(i).files());
   return source;
 }

@@ -14,6 +14,9 @@
 
 namespace scattermeter::apps {
 
+class FileDigests;
+class ShotCache;
+
 // Both are called from several threads at once. `shot_idx`: place in the rig's list of shots;
 // `exposure_idx`: in RigShot::files(), 0 but in a bracket.
 using FrameSource =
@@ -26,6 +29,10 @@ struct ShotSource {
   // Of the same and each one's exposures, for messages: a path, or the rig's file name.
   std::vector<std::vector<std::string>> names;
   std::variant<FrameSource, SampleSource> open;
+  // Where what was decoded is kept, and the digests of files; both or none. The names are paths,
+  // then.
+  ShotCache* cache = nullptr;
+  FileDigests* digests = nullptr;
 };
 
 // All shots of the rig from raw files. paths: of each shot of the rig, in its order, one for each

@@ -8,6 +8,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/progress.h"
+#include "apps/shot_cache.h"
+#include "apps/shot_key.h"
 #include "apps/shot_pose.h"
 #include "core/environment_light.h"
 #include "core/input_error.h"
@@ -102,6 +104,15 @@ const IncidentLight& ObjectLibrary::environment_light(const std::string& object,
   return it->second[channel];
 }
 
+std::vector<const IncidentLight*> ObjectLibrary::lights_so_far() const {
+  std::vector<const IncidentLight*> out;
+  for (const auto& [key, light] : leds_) out.push_back(&light);
+  for (const auto& [key, channels] : environments_) {
+    for (const IncidentLight& light : channels) out.push_back(&light);
+  }
+  return out;
+}
+
 double ObjectLibrary::smallest_patch_mm() const {
   double smallest = patches_.begin()->second->patch_size_mm();
   for (const auto& [name, patches] : patches_)
@@ -153,6 +164,17 @@ std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
       shot.pose = shared->pose;
       shot.seen = shared->objects.at(shot.rig->object);
     }
+    const bool may_be_kept = source.cache != nullptr && shared && frames != nullptr;
+    std::string key;
+    if (may_be_kept) {
+      key = shot_key(rig, shot, source.names.at(i), *source.digests);
+      if (std::optional<DecodedShot> kept = source.cache->find(key);
+          kept && kept->observation.channel[0].l.size() == shot.seen->map.patch_of_row.size()) {
+        static_cast<DecodedShot&>(shot) = std::move(*kept);
+        progress.step();
+        return;
+      }
+    }
     CfaSamples samples;
     if (frames != nullptr) {
       const std::vector<capture::RawFrame> exposures = frames_of(*shot.rig, idx, *frames);
@@ -170,6 +192,10 @@ std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
       const SampleMap& map = shot.seen->map;
       ShotSamples of_shot =
           shot_samples(rig, *shot.rig, exposures, names, map.x0, map.y0, map.width, map.height);
+      for (const capture::RawFrame& f : exposures) {
+        shot.samples_outside += f.samples.size() - static_cast<std::size_t>(map.width) *
+                                                       static_cast<std::size_t>(map.height);
+      }
       shot.exposures = std::move(of_shot.exposures);
       shot.frame_mean_counts = of_shot.frame_mean_counts;
       samples = std::move(of_shot.samples);
@@ -180,6 +206,7 @@ std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
     }
     shot.exposure_s = samples.exposure_s;
     shot.observation = observe(samples, shot.seen->map, responsivity);
+    if (may_be_kept) source.cache->keep(key, shot);
     progress.step();
   });
   return shots;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/camera_view.h"
+#include "apps/decoded_shot.h"
 #include "apps/object_scene.h"
 #include "apps/rig.h"
 #include "apps/rig_probes.h"
@@ -36,16 +37,11 @@ struct SeenObject {
   const RayScene* shadows = nullptr;
 };
 
-struct OpenedShot {
+struct OpenedShot : DecodedShot {
   const RigShot* rig = nullptr;
   std::shared_ptr<const SeenObject> seen;
-  Observation observation;
   calib::PoseResult pose;
-  double exposure_s = 0;  // in whose counts the shot is told; of a bracket the first one's
-  double iso = 0;
-  double f_number = 0;
-  std::vector<ShotExposure> exposures;           // as observation's; empty for a SampleSource
-  std::array<double, kRgb> frame_mean_counts{};  // of which glare is a share
+  std::size_t samples_outside = 0;  // of the frames, in no object's rectangle: not converted
 };
 
 // Patches and light of the rig's objects, shared by the shots.
@@ -68,6 +64,8 @@ class ObjectLibrary {
   const IncidentLight& environment_light(const std::string& object, const std::string& light,
                                          std::size_t channel, const PatchMesh& patches,
                                          double eta_int_over_ext);
+  // Those of LEDs and environments that were computed.
+  std::vector<const IncidentLight*> lights_so_far() const;
   double smallest_patch_mm() const;
   double longest_distance_mm() const;
 
@@ -99,6 +97,7 @@ std::vector<capture::RawFrame> frames_of(const RigShot& shot, std::size_t shot_i
 // Gets every shot of the source and reduces it to one l per visible patch and channel. With the
 // pose of all shots (`shared`), shots of one object share their map; without, each has a pose of
 // its own, from a board or its silhouette (a FrameSource, then: std::invalid_argument otherwise).
+// With the pose of all shots, too, those that the source's cache holds are not decoded.
 std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
                                    const ObjectScenes& scenes, const ObjectLibrary& library,
                                    const std::optional<SharedView>& shared, bool quiet);

@@ -50,12 +50,12 @@ constexpr double kOutlierStd = 8.0;
 // A material in a channel, on the way to its medium.
 class TransportFit {
  public:
-  TransportFit(const Rig& rig, const RigProbes& probes, const Task& task, DipoleSystem dipole,
-               const ScalePrior& scale, const MeasureOptions& options)
+  TransportFit(const Rig& rig, const RigProbes& probes, const Task& task,
+               const DipoleSystem& dipole, const ScalePrior& scale, const MeasureOptions& options)
       : task_(task),
         knots_(dipole.knots),
-        system_(std::move(dipole.system)),
-        rows_(std::move(dipole.rows)),
+        system_(dipole.system()),
+        rows_(*dipole.rows),
         scale_(scale),
         options_(options),
         simulation_(rig, probes, task) {
@@ -272,7 +272,7 @@ void estimate_transport(Estimation& e) {
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < e.tasks.size(); ++i) {
     if (!systems[i]) continue;
-    e.results[i].why_transport = why_transport(e.results[i], systems[i]->system);
+    e.results[i].why_transport = why_transport(e.results[i], systems[i]->image_in_std);
     if (e.options.model == Model::kTransport || !e.results[i].why_transport.empty()) {
       wanted.push_back(i);
     }
@@ -285,8 +285,7 @@ void estimate_transport(Estimation& e) {
     result.model = Model::kTransport;
     result.dipole = result.estimate;
     result.rows.clear();
-    TransportFit(e.rig, probes, e.tasks[i], std::move(*systems[i]), scale_prior(e.rig), e.options)
-        .run(result);
+    TransportFit(e.rig, probes, e.tasks[i], *systems[i], scale_prior(e.rig), e.options).run(result);
     progress.step();
   }
   e.watch.lap("transport");

@@ -6,6 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include "core/chi_square.h"
 #include "core/dipole_curve.h"
 #include "core/doubtful_input.h"
@@ -126,7 +129,7 @@ void judge(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& o
 
 // How much of the image the recovered r explains and the dipole does not.
 // Returns its chi-square per degree of freedom, over the noise's.
-double set_misfit(const RecoveredReflectance& recovered, const DenseSystem& system,
+double set_misfit(const RecoveredReflectance& recovered, double l2,
                   const std::vector<Nuisance>& fitted, const ScalePrior& scale, const Point& p,
                   bool without_noise, Estimate& estimate) {
   const auto rank = recovered.whitened.size();
@@ -140,8 +143,7 @@ double set_misfit(const RecoveredReflectance& recovered, const DenseSystem& syst
   const double cost = p.cost + (without_noise ? dof : 0.0);
   const double chi2 = cost / noise;
   estimate.misfit_p_value = chi_square_tail(chi2, dof);
-  const double image = system.l.cwiseQuotient(system.std_l).squaredNorm() / noise;
-  estimate.misfit_relative = std::sqrt(std::max(0.0, chi2 - dof) / image);
+  estimate.misfit_relative = std::sqrt(std::max(0.0, chi2 - dof) / (l2 / noise));
   return cost / dof;
 }
 
@@ -153,42 +155,64 @@ void DipoleFitOptions::Check() const {
   if (!(misfit_p_value > 0.0)) throw std::invalid_argument("DipoleFitOptions.misfit_p_value");
 }
 
-Eigen::VectorXd predicted_image(const DenseSystem& system, const DistanceKnots& knots,
-                                const DipoleSolver::Point& p, double eta_int_over_ext) {
+ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
+                             const DipoleSolver::Point& p, double eta_int_over_ext) {
   const DipoleCurve curve = dipole_curve(knots, p.u, p.q, eta_int_over_ext);
-  Eigen::VectorXd l = system.weights * (std::exp(p.log_s) * curve.r);
-  if (!p.v.empty()) {
-    const auto n = static_cast<Eigen::Index>(p.v.size());
-    l += system.nuisance_columns.leftCols(n) * Eigen::Map<const Eigen::VectorXd>(p.v.data(), n);
-  }
-  return l;
+  const Eigen::VectorXd r = std::exp(p.log_s) * curve.r;
+  std::vector<ComparedImage> shots(rows.shots());
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t s) {
+      const ShotSystem shot = rows.shot(s);
+      ComparedImage& out = shots[s];
+      out.l = shot.system->l;
+      out.std_l = shot.system->std_l;
+      out.predicted = shot.system->weights * r;
+      for (std::size_t k = 0; k < shot.nuisances.size(); ++k) {
+        const auto v = static_cast<std::size_t>(shot.nuisances[k]);
+        if (v >= p.v.size()) continue;  // held
+        out.predicted += p.v[v] * shot.system->nuisance_columns.col(static_cast<Eigen::Index>(k));
+      }
+    });
+  });
+  const auto together = [&](Eigen::VectorXd ComparedImage::*part) {
+    Eigen::Index n = 0;
+    for (const ComparedImage& shot : shots) n += (shot.*part).size();
+    Eigen::VectorXd out(n);
+    Eigen::Index at = 0;
+    for (const ComparedImage& shot : shots) {
+      out.segment(at, (shot.*part).size()) = shot.*part;
+      at += (shot.*part).size();
+    }
+    return out;
+  };
+  return {together(&ComparedImage::predicted), together(&ComparedImage::l),
+          together(&ComparedImage::std_l)};
 }
 
 DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
                      const DipoleFitOptions& options) {
-  return fit_dipole(system, image_information(system), knots, options);
+  return fit_dipole(SystemRows(system), image_information(system), knots, options);
 }
 
-DipoleFit fit_dipole(const DenseSystem& system, const ImageInformation& image,
+DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
                      const DistanceKnots& knots, const DipoleFitOptions& options) {
   options.Check();
   DipoleFit fit;
   Estimate& estimate = fit.estimate;
-  estimate.rows = static_cast<std::size_t>(system.l.size());
+  estimate.rows = image.rows;
   if (estimate.rows < options.min_rows) {
     estimate.reasons.push_back(sentence("only ", estimate.rows, " patches can be used, at least ",
                                         options.min_rows, " are needed"));
     return fit;
   }
-  if (!system.weights.allFinite() || !system.l.allFinite() || !(system.std_l.minCoeff() > 0.0) ||
-      !system.std_l.allFinite() || !system.nuisance_columns.allFinite()) {
+  if (!image.is_sound) {
     estimate.reasons.push_back("the image or its prediction holds values that are not finite");
     return fit;
   }
   fit.recovered = recover_reflectance(image);
   if (options.without_noise) {
     fit.recovered.floor_chi2 +=
-        static_cast<double>(system.l.size() - fit.recovered.whitened.size());
+        static_cast<double>(image.rows) - static_cast<double>(fit.recovered.whitened.size());
   }
   const RecoveredReflectance& recovered = fit.recovered;
   if (recovered.whitened.size() < 3) {
@@ -196,28 +220,28 @@ DipoleFit fit_dipole(const DenseSystem& system, const ImageInformation& image,
     return fit;
   }
   std::vector<Nuisance> fitted;
-  std::copy_if(system.nuisances.begin(), system.nuisances.end(), std::back_inserter(fitted),
+  std::copy_if(rows.nuisances().begin(), rows.nuisances().end(), std::back_inserter(fitted),
                [](const Nuisance& n) { return n.fitted; });
   const DipoleSolver solver(recovered, knots, fitted, options.eta_int_over_ext, options.scale);
   fit.optimum = solver.best();
   const Point& p = fit.optimum;
   estimate.converged = p.converged;
   const DipoleCurve curve = dipole_curve(knots, p.u, p.q, options.eta_int_over_ext);
-  fit.predicted = predicted_image(system, knots, p, options.eta_int_over_ext);
-  const Residual rest = residual(system.l, fit.predicted, system.std_l);
+  fit.image = compared_image(rows, knots, p, options.eta_int_over_ext);
+  const Residual rest = residual(fit.image.l, fit.image.predicted, fit.image.std_l);
   const int n_parameters = options.scale.relative_std == 0.0 ? 2 : 3;
-  estimate.reduced_chi2 = rest.chi2 / static_cast<double>(system.l.size() - n_parameters) +
+  estimate.reduced_chi2 = rest.chi2 / (static_cast<double>(image.rows) - n_parameters) +
                           (options.without_noise ? 1.0 : 0.0);
   estimate.rms_relative = rest.rms_relative;
   estimate.psnr_db = rest.psnr_db;
   const double misfit =
-      set_misfit(recovered, system, fitted, options.scale, p, options.without_noise, estimate);
+      set_misfit(recovered, image.l2, fitted, options.scale, p, options.without_noise, estimate);
   double inflation = std::max(1.0, estimate.reduced_chi2);
   // What the dipole misses lies in the few directions that r can explain, as the coefficients do;
   // over all rows it would be thinned out. Taken as alike in all those directions (Birge 1932).
   if (estimate.misfit_p_value < options.misfit_p_value) inflation = std::max(inflation, misfit);
   // Errors of the method are at least as large as the misfit that is seen.
-  std::vector<Nuisance> nuisances = system.nuisances;
+  std::vector<Nuisance> nuisances = rows.nuisances();
   for (Nuisance& n : nuisances) {
     if (!n.fitted && estimate.misfit_p_value < options.misfit_p_value) {
       n.std = std::max(n.std, options.misfit_margin * estimate.misfit_relative);
@@ -225,7 +249,7 @@ DipoleFit fit_dipole(const DenseSystem& system, const ImageInformation& image,
   }
   // What the image says against the rig's statements widens the answer, or refuses it.
   const Doubts doubts =
-      doubtful_inputs(recovered, system.nuisances, knots, p, options.eta_int_over_ext,
+      doubtful_inputs(recovered, rows.nuisances(), knots, p, options.eta_int_over_ext,
                       options.scale, recovered.noise_excess());
   RecoveredReflectance doubted = recovered;
   for (const auto& [doubt, name] : {std::pair{&doubts.scale, "scale"}, {&doubts.eta, "eta"}}) {

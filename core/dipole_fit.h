@@ -7,6 +7,7 @@
 #include "core/distance_weights.h"
 #include "core/estimate.h"
 #include "core/image_information.h"
+#include "core/image_rows.h"
 #include "core/linear_shot.h"
 #include "core/recovered_reflectance.h"
 
@@ -39,10 +40,19 @@ struct DipoleFitOptions {
   void Check() const;  // std::invalid_argument naming the field
 };
 
+// What is predicted and what was observed, of an image's rows, shot by shot.
+struct ComparedImage {
+  Eigen::VectorXd predicted;
+  Eigen::VectorXd l;
+  Eigen::VectorXd std_l;
+};
+
 struct DipoleFit {
   Estimate estimate;
   DipoleSolver::Point optimum;
-  Eigen::VectorXd predicted;  // l on the system's rows at the optimum; empty where there is none
+  // On the image's rows, shot by shot: l at the optimum, and what was observed. Empty where there
+  // is no optimum.
+  ComparedImage image;
   RecoveredReflectance recovered;
 };
 
@@ -57,12 +67,13 @@ struct DipoleFit {
 // cannot explain, a scale or an eta that the image contradicts.
 DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
                      const DipoleFitOptions& options);
-// The same with image_information(system) at hand.
-DipoleFit fit_dipole(const DenseSystem& system, const ImageInformation& image,
+// The same with the image's information (of all its shots) at hand; its rows are gone through once
+// more.
+DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
                      const DistanceKnots& knots, const DipoleFitOptions& options);
 
-// l of the system's rows, with the nuisances that are fitted.
-Eigen::VectorXd predicted_image(const DenseSystem& system, const DistanceKnots& knots,
-                                const DipoleSolver::Point& point, double eta_int_over_ext);
+// With the nuisances that are fitted.
+ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
+                             const DipoleSolver::Point& point, double eta_int_over_ext);
 
 }  // namespace scattermeter

@@ -80,6 +80,23 @@ WeightMatrix smooth_weights(const std::vector<ExitSite>& sites, const SourceClou
   return w;
 }
 
+Eigen::MatrixXd smooth_images(const std::vector<ExitSite>& sites, const SourceCloud& sources,
+                              const DistanceKnots& knots, const PairSumOptions& options,
+                              const Eigen::MatrixXd& r) {
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(sites.size()), r.cols());
+  for_rows(sites.size(), [&](std::size_t begin, std::size_t end) {
+    std::vector<double> fine(static_cast<std::size_t>(knots.fine_bins().size()));
+    Eigen::RowVectorXd w(knots.size());
+    for (std::size_t j = begin; j < end; ++j) {
+      std::fill(fine.begin(), fine.end(), 0.0);
+      sources.add_to(sites[j], knots.fine_bins(), options, fine.data());
+      knots.fold(fine.data(), w.data());
+      out.row(static_cast<Eigen::Index>(j)) = w * r;
+    }
+  });
+  return out;
+}
+
 WeightMatrix uniform_weights(const std::vector<ExitSite>& sites, const SourceCloud& sources,
                              const UniformBins& bins, const PairSumOptions& options) {
   WeightMatrix w = WeightMatrix::Zero(static_cast<Eigen::Index>(sites.size()), bins.size());

@@ -47,6 +47,12 @@ class DistanceKnots {
 WeightMatrix smooth_weights(const std::vector<ExitSite>& sites, const SourceCloud& sources,
                             const DistanceKnots& knots, const PairSumOptions& options);
 
+// W r for some r on the knots, one a column: rows x columns of r. Holds no row of W longer than it
+// takes.
+Eigen::MatrixXd smooth_images(const std::vector<ExitSite>& sites, const SourceCloud& sources,
+                              const DistanceKnots& knots, const PairSumOptions& options,
+                              const Eigen::MatrixXd& r);
+
 // W on the paper's uniform knots i * width, i = 0 .. n - 1.
 WeightMatrix uniform_weights(const std::vector<ExitSite>& sites, const SourceCloud& sources,
                              const UniformBins& bins, const PairSumOptions& options);

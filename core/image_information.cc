@@ -2,29 +2,37 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 namespace scattermeter {
-namespace {
 
-ImageInformation of_rows(const DenseSystem& system, Eigen::Index begin, Eigen::Index end) {
+ImageInformation image_information(const DenseSystem& system) {
   const Eigen::Index n_knots = system.weights.cols();
   const Eigen::Index n = n_knots + system.nuisance_columns.cols();
+  const Eigen::Index rows = system.l.size();
   ImageInformation out;
   out.information = Eigen::MatrixXd::Zero(n, n);
   out.right = Eigen::VectorXd::Zero(n);
-  out.rows = static_cast<std::size_t>(end - begin);
+  out.rows = static_cast<std::size_t>(rows);
   // In blocks: no second copy of the whole system.
   constexpr Eigen::Index kBlock = 512;
-  for (Eigen::Index at = begin; at < end; at += kBlock) {
-    const Eigen::Index m = std::min(kBlock, end - at);
-    const Eigen::VectorXd inverse_std = system.std_l.segment(at, m).cwiseInverse();
-    Eigen::MatrixXd a(m, n);
+  Eigen::MatrixXd a(std::min(kBlock, rows), n);
+  for (Eigen::Index at = 0; at < rows; at += kBlock) {
+    const Eigen::Index m = std::min(kBlock, rows - at);
+    const auto std_l = system.std_l.segment(at, m);
+    const Eigen::VectorXd inverse_std = std_l.cwiseInverse();
+    if (a.rows() != m) a.resize(m, n);
     a.leftCols(n_knots) = inverse_std.asDiagonal() * system.weights.middleRows(at, m);
     if (n > n_knots) {
       a.rightCols(n - n_knots) =
           inverse_std.asDiagonal() * system.nuisance_columns.middleRows(at, m);
     }
     const Eigen::VectorXd l = inverse_std.cwiseProduct(system.l.segment(at, m));
+    out.is_sound = out.is_sound && std_l.minCoeff() > 0.0 && std_l.allFinite() && l.allFinite() &&
+                   a.allFinite();
     out.information.selfadjointView<Eigen::Lower>().rankUpdate(a.transpose());
     out.right.noalias() += a.transpose() * l;
     out.l2 += l.squaredNorm();
@@ -33,38 +41,37 @@ ImageInformation of_rows(const DenseSystem& system, Eigen::Index begin, Eigen::I
   return out;
 }
 
-}  // namespace
-
-ImageInformation& ImageInformation::operator+=(const ImageInformation& other) {
-  information += other.information;
-  right += other.right;
-  l2 += other.l2;
-  rows += other.rows;
-  return *this;
-}
-
-ImageInformation image_information(const DenseSystem& system) {
-  return of_rows(system, 0, system.weights.rows());
-}
-
-std::vector<ImageInformation> information_by_shot(const DenseSystem& system) {
-  std::vector<ImageInformation> out;
-  Eigen::Index begin = 0;
-  for (const Eigen::Index n : system.shot_rows) {
-    out.push_back(of_rows(system, begin, begin + n));
-    begin += n;
-  }
+std::vector<ShotInformation> information_by_shot(const ImageRows& image) {
+  std::vector<ShotInformation> out(image.shots());
+  // Isolated: a thread that waits here shall not begin another image's rows.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t s) {
+      const ShotSystem shot = image.shot(s);
+      out[s] = {image_information(*shot.system), shot.nuisances};
+    });
+  });
   return out;
 }
 
-ImageInformation with_nuisances(const ImageInformation& all, Eigen::Index n_knots,
-                                const std::vector<Eigen::Index>& nuisances) {
-  std::vector<Eigen::Index> columns(static_cast<std::size_t>(n_knots));
-  std::iota(columns.begin(), columns.end(), Eigen::Index{0});
-  for (const Eigen::Index v : nuisances) columns.push_back(n_knots + v);
-  ImageInformation out = all;
-  out.information = all.information(columns, columns);
-  out.right = all.right(columns);
+ImageInformation joint_information(const std::vector<ShotInformation>& shots,
+                                   std::size_t n_nuisances) {
+  if (shots.empty()) throw std::invalid_argument("joint_information: no shots");
+  const Eigen::Index n_knots =
+      shots.front().image.right.size() - static_cast<Eigen::Index>(shots.front().nuisances.size());
+  const Eigen::Index n = n_knots + static_cast<Eigen::Index>(n_nuisances);
+  ImageInformation out;
+  out.information = Eigen::MatrixXd::Zero(n, n);
+  out.right = Eigen::VectorXd::Zero(n);
+  for (const ShotInformation& shot : shots) {
+    std::vector<Eigen::Index> places(static_cast<std::size_t>(n_knots));
+    std::iota(places.begin(), places.end(), Eigen::Index{0});
+    for (const Eigen::Index v : shot.nuisances) places.push_back(n_knots + v);
+    out.information(places, places) += shot.image.information;
+    out.right(places) += shot.image.right;
+    out.l2 += shot.image.l2;
+    out.rows += shot.image.rows;
+    out.is_sound = out.is_sound && shot.image.is_sound;
+  }
   return out;
 }
 

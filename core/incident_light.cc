@@ -216,7 +216,7 @@ IncidentLight illuminate(const PatchMesh& patches, const RayScene& scene, const 
       light.lit.push_back(t);
     }
     light.shadow_edge_patches += per_patch[k].on_shadow_edge ? 1 : 0;
-    light.shadow_rays += per_patch[k].rays;
+    (scene.convex() ? light.shadow_rays_skipped : light.shadow_rays) += per_patch[k].rays;
   }
   return light;
 }

@@ -27,11 +27,12 @@ double power_sr(const LitTriangle& triangle);
 // The paper's c_k (eq. 12, with the patch area), per unit of on-axis intensity, and its density
 // over the patches.
 struct IncidentLight {
-  std::vector<LitTriangle> lit;        // only what is lit: dark surface takes no part
-  std::vector<double> patch_power_sr;  // c_k per W/sr: the integral of the transmitted irradiance
-                                       // over patch k, mm^2 * sr/mm^2
-  int shadow_edge_patches = 0;         // patches crossed by a shadow edge
-  std::size_t shadow_rays = 0;         // rays cast
+  std::vector<LitTriangle> lit;         // only what is lit: dark surface takes no part
+  std::vector<double> patch_power_sr;   // c_k per W/sr: the integral of the transmitted irradiance
+                                        // over patch k, mm^2 * sr/mm^2
+  int shadow_edge_patches = 0;          // patches crossed by a shadow edge
+  std::size_t shadow_rays = 0;          // rays cast
+  std::size_t shadow_rays_skipped = 0;  // where a convex body cannot shade itself
 };
 
 struct IncidentLightOptions {

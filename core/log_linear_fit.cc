@@ -28,7 +28,12 @@ Cost cost_at(const LogLinearProblem& p, const Eigen::VectorXd& theta) {
 
 Eigen::MatrixXd log_linear_jacobian(const LogLinearProblem& problem, const Eigen::VectorXd& theta) {
   const Eigen::VectorXd r = (problem.basis * theta).array().exp();
-  return problem.kernel * (r.asDiagonal() * problem.basis);
+  // Column by column: for the few there are, a matrix product would pack the kernel each time.
+  Eigen::MatrixXd out(problem.kernel.rows(), problem.basis.cols());
+  for (Eigen::Index j = 0; j < out.cols(); ++j) {
+    out.col(j).noalias() = problem.kernel * r.cwiseProduct(problem.basis.col(j));
+  }
+  return out;
 }
 
 LogLinearFit fit_log_linear(const LogLinearProblem& p, const Eigen::VectorXd& start) {

@@ -32,12 +32,11 @@ void add_numerics(const DistanceKnots& knots, const Eigen::VectorXd& r, double p
   for (int o = 0; o < octaves; ++o) {
     const double from_mm = o == 0 ? -1.0 : std::ldexp(knots.resolution_mm(), o);
     const double to_mm = std::ldexp(knots.resolution_mm(), o + 1);
-    Eigen::VectorXd part = r;
-    for (Eigen::Index i = 0; i < part.size(); ++i) {
-      const double d = knots.knots_mm()[static_cast<std::size_t>(i)];
-      if (d < from_mm || d >= to_mm) part[i] = 0.0;
-    }
-    system.nuisance_columns.col(first + o) = system.weights * part;
+    const auto& d = knots.knots_mm();
+    const auto begin = std::lower_bound(d.begin(), d.end(), from_mm) - d.begin();
+    const auto n = std::lower_bound(d.begin(), d.end(), to_mm) - d.begin() - begin;
+    system.nuisance_columns.col(first + o).noalias() =
+        system.weights.middleCols(begin, n) * r.segment(begin, n);
   }
   const Eigen::VectorXd predicted = system.weights * r;
   Eigen::Index row = 0;

@@ -36,7 +36,9 @@ class RayScene {
                            double near_mm, double far_mm) const;
 
   // Whether the open segment from a surface point to `target_mm` meets the mesh. The point is moved
-  // 1e-5 of the object's size along `normal` first, so that its own facet does not count.
+  // 1e-5 of the object's size along `normal` first, so that its own facet does not count. `normal`:
+  // of the facet that the point is on. No ray is cast where the body is convex and the target lies
+  // before the facet: nothing can stand between.
   bool occluded(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,
                 const Eigen::Vector3d& target_mm) const;
 
@@ -48,6 +50,7 @@ class RayScene {
   bool contains(const Eigen::Vector3d& point_mm) const;
 
   const TriangleMesh& mesh() const { return mesh_; }
+  bool convex() const { return convex_; }
 
  private:
   struct Embree;
@@ -59,6 +62,7 @@ class RayScene {
   TriangleMesh mesh_;
   Eigen::Vector3d center_mm_;
   double size_mm_;
+  bool convex_;
   std::unique_ptr<Embree> embree_;
 };
 

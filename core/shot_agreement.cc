@@ -31,51 +31,56 @@ struct Normal {
 
 }  // namespace
 
-ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& knots,
+ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
+                             const std::vector<Nuisance>& nuisances, const DistanceKnots& knots,
                              const DipoleSolver::Point& joint, double eta, const ScalePrior& scale,
                              double noise_inflation) {
-  const auto n_shots = static_cast<Eigen::Index>(system.shot_rows.size());
+  const auto n_shots = static_cast<Eigen::Index>(shots.size());
   ShotAgreement out;
   if (n_shots < 2) return out;
   const double s = std::exp(joint.log_s);
   const DipoleCurve curve = dipole_curve(knots, joint.u, joint.q, eta);
   const bool scale_moves = scale.relative_std > 0.0;
-  const Eigen::Index shared = (scale_moves ? 1 : 0) + system.nuisance_columns.cols();
+  const Eigen::Index first_nuisance = scale_moves ? 1 : 0;
+  const Eigen::Index shared = first_nuisance + static_cast<Eigen::Index>(nuisances.size());
   Normal together(2 + shared);
   Normal apart(2 * n_shots + shared);
-  Eigen::Index at = 0;
+  const Eigen::Index n_knots = curve.r.size();
   for (Eigen::Index i = 0; i < n_shots; ++i) {
-    const Eigen::Index rows = system.shot_rows[static_cast<std::size_t>(i)];
-    const auto w = system.weights.middleRows(at, rows);
-    Eigen::MatrixXd j(rows, 2 + shared);
-    j.col(0) = w * (s * curve.d_u);
-    j.col(1) = w * (s * curve.d_q);
-    const Eigen::VectorXd predicted = w * (s * curve.r);
-    if (scale_moves) j.col(2) = predicted;
-    Eigen::VectorXd rest = system.l.segment(at, rows) - predicted;
-    if (system.nuisance_columns.cols() > 0) {
-      const auto columns = system.nuisance_columns.middleRows(at, rows);
-      j.rightCols(columns.cols()) = columns;
-      for (std::size_t v = 0; v < joint.v.size(); ++v) {
-        rest -= joint.v[v] * columns.col(static_cast<Eigen::Index>(v));
+    const ShotInformation& shot = shots[static_cast<std::size_t>(i)];
+    const auto own = static_cast<Eigen::Index>(shot.nuisances.size());
+    // The shot's unknowns (r on the knots, nuisances) by those that move here, and where those
+    // stand among the shared ones.
+    Eigen::MatrixXd by = Eigen::MatrixXd::Zero(n_knots + own, 2 + first_nuisance + own);
+    by.col(0).head(n_knots) = s * curve.d_u;
+    by.col(1).head(n_knots) = s * curve.d_q;
+    std::vector<Eigen::Index> place;
+    if (scale_moves) {
+      by.col(2).head(n_knots) = s * curve.r;
+      place.push_back(0);
+    }
+    by.bottomRightCorner(own, own).setIdentity();
+    Eigen::VectorXd at = Eigen::VectorXd::Zero(n_knots + own);
+    at.head(n_knots) = s * curve.r;
+    for (Eigen::Index k = 0; k < own; ++k) {
+      const Eigen::Index v = shot.nuisances[static_cast<std::size_t>(k)];
+      place.push_back(first_nuisance + v);
+      if (static_cast<std::size_t>(v) < joint.v.size()) {
+        at[n_knots + k] = joint.v[static_cast<std::size_t>(v)];
       }
     }
-    const Eigen::VectorXd inverse_std = system.std_l.segment(at, rows).cwiseInverse();
-    j = (inverse_std.asDiagonal() * j).eval();
-    rest = rest.cwiseProduct(inverse_std).eval();
-    at += rows;
-    const Eigen::MatrixXd jj = j.transpose() * j / noise_inflation;
-    const Eigen::VectorXd jr = j.transpose() * rest / noise_inflation;
-    together.a += jj;
-    together.b += jr;
-    const Eigen::Index own = 2 * i;
-    const Eigen::Index common = 2 * n_shots;
-    apart.a.block(own, own, 2, 2) += jj.topLeftCorner(2, 2);
-    apart.a.block(own, common, 2, shared) += jj.topRightCorner(2, shared);
-    apart.a.block(common, own, shared, 2) += jj.bottomLeftCorner(shared, 2);
-    apart.a.bottomRightCorner(shared, shared) += jj.bottomRightCorner(shared, shared);
-    apart.b.segment(own, 2) += jr.head(2);
-    apart.b.tail(shared) += jr.tail(shared);
+    const Eigen::MatrixXd moved = shot.image.information * by;
+    const Eigen::MatrixXd jj = by.transpose() * moved / noise_inflation;
+    const Eigen::VectorXd jr =
+        (by.transpose() * shot.image.right - moved.transpose() * at) / noise_inflation;
+    const auto add = [&](Normal& normal, Eigen::Index coefficients, Eigen::Index first_shared) {
+      std::vector<Eigen::Index> to = {coefficients, coefficients + 1};
+      for (const Eigen::Index p : place) to.push_back(first_shared + p);
+      normal.a(to, to) += jj;
+      normal.b(to) += jr;
+    };
+    add(together, 0, 2);
+    add(apart, 2 * i, 2 * n_shots);
   }
   // Priors: (value + change)^2 / std^2.
   const auto prior = [&](Eigen::Index parameter, double value, double std) {
@@ -87,9 +92,9 @@ ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& kno
     }
   };
   if (scale_moves) prior(0, joint.log_s, scale.relative_std);
-  for (std::size_t v = 0; v < system.nuisances.size(); ++v) {
-    prior((scale_moves ? 1 : 0) + static_cast<Eigen::Index>(v),
-          v < joint.v.size() ? joint.v[v] : 0.0, system.nuisances[v].std);
+  for (std::size_t v = 0; v < nuisances.size(); ++v) {
+    prior(first_nuisance + static_cast<Eigen::Index>(v), v < joint.v.size() ? joint.v[v] : 0.0,
+          nuisances[v].std);
   }
   out.chi2 = std::max(0.0, apart.fall() - together.fall());
   out.dof = static_cast<int>(2 * (n_shots - 1));

@@ -1,9 +1,12 @@
 // Whether the shots of one material tell the same.
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "core/dipole_solver.h"
+#include "core/image_information.h"
 #include "core/linear_shot.h"
 
 namespace scattermeter {
@@ -20,9 +23,10 @@ struct ShotAgreement {
   bool disagree() const { return dof > 0 && p_value <= 1e-3; }
 };
 
-// Linearised at the joint optimum; chi-squares are divided by `noise_inflation`. The system's
-// nuisances that are not fitted take part with their standard deviations.
-ShotAgreement shot_agreement(const DenseSystem& system, const DistanceKnots& knots,
+// Linearised at the joint optimum; chi-squares are divided by `noise_inflation`. `nuisances`: the
+// image's; those that are not fitted take part with their standard deviations.
+ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
+                             const std::vector<Nuisance>& nuisances, const DistanceKnots& knots,
                              const DipoleSolver::Point& joint, double eta_int_over_ext,
                              const ScalePrior& scale, double noise_inflation);
 

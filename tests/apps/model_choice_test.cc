@@ -1,16 +1,14 @@
 #include "apps/model_choice.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace scattermeter::apps {
 namespace {
 
-DenseSystem image(double relative_std) {
-  DenseSystem system;
-  system.l = Eigen::VectorXd::Constant(1000, 0.3);
-  system.std_l = relative_std * system.l;
-  return system;
-}
+// Of an image of 1000 rows, |l / std|.
+double image(double relative_std) { return std::sqrt(1000.0) / relative_std; }
 
 ChannelResult good() {
   ChannelResult result;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include <gmock/gmock.h>
@@ -50,6 +51,77 @@ std::pair<double, double> worst_errors(const Json& result) {
     worst.second = std::max(worst.second, std::abs(a / truth.a[c] - 1.0));
   }
   return worst;
+}
+
+// The results alone, without times and counts.
+Json answers(const SmallRig& rig) { return Json::parse(rig.result())["results"]; }
+
+std::size_t decoded_before(const SmallRig& rig) {
+  return Json::parse(rig.result())["skipped"]["shots_decoded_before"];
+}
+
+// Measuring again decodes nothing twice, and what is not asked for is left undone; the answers are
+// the same, digit by digit.
+TEST(Road, SkipsWhatIsNotNeeded) {
+  SmallRig rig;
+  rig.simulate();
+  const std::vector<std::string> dipole = {"--model", "dipole"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), dipole.begin(), dipole.end());
+    return rig.measure(more);
+  };
+  ASSERT_EQ(rig.measure(dipole).status, 0);
+  const Json first = answers(rig);
+  const Json skipped = Json::parse(rig.result())["skipped"];
+  EXPECT_EQ(skipped["shots_decoded_before"], 0);
+  EXPECT_EQ(skipped["shots_not_asked_for"], 0);
+  EXPECT_GT(skipped["samples_beside_the_objects"], 0);
+  EXPECT_GT(skipped["patches_not_seen"], 0);
+  EXPECT_GT(skipped["patches_not_lit"], 0);
+  EXPECT_GT(skipped["shadow_rays_on_convex_objects"], 0);  // of the cube
+  ASSERT_EQ(rig.measure(dipole).status, 0);
+  EXPECT_EQ(decoded_before(rig), 12U);
+  EXPECT_EQ(answers(rig), first);
+  ASSERT_EQ(with({"--no-cache"}).status, 0);
+  EXPECT_EQ(decoded_before(rig), 0U);
+  EXPECT_EQ(answers(rig), first);
+
+  // Lights may change, what shots are made from may not.
+  const std::string text = rig.text();
+  rig.write(replaced(text, "position_mm: [30, -60, 80]", "position_mm: [30, -60, 80.01]"));
+  ASSERT_EQ(rig.measure(dipole).status, 0);
+  EXPECT_EQ(decoded_before(rig), 12U);
+  EXPECT_NE(answers(rig), first);
+  rig.write(replaced(text, "read_noise_counts: 1.2", "read_noise_counts: 1.3"));
+  ASSERT_EQ(rig.measure(dipole).status, 0);
+  EXPECT_EQ(decoded_before(rig), 0U);
+  rig.write(text);
+  ASSERT_EQ(rig.measure(dipole).status, 0);
+  EXPECT_EQ(answers(rig), first);
+  std::filesystem::copy_file(rig / "shots/PE_cube_1.dng", rig / "shots/PP_cube_1.dng",
+                             std::filesystem::copy_options::overwrite_existing);
+  rig.measure(dipole);
+  EXPECT_EQ(decoded_before(rig), 11U);
+  EXPECT_NE(answers(rig), first);
+
+  ASSERT_EQ(with({"--material", "POM", "--channels", "G"}).status, 0);
+  const Json some = Json::parse(rig.result());
+  ASSERT_EQ(some["results"].size(), 1U);
+  EXPECT_EQ(some["results"][0]["material"], "POM");
+  EXPECT_EQ(some["results"][0]["channel"], "G");
+  // One column of a matrix product may round otherwise than the same among nine.
+  for (const char* name : {"sigma_s_prime_per_mm", "sigma_a_per_mm"}) {
+    for (const char* part : {"value", "std"}) {
+      const double whole = first[7][name][part];
+      EXPECT_NEAR(some["results"][0][name][part], whole, 1e-8 * whole) << name << " " << part;
+    }
+  }
+  EXPECT_EQ(some["skipped"]["shots_not_asked_for"], 8);
+  EXPECT_EQ(some["skipped"]["channels_not_asked_for"], 2);
+  EXPECT_EQ(some["notes"].size(), 0U) << some["notes"];
+  const Answer unknown = with({"--material", "PVC"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, ::testing::HasSubstr("no shot is of material PVC"));
 }
 
 TEST(Road, TwelveSmallShotsWithNoise) {

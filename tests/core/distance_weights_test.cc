@@ -50,6 +50,23 @@ IncidentLight lit_top(const PatchMesh& patches) {
   return light;
 }
 
+// Images without W between: rows and columns of any number.
+TEST(DistanceWeights, ImagesAreThoseOfW) {
+  const PatchMesh patches(testing::make_cube(), 1.0);
+  const SourceCloud sources(lit_top(patches), {0, 0, 10});
+  std::vector<ExitSite> sites;
+  for (int k = 0; k < patches.size(); k += 11) sites.push_back(exit_patch(patches, k));
+  const DistanceKnots knots(0.1, 36.0);
+  Eigen::MatrixXd r(knots.size(), 3);
+  for (Eigen::Index i = 0; i < r.rows(); ++i) {
+    const double d = knots.knots_mm()[static_cast<std::size_t>(i)];
+    r.row(i) << std::exp(-d), 1.0 / (1.0 + d), d;
+  }
+  const Eigen::MatrixXd image = smooth_images(sites, sources, knots, {}, r);
+  const Eigen::MatrixXd by_weights = smooth_weights(sites, sources, knots, {}) * r;
+  EXPECT_LT((image - by_weights).cwiseAbs().maxCoeff(), 1e-12 * by_weights.maxCoeff());
+}
+
 // The paper's system and the smooth one predict the same image for a function that both represent:
 // R itself where the width is far below its scale.
 TEST(DistanceWeights, UniformAndSmoothAgree) {

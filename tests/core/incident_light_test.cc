@@ -30,6 +30,37 @@ TEST(IncidentLight, PowerIsIntensityTimesSolidAngle) {
   EXPECT_EQ(light.shadow_edge_patches, 0);
 }
 
+// A convex body throws no shadow on itself: no rays, and the light that rays would give.
+TEST(IncidentLight, CastsNoRaysOnAConvexBody) {
+  const TriangleMesh cube = testing::make_cube();
+  // With a crumb far behind, the scene is two bodies and not convex.
+  TriangleMesh with_crumb = cube;
+  const TriangleMesh crumb = testing::make_box({0, 0, -100}, {0.1, 0.1, -99.9});
+  const auto first = static_cast<int>(cube.vertices_mm.size());
+  for (const Eigen::Vector3d& v : crumb.vertices_mm) with_crumb.vertices_mm.push_back(v);
+  for (const auto& t : crumb.triangles) {
+    with_crumb.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  const RayScene skipping(cube), casting(with_crumb);
+  EXPECT_TRUE(skipping.convex());
+  EXPECT_FALSE(casting.convex());
+  const PatchMesh patches(cube, 0.6);
+  for (const double radius_mm : {0.0, 2.0}) {
+    Led led;
+    led.position_mm = {30, -60, 80};
+    led.axis = Eigen::Vector3d(-30, 60, -70).normalized();
+    led.exponent = 1.5;
+    led.radius_mm = radius_mm;
+    const IncidentLight a = illuminate(patches, skipping, led, 1.4);
+    const IncidentLight b = illuminate(patches, casting, led, 1.4);
+    EXPECT_EQ(a.shadow_rays, 0U);
+    EXPECT_GT(a.shadow_rays_skipped, 0U);
+    EXPECT_GT(b.shadow_rays, 0U);
+    EXPECT_EQ(b.shadow_rays_skipped, 0U);
+    EXPECT_EQ(a.patch_power_sr, b.patch_power_sr) << radius_mm;
+  }
+}
+
 // Two patch sizes agree, with Fresnel and lobe.
 TEST(IncidentLight, DoesNotDependOnThePatchSize) {
   Led led;

@@ -71,7 +71,8 @@ struct Shots {
     options.scale.relative_std = scale_std;
     const DipoleFit fit = fit_dipole(s, plate().knots, options);
     EXPECT_TRUE(fit.estimate.converged);
-    return shot_agreement(s, plate().knots, fit.optimum, kEta, options.scale, 1.0);
+    return shot_agreement(information_by_shot(SystemRows(s)), s.nuisances, plate().knots,
+                          fit.optimum, kEta, options.scale, 1.0);
   }
 };
 
@@ -143,8 +144,12 @@ TEST(ShotAgreement, InflationDividesTheChiSquare) {
   DipoleFitOptions options;
   options.eta_int_over_ext = kEta;
   const DipoleFit fit = fit_dipole(s, plate().knots, options);
-  const double one = shot_agreement(s, plate().knots, fit.optimum, kEta, {0.0}, 1.0).chi2;
-  const double four = shot_agreement(s, plate().knots, fit.optimum, kEta, {0.0}, 4.0).chi2;
+  const double one = shot_agreement(information_by_shot(SystemRows(s)), s.nuisances, plate().knots,
+                                    fit.optimum, kEta, {0.0}, 1.0)
+                         .chi2;
+  const double four = shot_agreement(information_by_shot(SystemRows(s)), s.nuisances, plate().knots,
+                                     fit.optimum, kEta, {0.0}, 4.0)
+                          .chi2;
   EXPECT_NEAR(one / four, 4.0, 1e-6);
 }
 

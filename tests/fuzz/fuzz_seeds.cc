@@ -12,6 +12,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "apps/decoded_shot.h"
 #include "apps/led_calibration_file.h"
 #include "apps/radiance_file.h"
 #include "apps/rig.h"
@@ -93,7 +94,8 @@ int main(int count, char** words) {
   }
   const fs::path source = words[1];
   const fs::path out = words[2];
-  for (const char* door : {"rig", "calibration", "mesh", "picture", "probe", "raw", "result"}) {
+  for (const char* door :
+       {"rig", "calibration", "mesh", "picture", "probe", "raw", "result", "cache"}) {
     fs::create_directories(out / door);
   }
   raws(out / "raw");
@@ -103,6 +105,16 @@ int main(int count, char** words) {
   write(out / "result/result.json",
         scattermeter::apps::made_result({{"PP", {{0.62, 0.7, 0.8}, {0.0012, 0.001, 0.0018}}}})
             .dump(1));
+  scattermeter::apps::DecodedShot shot;
+  for (scattermeter::ChannelObservation& o : shot.observation.channel) {
+    o.l = o.variance = o.variance_per_l = o.l_per_count = {0.5, 0.25};
+    o.state = {scattermeter::RowState::kUsed, scattermeter::RowState::kClipped};
+    o.rows_used = 1;
+    o.exposures = {{o.l, 2}};
+  }
+  shot.exposures = {{"a.dng", 0.1, 0.1, 0.01, 0.2, {}}};
+  const std::vector<std::uint8_t> bytes = scattermeter::apps::to_bytes(shot);
+  write(out / "cache/a.shot", {bytes.begin(), bytes.end()});
   for (const char* mesh : {"cube.obj", "pyramid_on_pedestal.obj"}) {
     copy_into(source / "samples/three_plastics" / mesh, out / "mesh");
   }

@@ -1,0 +1,76 @@
+#include "apps/shot_cache.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "apps/digest.h"
+#include "apps/result_json.h"
+#include "core/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+constexpr const char* kEnding = ".shot";
+constexpr std::size_t kDigestLength = 64;
+
+std::string digest_of(const std::string& content) {
+  return Digest().bytes(content.data(), content.size()).hex();
+}
+
+}  // namespace
+
+std::string ShotCache::path_of(const std::string& key) const {
+  return folder_ + "/" + key + kEnding;
+}
+
+std::optional<DecodedShot> ShotCache::find(const std::string& key) {
+  std::ifstream in(path_of(key), std::ios::binary);
+  if (!in) return std::nullopt;
+  std::string digest(kDigestLength, '\0');
+  if (!in.read(digest.data(), kDigestLength)) return std::nullopt;
+  const std::string content((std::istreambuf_iterator<char>(in)), {});
+  if (digest_of(content) != digest) return std::nullopt;
+  std::optional<DecodedShot> shot =
+      decoded_shot({reinterpret_cast<const std::uint8_t*>(content.data()), content.size()});
+  if (!shot) return std::nullopt;
+  ++found_;
+  const std::lock_guard lock(mutex_);
+  used_.insert(key + kEnding);
+  return shot;
+}
+
+void ShotCache::keep(const std::string& key, const DecodedShot& shot) {
+  const std::vector<std::uint8_t> bytes = to_bytes(shot);
+  const std::string content(bytes.begin(), bytes.end());
+  std::string problem;
+  try {
+    write_text_file(path_of(key), digest_of(content) + content);
+  } catch (const InputError& e) {
+    problem = e.what();
+  }
+  const std::lock_guard lock(mutex_);
+  if (problem_.empty()) problem_ = problem;
+  used_.insert(key + kEnding);
+}
+
+void ShotCache::remove_others() {
+  const std::lock_guard lock(mutex_);
+  std::error_code ignored;
+  std::vector<std::filesystem::path> others;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored)) {
+    const std::filesystem::path& path = entry.path();
+    if (path.extension() == kEnding && !used_.contains(path.filename())) others.push_back(path);
+  }
+  for (const std::filesystem::path& path : others) std::filesystem::remove(path, ignored);
+}
+
+std::string ShotCache::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
+}
+
+}  // namespace scattermeter::apps

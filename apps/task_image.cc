@@ -1,0 +1,131 @@
+#include "apps/task_image.h"
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/dipole_curve.h"
+#include "core/numerics.h"
+
+namespace scattermeter::apps {
+namespace {
+
+std::vector<Eigen::Index> used_rows(const ChannelObservation& o) {
+  std::vector<Eigen::Index> rows;
+  rows.reserve(o.rows_used);
+  for (std::size_t j = 0; j < o.state.size(); ++j) {
+    if (o.state[j] == RowState::kUsed) rows.push_back(static_cast<Eigen::Index>(j));
+  }
+  return rows;
+}
+
+double sigma_t_per_mm(const Medium& medium) {
+  return medium.sigma_s_prime_per_mm + medium.sigma_a_per_mm;
+}
+
+Eigen::VectorXd reflectance(const LitMedium& first, const DistanceKnots& knots, double eta) {
+  const double sigma_t = sigma_t_per_mm(first.medium);
+  return first.scale *
+         dipole_curve(knots, std::log(sigma_t), first.medium.sigma_a_per_mm / sigma_t, eta).r;
+}
+
+}  // namespace
+
+TaskImage::TaskImage(const Rig& rig, const Task& task, const TaskRows& rows, const Weights& weights,
+                     const DistanceKnots& knots, const LitMedium& first,
+                     const std::map<LightKey, TaskSensitivity>& sensitivities,
+                     std::optional<double> patch_mm)
+    : rig_(rig),
+      task_(task),
+      rows_(rows),
+      weights_(weights),
+      knots_(knots),
+      first_(first),
+      r_(reflectance(first, knots, task.eta)),
+      rig_nuisances_(rig, task.channel, sensitivities),
+      patch_mm_(patch_mm) {
+  for (std::size_t s = 0; s < shots(); ++s) {
+    for (const NuisanceColumn& c : rig_nuisances_.columns(*task.shots[s], rows[s], {})) {
+      const auto next = static_cast<Eigen::Index>(nuisances_.size());
+      if (place_.try_emplace(c.nuisance.name, next).second) nuisances_.push_back(c.nuisance);
+    }
+  }
+  if (shots() == 0) return;
+  DenseSystem one = rows_of_shot(0);
+  const auto held = static_cast<Eigen::Index>(one.nuisances.size());
+  octaves_ = held - 1;
+  nuisances_.insert(nuisances_.end(), static_cast<std::size_t>(octaves_) + shots(),
+                    one.nuisances.front());
+}
+
+DenseSystem TaskImage::rows_of_shot(std::size_t s) const {
+  DenseSystem system =
+      system_of(rig_, task_, s, rows_[s], weights_, 1.0 / sigma_t_per_mm(first_.medium), patch_mm_);
+  add_numerics(knots_, r_, patch_mm_.value_or(patch_size_mm(task_)),
+               {first_.medium.sigma_s_prime_per_mm, first_.medium.sigma_a_per_mm, task_.eta},
+               system);
+  return system;
+}
+
+ShotSystem TaskImage::shot(std::size_t s) const {
+  auto system = std::make_shared<DenseSystem>(rows_of_shot(s));
+  const std::vector<NuisanceColumn> own =
+      rig_nuisances_.columns(*task_.shots[s], rows_[s], used_rows(rows_[s]));
+  // The rig's first, as in the image's list.
+  const auto n_own = static_cast<Eigen::Index>(own.size());
+  Eigen::MatrixXd columns(system->l.size(), n_own + system->nuisance_columns.cols());
+  ShotSystem out;
+  std::vector<Nuisance> nuisances;
+  std::map<Eigen::Index, const NuisanceColumn*> in_order;
+  for (const NuisanceColumn& c : own) in_order[place_.at(c.nuisance.name)] = &c;
+  for (const auto& [place, c] : in_order) {
+    columns.col(static_cast<Eigen::Index>(nuisances.size())) = c->change;
+    nuisances.push_back(c->nuisance);
+    out.nuisances.push_back(place);
+  }
+  columns.rightCols(system->nuisance_columns.cols()) = system->nuisance_columns;
+  const auto first_held = static_cast<Eigen::Index>(place_.size());
+  for (Eigen::Index o = 0; o < octaves_; ++o) out.nuisances.push_back(first_held + o);
+  out.nuisances.push_back(first_held + octaves_ + static_cast<Eigen::Index>(s));
+  nuisances.insert(nuisances.end(), system->nuisances.begin(), system->nuisances.end());
+  system->nuisance_columns = std::move(columns);
+  system->nuisances = std::move(nuisances);
+  out.system = std::move(system);
+  return out;
+}
+
+FirstTaskImage::FirstTaskImage(const Rig& rig, const Task& task, const TaskRows& rows,
+                               const Weights& weights)
+    : rig_(rig), task_(task), rows_(rows), weights_(weights), has_ambient_(task.shots.size()) {
+  bool any = false;
+  for (std::size_t s = 0; s < task.shots.size(); ++s) {
+    for (const std::string& name : task.shots[s]->rig->lights) {
+      const RigLight& light = rig.light(name);
+      if (light.ambient_std_W_per_mm2_sr[static_cast<Eigen::Index>(task.channel)] > 0.0) {
+        has_ambient_[s] = any = true;
+      }
+    }
+  }
+  if (!any) return;
+  nuisances_.push_back({"ambient", std::numeric_limits<double>::infinity(), true});
+  std::size_t used = 0;
+  for (const ChannelObservation& o : rows) {
+    for (const Eigen::Index j : used_rows(o)) mean_l_ += o.l[static_cast<std::size_t>(j)];
+    used += o.rows_used;
+  }
+  if (used > 0) mean_l_ /= static_cast<double>(used);
+}
+
+ShotSystem FirstTaskImage::shot(std::size_t s) const {
+  auto system = std::make_shared<DenseSystem>(system_of(rig_, task_, s, rows_[s], weights_, 0.0));
+  ShotSystem out;
+  if (has_ambient_[s]) {
+    system->nuisances = nuisances_;
+    system->nuisance_columns = Eigen::MatrixXd::Constant(system->l.size(), 1, mean_l_);
+    out.nuisances = {0};
+  }
+  out.system = std::move(system);
+  return out;
+}
+
+}  // namespace scattermeter::apps

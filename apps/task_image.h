@@ -1,0 +1,70 @@
+// The images that the dipole is fitted to, one shot of a task at a time.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/estimation_task.h"
+#include "apps/nuisances.h"
+#include "core/distance_weights.h"
+#include "core/image_rows.h"
+
+namespace scattermeter::apps {
+
+// The used rows of the task under all their lights, with all that the rig knows only to a standard
+// deviation (apps/nuisances.h) and with the errors of the method (core/numerics.h). What it is made
+// of must outlive it, the rows as well: those that are left out later are gone from the image.
+class TaskImage final : public ImageRows {
+ public:
+  // first: the material as known so far, for which nuisances and errors are computed.
+  // sensitivities: of every view and light of the task. patch_mm: of the patches whose errors these
+  // are; absent: the task's.
+  TaskImage(const Rig& rig, const Task& task, const TaskRows& rows, const Weights& weights,
+            const DistanceKnots& knots, const LitMedium& first,
+            const std::map<LightKey, TaskSensitivity>& sensitivities,
+            std::optional<double> patch_mm = std::nullopt);
+  std::size_t shots() const override { return task_.shots.size(); }
+  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
+  ShotSystem shot(std::size_t shot) const override;
+
+ private:
+  // Without nuisances.
+  DenseSystem rows_of_shot(std::size_t shot) const;
+
+  const Rig& rig_;
+  const Task& task_;
+  const TaskRows& rows_;
+  const Weights& weights_;
+  const DistanceKnots& knots_;
+  LitMedium first_;
+  Eigen::VectorXd r_;  // of that material, times the scale, on the knots
+  RigNuisances rig_nuisances_;
+  std::optional<double> patch_mm_;
+  std::vector<Nuisance> nuisances_;
+  std::map<std::string, Eigen::Index> place_;  // of the rig's, by name
+  Eigen::Index octaves_ = 0;                   // numerics that the shots share
+};
+
+// The same before anything is known of the material: no nuisances but ambient light, which stands
+// as a free constant in the shots that it falls into (on a body without hollows it is nearly that).
+class FirstTaskImage final : public ImageRows {
+ public:
+  FirstTaskImage(const Rig& rig, const Task& task, const TaskRows& rows, const Weights& weights);
+  std::size_t shots() const override { return task_.shots.size(); }
+  const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
+  ShotSystem shot(std::size_t shot) const override;
+
+ private:
+  const Rig& rig_;
+  const Task& task_;
+  const TaskRows& rows_;
+  const Weights& weights_;
+  double mean_l_ = 0;
+  std::vector<bool> has_ambient_;  // by shot
+  std::vector<Nuisance> nuisances_;
+};
+
+}  // namespace scattermeter::apps

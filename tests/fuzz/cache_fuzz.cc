@@ -1,0 +1,12 @@
+// Any bytes as a decoded shot of a cache: read, or none.
+#include <cstddef>
+#include <cstdint>
+
+#include "apps/decoded_shot.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  (void)scattermeter::apps::decoded_shot({data, size});
+  return 0;
+}
