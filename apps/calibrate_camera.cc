@@ -14,7 +14,6 @@
 #include "apps/grey_picture.h"
 #include "apps/raw_shot.h"
 #include "apps/rig_camera_calibration.h"
-#include "apps/rig_limits.h"
 #include "apps/text_table.h"
 #include "apps/version.h"
 #include "calib/camera_calibration_file.h"
@@ -78,7 +77,8 @@ void read_shot_of_board(const calib::CalibrationBoard& board, const std::string&
     picture = read_grey_picture(shot->path, max_megapixels);
   } catch (const InputError& error) {
     if (must_be_picture) throw;
-    shot->fault = "is no picture that can be read";
+    const std::string problem = error.what();  // "path: what is wrong"
+    shot->fault = problem.substr(std::min(problem.size(), shot->path.size() + 2));
     return;
   }
   shot->width_px = picture.frame_width_px;
@@ -151,7 +151,7 @@ CameraCalibrationRun calibrate_camera_shots(const CalibrateCameraOptions& option
   run.board = options.board;
   calib::CameraCalibrationOptions calib_options{options.board_std_mm, options.model};
   std::string model;
-  double max_megapixels = RigLimits{}.raw_megapixels;
+  double max_megapixels = options.max_megapixels;
   std::pair<int, int> size{0, 0};
   std::vector<std::string> files = options.shots;
   bool must_be_picture = true;

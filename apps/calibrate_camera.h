@@ -16,6 +16,7 @@ struct CalibrateCameraOptions {
   calib::CalibrationBoard board;          // without a rig
   double board_std_mm = 0;                // without a rig
   std::optional<calib::LensModel> model;  // absent: by cross-validation
+  double max_megapixels = 400;            // that a shot may claim; with a rig: its limits
   std::string out;                        // the file to write
   std::string command_line;               // for the file's head
 };

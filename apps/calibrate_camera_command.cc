@@ -73,6 +73,13 @@ void add_calibrate_camera(CLI::App& calibrate, CommandContext& context) {
       ->check(CLI::NonNegativeNumber)
       ->excludes(rig)
       ->capture_default_str();
+  command
+      ->add_option("--max-megapixels", options->run.max_megapixels,
+                   "a shot that claims more is refused before memory is taken for it (with --rig: "
+                   "limits.raw_megapixels)")
+      ->check(CLI::Range(1e-6, 2000.0))
+      ->excludes(rig)
+      ->capture_default_str();
   command->callback([options, &context] {
     context.chosen = [options, &context] {
       CalibrateCameraOptions& run_options = options->run;

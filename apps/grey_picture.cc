@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
+#include <fmt/core.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "calib/opencv_quiet.h"
+#include "capture/picture_claim.h"
 #include "capture/raw_reader.h"
 #include "core/input_error.h"
 
@@ -22,6 +26,27 @@ bool is_ordinary_picture(const std::string& path) {
   static const std::set<std::string> kEndings = {".jpg", ".jpeg", ".png", ".tif", ".tiff",
                                                  ".bmp", ".pgm",  ".ppm", ".webp"};
   return kEndings.contains(ending);
+}
+
+// OpenCV itself takes memory for up to 2^30 pixels, and reads more formats than cameras write.
+capture::PictureClaim claim_within(const std::string& path, double max_megapixels) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw InputError(path, "there is no such file");
+  std::ifstream file(path, std::ios::binary);
+  const auto claim = capture::picture_claim(file);
+  if (!claim) throw InputError(path, "is no picture, or a damaged one");
+  if (1e-6 * claim->pixels > max_megapixels) {
+    throw InputError(
+        path,
+        fmt::format(
+            "claims {} x {} pixels{}, more than the allowed {} megapixels "
+            "(limits.raw_megapixels of the rig, --max-megapixels without one)",
+            claim->width_px, claim->height_px,
+            claim->pixels > 1.0 * claim->width_px * claim->height_px ? " in larger tiles" : "",
+            max_megapixels));
+  }
+  return *claim;
 }
 
 }  // namespace
@@ -69,9 +94,7 @@ GreyPicture grey_picture(const capture::RawFrame& frame) {
 
 GreyPicture read_grey_picture(const std::string& path, double max_megapixels) {
   if (!is_ordinary_picture(path)) return grey_picture(capture::read_raw(path, max_megapixels));
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw InputError(path, "there is no such file");
+  const capture::PictureClaim claim = claim_within(path, max_megapixels);
   const calib::OpencvQuiet quiet;
   cv::Mat picture;
   try {
@@ -80,7 +103,10 @@ GreyPicture read_grey_picture(const std::string& path, double max_megapixels) {
   } catch (const cv::Exception& e) {
     throw InputError(path, "the picture cannot be read: " + e.err);
   }
-  if (picture.empty()) throw InputError(path, "is no picture, or a damaged one");
+  if (picture.empty() || static_cast<std::uint32_t>(picture.cols) != claim.width_px ||
+      static_cast<std::uint32_t>(picture.rows) != claim.height_px) {
+    throw InputError(path, "is no picture, or a damaged one");
+  }
   cv::Mat_<float> grey;
   picture.convertTo(grey, CV_32F);
   GreyPicture out;

@@ -29,7 +29,7 @@ GreyPicture grey_picture(const capture::RawFrame& frame);
 // By the file's ending: jpg, jpeg, png, tif, tiff, bmp, pgm, ppm, webp through OpenCV, as stored
 // (EXIF's rotation is not applied: a lens belongs to the sensor), colours to grey, the values
 // linear or not as they are; anything else is a raw (capture/raw_reader.h). Throws InputError
-// naming the file.
+// naming the file, also where it claims more than `max_megapixels`, before memory is taken for it.
 GreyPicture read_grey_picture(const std::string& path, double max_megapixels);
 
 }  // namespace scattermeter::apps

@@ -1,10 +1,12 @@
 #include "capture/hdr_file.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <sstream>
-
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <vector>
 
 #include "core/input_error.h"
 
@@ -27,11 +29,15 @@ Header read_header(const std::string& path, const std::string& bytes) {
     return true;
   };
   std::string line;
+  bool has_format = false;
   while (next_line(line) && !line.empty()) {
-    if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe") {
+    if (!line.starts_with("FORMAT=")) continue;
+    has_format = true;
+    if (line != "FORMAT=32-bit_rle_rgbe") {
       throw InputError(path, line + " is not read, only 32-bit_rle_rgbe");
     }
   }
+  if (!has_format) throw InputError(path, "its header names no FORMAT");
   if (!next_line(line)) throw InputError(path, "is cut short in its header");
   std::istringstream size(line);
   std::string minus_y;
@@ -47,30 +53,65 @@ Header read_header(const std::string& path, const std::string& bytes) {
   return {static_cast<int>(width), static_cast<int>(height), at};
 }
 
-// Whether the pixels from byte `at` on are all there. (The decoder leaves rows that are missing as
-// they come, or says so on its own.)
-bool complete(const std::string& bytes, std::size_t at, const Header& header) {
+// Four bytes of a pixel: mantissas of R, G, B over 256 and their common exponent, 128 more than it
+// is; exponent byte 0 is black (G. Ward, Real Pixels, Graphics Gems II, 1991).
+void append_pixel(const std::uint8_t* rgbe, std::vector<float>* radiance) {
+  const float unit = rgbe[3] == 0 ? 0.0F : std::ldexp(1.0F, rgbe[3] - (128 + 8));
+  for (int c = 0; c < 3; ++c) radiance->push_back(unit * static_cast<float>(rgbe[c]));
+}
+
+// One row from byte `at` on, its four channels one after the other in `row`, each in runs and
+// literals. False where it is cut short or damaged; `at` is then somewhere in it.
+bool decode_runs(const std::string& bytes, std::size_t width, std::size_t& at,
+                 std::vector<std::uint8_t>* row) {
+  row->clear();
+  for (std::size_t end = width; end <= 4 * width; end += width) {
+    while (row->size() < end) {
+      if (at >= bytes.size()) return false;
+      const std::size_t code = static_cast<std::uint8_t>(bytes[at++]);
+      const bool run = code > 128;
+      const std::size_t count = run ? code - 128 : code;
+      if (count == 0 || row->size() + count > end || bytes.size() - at < (run ? 1 : count)) {
+        return false;
+      }
+      if (run) {
+        row->insert(row->end(), count, static_cast<std::uint8_t>(bytes[at++]));
+      } else {
+        const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+        row->insert(row->end(), first, first + static_cast<std::ptrdiff_t>(count));
+        at += count;
+      }
+    }
+  }
+  return true;
+}
+
+// The pixels from byte `at` on. False where they are cut short or damaged.
+bool decode_pixels(const std::string& bytes, std::size_t at, const Header& header,
+                   std::vector<float>* radiance) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); };
   const auto width = static_cast<std::size_t>(header.width);
+  std::vector<std::uint8_t> row;
   for (int y = 0; y < header.height; ++y) {
     const bool run_length = width >= 8 && width < 32768 && at + 4 <= bytes.size() &&
                             byte(at) == 2 && byte(at + 1) == 2 && (byte(at + 2) & 0x80) == 0;
     if (!run_length) {
       // From the first flat row on, all are flat.
-      const std::size_t rows = static_cast<std::size_t>(header.height - y);
-      return bytes.size() - at >= 4 * width * rows;
+      const std::size_t pixels = width * static_cast<std::size_t>(header.height - y);
+      if ((bytes.size() - at) / 4 < pixels) return false;
+      for (std::size_t i = 0; i < pixels; ++i, at += 4) {
+        append_pixel(std::array{byte(at), byte(at + 1), byte(at + 2), byte(at + 3)}.data(),
+                     radiance);
+      }
+      return true;
     }
     if (static_cast<std::size_t>(byte(at + 2)) * 256 + byte(at + 3) != width) return false;
     at += 4;
-    for (int channel = 0; channel < 4; ++channel) {
-      for (std::size_t x = 0; x < width;) {
-        if (at >= bytes.size()) return false;
-        const std::size_t code = byte(at);
-        const std::size_t count = code > 128 ? code - 128 : code;
-        at += code > 128 ? 2 : 1 + code;
-        x += count;
-        if (count == 0 || x > width || at > bytes.size()) return false;
-      }
+    if (!decode_runs(bytes, width, at, &row)) return false;
+    for (std::size_t x = 0; x < width; ++x) {
+      append_pixel(
+          std::array{row[x], row[width + x], row[2 * width + x], row[3 * width + x]}.data(),
+          radiance);
     }
   }
   return true;
@@ -93,27 +134,11 @@ ProbeImage decode_hdr(const std::string& path, const std::string& bytes,
                                std::to_string(limits.max_pixels) +
                                " are read (limits.probe_megapixels of the rig)");
   }
-  if (!complete(bytes, header.size, header)) {
-    throw InputError(path, "is cut short or damaged in its pixels");
-  }
-  cv::Mat image;
-  try {
-    const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U,
-                         const_cast<char*>(bytes.data()));  // NOLINT: OpenCV's Mat is not const
-    image = cv::imdecode(buffer, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception& e) {
-    throw InputError(path, "cannot be decoded: " + e.err);
-  }
-  if (image.cols != header.width || image.rows != header.height || image.type() != CV_32FC3) {
-    throw InputError(path, "cannot be decoded");
-  }
   ProbeImage probe{header.width, header.height, {}};
-  probe.radiance.reserve(3 * pixels);
-  for (int y = 0; y < image.rows; ++y) {
-    const auto* row = image.ptr<cv::Vec3f>(y);
-    for (int x = 0; x < image.cols; ++x) {
-      for (int c : {2, 1, 0}) probe.radiance.push_back(row[x][c]);  // stored B G R
-    }
+  // No byte of a file stands for more than 127 pixels.
+  probe.radiance.reserve(3 * std::min(pixels, 127 * bytes.size()));
+  if (!decode_pixels(bytes, header.size, header, &probe.radiance)) {
+    throw InputError(path, "is cut short or damaged in its pixels");
   }
   return probe;
 }

@@ -69,7 +69,7 @@ TEST(Layering, EachForeignLibraryHasItsDoor) {
       {"OpenEXR/", "capture/exr_file\\.cc"},
       {"opencv2/",
        "calib/[a-z_]+\\.cc|calib/(charuco_opencv|opencv_storage|tone_picture)\\.h|"
-       "capture/hdr_file\\.cc|apps/(overlay_picture|picture|grey_picture)\\.cc"},
+       "apps/(overlay_picture|picture|grey_picture)\\.cc"},
       {"embree", "core/ray_scene\\.cc"},
       {"hwy/", "core/(dipole_kernels|cluster_verdicts)\\.cc"},
       {"ceres/", "core/dipole_solver\\.cc|calib/[a-z_]+\\.cc"},

@@ -1,6 +1,7 @@
 #include "apps/grey_picture.h"
 
 #include <fstream>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +49,28 @@ TEST(GreyPicture, FilesAreTakenByTheirEnding) {
   for (const char* bad : {"b.png", "c.nef", "missing.jpg"}) {
     EXPECT_THROW(read_grey_picture(folder / bad, 400), InputError) << bad;
   }
+}
+
+// Refused by its head, whatever follows: 900 megapixels that are not there.
+TEST(GreyPicture, ClaimsAreHeldToTheLimit) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.pgm";
+  std::ofstream(path, std::ios::binary) << "P5 30000 30000 255\n";
+  try {
+    read_grey_picture(path, 400);
+    FAIL() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_EQ(std::string(e.what()),
+              path +
+                  ": claims 30000 x 30000 pixels, more than the allowed 400 megapixels "
+                  "(limits.raw_megapixels of the rig, --max-megapixels without one)");
+  }
+  std::ofstream(path, std::ios::binary) << "P5 3 2 255\n" << std::string(6, '\1');
+  EXPECT_THROW(read_grey_picture(path, 5e-6), InputError);
+  EXPECT_EQ(read_grey_picture(path, 6e-6).width_px, 3);
+  // By its name a PNG, by its bytes what no camera writes.
+  std::ofstream(folder / "a.png") << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\1\1\1\1";
+  EXPECT_THROW(read_grey_picture(folder / "a.png", 400), InputError);
 }
 
 }  // namespace

@@ -63,6 +63,17 @@ TEST(HdrFile, RefusesEveryTruncation) {
   }
 }
 
+// Mantissa over 256 times two to the exponent byte less 128; an exponent of 0 is black.
+TEST(HdrFile, ValuesAreTheFormats) {
+  const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 3\n";
+  const std::string pixels("\x80\x40\x01\x81\xff\xff\xff\x00\xff\x00\x80\xff", 12);
+  const ProbeImage read = decode_hdr("p.hdr", head + pixels, {});
+  const float largest = 1.7014118e38F;  // 2^127
+  EXPECT_EQ(read.radiance, (std::vector<float>{1.0F, 0.5F, 1 / 128.0F, 0, 0, 0,
+                                               255.0F / 256 * largest, 0, 0.5F * largest}));
+  EXPECT_THAT(refusal("#?RADIANCE\n\n-Y 1 +X 3\n" + pixels), HasSubstr("names no FORMAT"));
+}
+
 TEST(HdrFile, RefusesDamagedRuns) {
   std::string bytes = hdr_bytes(random_probe(21, 5));
   const std::size_t first_row = bytes.find("+X 21\n") + 6;

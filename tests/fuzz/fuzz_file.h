@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "core/input_error.h"
@@ -17,11 +18,13 @@ class FuzzFile {
   FuzzFile(const FuzzFile&) = delete;
   FuzzFile& operator=(const FuzzFile&) = delete;
   ~FuzzFile();
+  // A copy of that file in the same folder, for what a fuzzed file refers to.
+  void put_beside(const std::string& path) const;
   // The path, now with these bytes.
   const std::string& with(const std::uint8_t* data, std::size_t size) const;
 
  private:
-  std::string folder_;
+  std::filesystem::path folder_;
   std::string path_;
 };
 

@@ -1,5 +1,6 @@
 // fuzz_seeds SOURCE OUT: small files that the doors accept, for the fuzzers to begin with: made
-// here, or taken from the sources (samples, the rigs of the tests).
+// here, or taken from the sources (seeds/ beside this file, samples). The rigs and calibrations are
+// read here: one that a door no longer accepts ends this program.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -8,16 +9,28 @@
 #include <string>
 #include <vector>
 
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
 #include "apps/decoded_shot.h"
+#include "apps/led_calibration_file.h"
+#include "apps/radiance_file.h"
+#include "apps/rig.h"
+#include "calib/camera_calibration_file.h"
 #include "capture/dng_writer.h"
 #include "tests/apps/made_result.h"
 
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 
 void write(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
+}
+
+void copy_into(const fs::path& from, const fs::path& folder) {
+  fs::copy_file(from, folder / from.filename(), fs::copy_options::overwrite_existing);
 }
 
 void raws(const fs::path& folder) {
@@ -49,20 +62,27 @@ void probes(const fs::path& folder) {
   write(folder / "runs.hdr", runs);
 }
 
-void copy_into(const fs::path& from, const fs::path& folder) {
-  fs::copy_file(from, folder / from.filename(), fs::copy_options::overwrite_existing);
+// The rig refers to the calibrations by their names: all stand in one folder while they are read.
+void rigs_and_calibrations(const fs::path& seeds, const fs::path& out) {
+  namespace apps = scattermeter::apps;
+  scattermeter::calib::read_camera_calibration_file(seeds / "camera.yaml");
+  apps::read_led_calibration_file(seeds / "led.yaml");
+  apps::read_radiance_file(seeds / "radiance.yaml");
+  for (const char* name : {"camera.yaml", "led.yaml", "radiance.yaml"}) {
+    copy_into(seeds / name, out / "calibration");
+  }
+  for (const char* name : {"rig.yaml", "calibrated_rig.yaml"}) {
+    apps::read_rig(seeds / name);
+    copy_into(seeds / name, out / "rig");
+  }
 }
 
-void calibrations(const fs::path& folder) {
-  write(
-      folder / "camera.yaml",
-      "%YAML:1.0\n---\nimage_width: 480\nimage_height: 320\ncamera_matrix: !!opencv-matrix\n"
-      "   rows: 3\n   cols: 3\n   dt: d\n   data: [ 520., 0., 240., 0., 520., 160., 0., 0., 1. ]\n"
-      "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n"
-      "   data: [ -0.1, 0.05, 0., 0., 0. ]\n");
-  write(folder / "led.yaml",
-        "scattermeter_led: 1\nlight: led1\nposition_mm: [1, 2, 3]\naxis: [0, 0, -1]\n");
-  write(folder / "radiance.yaml", "scattermeter_radiance: 1\nmodel: NIKON D80\n");
+void pictures(const fs::path& folder) {
+  cv::Mat picture(20, 30, CV_8UC3);
+  cv::randu(picture, 0, 256);
+  for (const char* ending : {".png", ".jpg", ".tif", ".bmp", ".ppm", ".webp"}) {
+    cv::imwrite(folder / ("a"s + ending), picture);
+  }
 }
 
 }  // namespace
@@ -74,12 +94,14 @@ int main(int count, char** words) {
   }
   const fs::path source = words[1];
   const fs::path out = words[2];
-  for (const char* door : {"rig", "calibration", "mesh", "probe", "raw", "result", "cache"}) {
+  for (const char* door :
+       {"rig", "calibration", "mesh", "picture", "probe", "raw", "result", "cache"}) {
     fs::create_directories(out / door);
   }
   raws(out / "raw");
   probes(out / "probe");
-  calibrations(out / "calibration");
+  rigs_and_calibrations(source / "tests/fuzz/seeds", out);
+  pictures(out / "picture");
   write(out / "result/result.json",
         scattermeter::apps::made_result({{"PP", {{0.62, 0.7, 0.8}, {0.0012, 0.001, 0.0018}}}})
             .dump(1));
@@ -95,10 +117,6 @@ int main(int count, char** words) {
   write(out / "cache/a.shot", {bytes.begin(), bytes.end()});
   for (const char* mesh : {"cube.obj", "pyramid_on_pedestal.obj"}) {
     copy_into(source / "samples/three_plastics" / mesh, out / "mesh");
-  }
-  copy_into(source / "samples/three_plastics/rig.yaml", out / "rig");
-  for (const char* rig : {"rough.yaml", "truth.yaml"}) {
-    copy_into(source / "samples/from_scratch" / rig, out / "rig");
   }
   return 0;
 }

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""campaign_test.py PROGRAM SNAKEFILE: twenty small folders, two at a time, killed in the middle and resumed.
+"""campaign_test.py PROGRAM SNAKEFILE KILLS: twenty small folders, two at a time, killed in the middle and resumed.
 
-Every folder ends up measured once, with the digits of a run by hand. Status 77: Snakemake is not there.
+Every folder ends up measured once, with the digits of a run by hand. Then KILLS times kill -9 at random
+moments of a smaller campaign, resumed each time. Status 77: Snakemake is not there.
 """
 import json
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -17,8 +19,10 @@ from pathlib import Path
 from small_rig import write_small_rig
 
 PROGRAM, SNAKEFILE = (Path(p).resolve() for p in sys.argv[1:3])
+KILLS = int(sys.argv[3])
 SAMPLE = SNAKEFILE.parent.parent / "three_plastics"
 FOLDERS = 20
+FEW = 4  # of the campaign that is killed at random
 
 
 class Campaign(unittest.TestCase):
@@ -34,19 +38,26 @@ class Campaign(unittest.TestCase):
             shutil.copytree(self.home / "shots", self.home / folder)
             lines.append(f"  {json.dumps(folder)}: {{shots: {json.dumps(folder)}, rig: rig.yaml}}")
         (self.home / "campaign.yaml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+        (self.home / "few.yaml").write_text("\n".join(lines[:3 + FEW]) + "\n", encoding="utf-8")
         counted = self.home / "counted"
         # Notes every measurement that came to its end.
         counted.write_text(f'#!/bin/sh\n"{PROGRAM}" "$@" || [ $? -eq 1 ] || exit 2\n'
                            f'echo "$3" >>"{self.home}/done"\n', encoding="utf-8")
         counted.chmod(0o755)
 
-    def run_campaign(self, *more, **options):
-        command = ["snakemake", "--snakefile", str(SNAKEFILE), "--configfile", str(self.home / "campaign.yaml"),
+    def run_campaign(self, *more, config="campaign.yaml", **options):
+        command = ["snakemake", "--snakefile", str(SNAKEFILE), "--configfile", str(self.home / config),
                    "--directory", str(self.home / "out"), "--cores", "2", "--nolock", *more]
         # Not in the log of the test, but for what fails.
         log = open(self.home / "log", "ab")
         self.addCleanup(log.close)
         return subprocess.Popen(command, stdout=log, stderr=log, start_new_session=True, **options)
+
+    def by_hand(self):
+        """The results of the folders, which are all alike."""
+        subprocess.run([PROGRAM, "-q", "measure", self.home / "shots", "--rig", self.home / "rig.yaml", "--out",
+                        self.home / "by hand", "--model", "dipole"], check=False)
+        return json.loads((self.home / "by hand" / "result.json").read_text(encoding="utf-8"))["results"]
 
     def measured(self):
         done = self.home / "done"
@@ -73,9 +84,7 @@ class Campaign(unittest.TestCase):
         self.assertLessEqual(len(again), 2)
         self.assertLessEqual(len(self.measured()), FOLDERS + 2)
         self.assertEqual(len(set(self.measured())), FOLDERS)
-        subprocess.run([PROGRAM, "-q", "measure", self.home / "shots", "--rig", self.home / "rig.yaml", "--out",
-                        self.home / "by hand", "--model", "dipole"], check=False)
-        expected = json.loads((self.home / "by hand" / "result.json").read_text(encoding="utf-8"))["results"]
+        expected = self.by_hand()
         for path in results:
             self.assertEqual(json.loads(path.read_text(encoding="utf-8"))["results"], expected)
         table = (self.home / "out" / "summary.csv").read_text(encoding="utf-8").splitlines()
@@ -86,6 +95,44 @@ class Campaign(unittest.TestCase):
         third = self.run_campaign()
         self.assertEqual(third.wait(), 0)
         self.assertEqual(len(self.measured()), count)  # nothing left to do
+
+    def check_final_names(self, expected, whole):
+        """What stands under a final name is whole; `whole`: and all of it is there."""
+        out = self.home / "out"
+        results = list(out.glob("results/*/result.json"))
+        for path in results:
+            self.assertEqual(json.loads(path.read_text(encoding="utf-8"))["results"], expected)
+        if whole:
+            self.assertEqual(len(results), FEW)
+        if whole or (out / "summary.csv").exists():
+            table = (out / "summary.csv").read_text(encoding="utf-8").splitlines()
+            self.assertEqual(len(table), 1 + FEW * len(expected))
+        if whole or (out / "summary.html").exists():
+            self.assertTrue((out / "summary.html").read_text(encoding="utf-8").rstrip().endswith("</html>"))
+
+    def test_killed_at_random_moments(self):
+        expected = self.by_hand()
+        began = time.monotonic()
+        self.assertEqual(self.run_campaign(config="few.yaml").wait(), 0)
+        takes = time.monotonic() - began
+        self.check_final_names(expected, True)
+        shutil.rmtree(self.home / "out")
+        draw = random.Random(7)
+        killed = 0
+        while killed < KILLS:
+            run = self.run_campaign("--rerun-incomplete", config="few.yaml")
+            try:
+                self.assertEqual(run.wait(timeout=draw.uniform(0, takes)), 0, (self.home / "log").read_text())
+                self.check_final_names(expected, True)
+                shutil.rmtree(self.home / "out")  # came to its end: begin anew
+            except subprocess.TimeoutExpired:
+                os.killpg(run.pid, signal.SIGKILL)
+                run.wait()
+                killed += 1
+                self.check_final_names(expected, False)
+        self.assertEqual(self.run_campaign("--rerun-incomplete", config="few.yaml").wait(), 0,
+                         (self.home / "log").read_text())
+        self.check_final_names(expected, True)
 
     def test_a_missing_folder_is_named(self):
         shutil.rmtree(self.home / "day 07")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""ranks_test.py PROGRAM SAMPLES: one Monte Carlo simulation by 1, 2 and 4 ranks of Open MPI.
+"""ranks_test.py PROGRAM SAMPLES: one Monte Carlo, of raws or of pictures, by 1, 2 and 4 ranks of Open MPI.
 
-The raws are those of a run without mpirun, byte by byte; one rank writes and speaks; an error of one
+The files are those of a run without mpirun, byte by byte; one rank writes and speaks; an error of one
 rank is told once and ends all. Status 77: mpirun is not there.
 """
 import filecmp
@@ -18,13 +18,13 @@ PROGRAM, SAMPLES = (Path(p).resolve() for p in sys.argv[1:3])
 VOLUME = ["--transport", "volume", "--paths", "6400", "--seed", "5"]
 
 
-def run(*words):
+def run(*words, **options):
     return subprocess.run([str(w) for w in words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                          check=False)
+                          check=False, **options)
 
 
-def mpirun(ranks, *words):
-    return run("mpirun", "--allow-run-as-root", "--oversubscribe", "-n", ranks, *words)
+def mpirun(ranks, *words, **options):
+    return run("mpirun", "--allow-run-as-root", "--oversubscribe", "-n", ranks, *words, **options)
 
 
 def own_lines(text):
@@ -54,6 +54,37 @@ class RanksShareThePaths(unittest.TestCase):
             self.assertEqual(sorted(p.name for p in out.iterdir()), names)
             for name in names:
                 self.assertTrue(filecmp.cmp(self.home / "alone" / name, out / name, shallow=False), (ranks, name))
+
+    def test_rendered_pictures_are_the_same_bytes(self):
+        shots, result = self.home / "shots", self.home / "result"
+        done = run(PROGRAM, "-q", "simulate", self.rig, "--out", shots)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = run(PROGRAM, "-q", "measure", shots, "--rig", self.rig, "--out", result, "--model", "dipole")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        words = [PROGRAM, "render", self.rig, "--result", result / "result.json", "--model", "transport",
+                 "--width", "96", "--paths", "6400", "--out", "pictures"]
+        said = set()
+        for ranks in (0, 1, 2, 4):  # 0: without mpirun
+            place = self.home / f"render by {ranks}"
+            place.mkdir()
+            done = mpirun(ranks, *words, cwd=place) if ranks else run(*words, cwd=place)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            said.add(done.stdout)
+        self.assertEqual(len(said), 1, said)
+        alone = self.home / "render by 0" / "pictures"
+        names = sorted(p.name for p in alone.iterdir())
+        self.assertEqual({Path(n).suffix for n in names}, {".exr", ".png", ".csv"})
+        for ranks in (1, 2, 4):
+            other = self.home / f"render by {ranks}" / "pictures"
+            self.assertEqual(sorted(p.name for p in other.iterdir()), names)
+            for name in names:
+                self.assertTrue(filecmp.cmp(alone / name, other / name, shallow=False), (ranks, name))
+        # Noise of other paths shows in the pictures: what is compared is the Monte Carlo.
+        place = self.home / "other seed"
+        place.mkdir()
+        self.assertEqual(run(*words, "--seed", "2", cwd=place).returncode, 0)
+        picture = next(n for n in names if n.endswith(".exr"))
+        self.assertFalse(filecmp.cmp(alone / picture, place / "pictures" / picture, shallow=False))
 
     def test_an_error_of_all_is_told_once(self):
         (self.home / "cube.obj").unlink()
