@@ -15,8 +15,8 @@ struct SumsBenchOptions {
   std::vector<double> rows = {1e4};                    // >= 1
   std::vector<double> tolerances = {1e-2, 1e-3, 1e-4, 1e-5};
   double loose_tolerance = 0.25;  // of the image of three channels; 0: none
-  int peer_patches = 10000;      // 0: no peer
-  int repeats = 3;               // >= 1; the median is told
+  int peer_patches = 10000;       // 0: no peer
+  int repeats = 3;                // >= 1; the median is told
   std::uint64_t seed = 1;
 };
 

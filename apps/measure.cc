@@ -83,7 +83,13 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
     source.cache = &*cache;
     source.digests = &digests;
   }
-  Measurement out = instrument.measure(source, watch);
+  Measurement out;
+  try {
+    out = instrument.measure(source, watch);
+  } catch (const InputError&) {
+    if (cache) cache->forget();
+    throw;
+  }
   out.skipped.shots_not_asked = whole.shots.size() - rig.shots.size();
   for (const std::string& name : folder.unlisted) {
     if (lists(whole, name)) continue;

@@ -23,6 +23,22 @@ std::string digest_of(const std::string& content) {
 
 }  // namespace
 
+ShotCache::ShotCache(std::string folder) : folder_(std::move(folder)) {
+  std::error_code ignored;
+  for (std::filesystem::path at = folder_; !at.empty() && !std::filesystem::exists(at, ignored);
+       at = at.parent_path()) {
+    new_folders_.push_back(at.string());
+  }
+}
+
+void ShotCache::forget() {
+  const std::lock_guard lock(mutex_);
+  std::error_code ignored;
+  for (const std::string& name : kept_) std::filesystem::remove(folder_ + "/" + name, ignored);
+  // Not those that hold anything else by now.
+  for (const std::string& name : new_folders_) std::filesystem::remove(name, ignored);
+}
+
 std::string ShotCache::path_of(const std::string& key) const {
   return folder_ + "/" + key + kEnding;
 }
@@ -55,6 +71,7 @@ void ShotCache::keep(const std::string& key, const DecodedShot& shot) {
   const std::lock_guard lock(mutex_);
   if (problem_.empty()) problem_ = problem;
   used_.insert(key + kEnding);
+  kept_.insert(key + kEnding);
 }
 
 void ShotCache::remove_others() {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "apps/decoded_shot.h"
 
@@ -17,11 +18,13 @@ namespace scattermeter::apps {
 // several threads, and for several programs, at once.
 class ShotCache {
  public:
-  explicit ShotCache(std::string folder) : folder_(std::move(folder)) {}
+  explicit ShotCache(std::string folder);
 
   std::optional<DecodedShot> find(const std::string& key);
   // Where the folder takes no file the shot is not kept; nothing else is lost.
   void keep(const std::string& key, const DecodedShot& shot);
+  // As if this object had never been: removes what it kept, and the folders that were made for it.
+  void forget();
   // Removes the files that were neither found nor kept since this object was made.
   void remove_others();
 
@@ -35,7 +38,9 @@ class ShotCache {
   std::string folder_;
   std::atomic<std::size_t> found_ = 0;
   mutable std::mutex mutex_;
-  std::set<std::string> used_;  // file names
+  std::set<std::string> used_;            // file names
+  std::set<std::string> kept_;            // of these, those that are new
+  std::vector<std::string> new_folders_;  // the innermost first
   std::string problem_;
 };
 

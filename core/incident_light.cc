@@ -30,6 +30,7 @@ struct PatchLight {
   std::vector<LitTriangle> lit;
   bool on_shadow_edge = false;
   std::size_t rays = 0;
+  std::size_t rays_skipped = 0;
 };
 
 class Illuminator {
@@ -48,6 +49,11 @@ class Illuminator {
     if (!(n.dot(led_.position_mm - t[0]) > 0.0)) return out;
     // Probes at corners and edge middles are drawn a little towards the centre, so that a fold of
     // the surface at the patch's own border does not count as a shadow.
+    if (on_convex_body(k, t[0], n)) {
+      out.rays_skipped = 7;
+      append(t, n, k, 1.0, out);
+      return out;
+    }
     const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
     int lit = 0;
     int probes = 0;
@@ -120,6 +126,20 @@ class Illuminator {
       out.lit.push_back(one);
     }
     return out;
+  }
+
+  // Whether the patch is of a facet of the scene's body, and that is convex: what faces the LED is
+  // lit, then. Patches may be of another mesh than the scene.
+  bool on_convex_body(int k, const Eigen::Vector3d& p, const Eigen::Vector3d& n) const {
+    if (!scene_.convex()) return false;
+    const TriangleMesh& mesh = scene_.mesh();
+    const int facet = patches_.facet_idx(k);
+    if (static_cast<std::size_t>(facet) >= mesh.triangles.size()) return false;
+    const auto& t = mesh.triangles[static_cast<std::size_t>(facet)];
+    const Eigen::Vector3d from = p - mesh.vertices_mm[static_cast<std::size_t>(t[0])];
+    constexpr double kSame = 1e-9;
+    return (area_vector_mm2(mesh, facet).normalized() - n).norm() < kSame &&
+           std::abs(n.dot(from)) <= kSame * from.norm();
   }
 
   bool is_lit(const Eigen::Vector3d& p, const Eigen::Vector3d& n, PatchLight& out) const {
@@ -216,7 +236,8 @@ IncidentLight illuminate(const PatchMesh& patches, const RayScene& scene, const 
       light.lit.push_back(t);
     }
     light.shadow_edge_patches += per_patch[k].on_shadow_edge ? 1 : 0;
-    (scene.convex() ? light.shadow_rays_skipped : light.shadow_rays) += per_patch[k].rays;
+    light.shadow_rays += per_patch[k].rays;
+    light.shadow_rays_skipped += per_patch[k].rays_skipped;
   }
   return light;
 }

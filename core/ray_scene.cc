@@ -117,7 +117,6 @@ RayHit RayScene::hit_between(const Eigen::Vector3d& start_mm, const Eigen::Vecto
 
 bool RayScene::occluded(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,
                         const Eigen::Vector3d& target_mm) const {
-  if (convex_ && normal.dot(target_mm - surface_mm) > 0.0) return false;
   const Eigen::Vector3d start_mm = surface_mm - center_mm_ + 1e-5 * size_mm_ * normal;
   const Eigen::Vector3d to_target_mm = target_mm - center_mm_ - start_mm;
   const double distance_mm = to_target_mm.norm();
@@ -126,7 +125,6 @@ bool RayScene::occluded(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d
 
 bool RayScene::occluded_toward(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,
                                const Eigen::Vector3d& direction) const {
-  if (convex_ && normal.dot(direction) > 0.0) return false;
   return occluded_between(surface_mm - center_mm_ + 1e-5 * size_mm_ * normal,
                           direction.normalized(), std::numeric_limits<double>::infinity());
 }

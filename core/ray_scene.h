@@ -36,9 +36,7 @@ class RayScene {
                            double near_mm, double far_mm) const;
 
   // Whether the open segment from a surface point to `target_mm` meets the mesh. The point is moved
-  // 1e-5 of the object's size along `normal` first, so that its own facet does not count. `normal`:
-  // of the facet that the point is on. No ray is cast where the body is convex and the target lies
-  // before the facet: nothing can stand between.
+  // 1e-5 of the object's size along `normal` first, so that its own facet does not count.
   bool occluded(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,
                 const Eigen::Vector3d& target_mm) const;
 
@@ -50,6 +48,7 @@ class RayScene {
   bool contains(const Eigen::Vector3d& point_mm) const;
 
   const TriangleMesh& mesh() const { return mesh_; }
+  // Of a convex body no facet that faces a target is occluded from it.
   bool convex() const { return convex_; }
 
  private:

@@ -78,7 +78,7 @@ TEST(CalibrateCamera, LeavesOutWhatDoesNotBelong) {
   const Answer a =
       rig.calibrate({"--board", "chessboard", "--corners", "7x5", "--square-mm", "30"});
   ASSERT_EQ(a.status, 0) << a.err;
-  EXPECT_THAT(a.out, AllOf(HasSubstr("left out: notes.txt: is no picture"),
+  EXPECT_THAT(a.out, AllOf(HasSubstr("left out: notes.txt: is no raw file"),
                            HasSubstr("left out: other.pgm: 64 x 64 px, not 484 x 324 px"),
                            HasSubstr("left out: copy.dng: the same shot as board_2.dng")));
 }

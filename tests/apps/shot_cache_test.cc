@@ -114,6 +114,21 @@ TEST(ShotCache, FindsWhatItKept) {
   EXPECT_TRUE(std::filesystem::exists(place + "/notes.txt"));
 }
 
+// Nothing but what stood there before.
+TEST(ShotCache, Forgets) {
+  const TemporaryFolder folder;
+  ShotCache made(folder / "out/cache");
+  made.keep("a", some_shot());
+  made.forget();
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  ShotCache(folder / "cache").keep("a", some_shot());
+  ShotCache again(folder / "cache");
+  again.keep("b", some_shot());
+  again.forget();
+  EXPECT_TRUE(again.find("a"));
+  EXPECT_FALSE(again.find("b"));
+}
+
 // A byte that changed, half a file, another shot under the name, an empty file.
 TEST(ShotCache, DoesNotBelieveADamagedFile) {
   const TemporaryFolder folder;
