@@ -9,6 +9,28 @@ namespace {
 
 using Json = nlohmann::json;
 
+// Builds the tree of what is parsed, but no deeper than a shot is: the parser calls itself for each
+// level, and so would a file of nothing but opening brackets until the stack is full.
+class ShallowTree : public nlohmann::detail::json_sax_dom_parser<Json> {
+ public:
+  explicit ShallowTree(Json& whole) : json_sax_dom_parser(whole, false) {}
+  bool start_object(std::size_t n) { return deeper() && json_sax_dom_parser::start_object(n); }
+  bool start_array(std::size_t n) { return deeper() && json_sax_dom_parser::start_array(n); }
+  bool end_object() {
+    --depth_;
+    return json_sax_dom_parser::end_object();
+  }
+  bool end_array() {
+    --depth_;
+    return json_sax_dom_parser::end_array();
+  }
+
+ private:
+  static constexpr int kDepth = 8;
+  bool deeper() { return ++depth_ <= kDepth; }
+  int depth_ = 0;
+};
+
 // What is read must be there and of its kind; anything else is no shot.
 struct NoShot {};
 
@@ -134,8 +156,12 @@ std::vector<std::uint8_t> to_bytes(const DecodedShot& shot) {
 }
 
 std::optional<DecodedShot> decoded_shot(std::span<const std::uint8_t> bytes) {
-  const Json j = Json::from_cbor(bytes.begin(), bytes.end(), true, false);
   try {
+    Json j;
+    ShallowTree tree(j);
+    if (!Json::sax_parse(bytes.begin(), bytes.end(), &tree, Json::input_format_t::cbor)) {
+      return std::nullopt;
+    }
     DecodedShot shot;
     const Json& channels = list(at(j, "channels"));
     if (channels.size() != kRgb) throw NoShot{};
@@ -163,6 +189,9 @@ std::optional<DecodedShot> decoded_shot(std::span<const std::uint8_t> bytes) {
     std::copy(mean.begin(), mean.end(), shot.frame_mean_counts.begin());
     return shot;
   } catch (const NoShot&) {
+    return std::nullopt;
+  } catch (const Json::exception&) {
+    // A list that claims more than can be; the parser throws, told not to or not.
     return std::nullopt;
   }
 }

@@ -76,6 +76,10 @@ TEST(ShotCache, RefusesWhatIsNoShot) {
   for (std::size_t n = 0; n < bytes.size(); n += 1 + n / 50) {
     EXPECT_FALSE(decoded_shot({bytes.data(), n})) << n;
   }
+  // Lists in lists without end, and one that claims 2^63 entries.
+  EXPECT_FALSE(decoded_shot(std::vector<std::uint8_t>(1'000'000, 0x81)));
+  EXPECT_FALSE(decoded_shot(std::vector<std::uint8_t>{0x9b, 0x80, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_FALSE(decoded_shot(std::vector<std::uint8_t>{0xbb, 0xff, 0, 0, 0, 0, 0, 0, 0, 0}));
   DecodedShot shorter = some_shot();
   shorter.observation.channel[1].variance.pop_back();
   EXPECT_FALSE(decoded_shot(to_bytes(shorter)));
