@@ -19,15 +19,6 @@ constexpr double kBrightestRowAt = 0.75;  // of the range
 constexpr double kLongest_s = 30.0;
 constexpr std::size_t kLeastRows = 20;
 
-// Weights to some 1e-3: deviations need no more.
-PairSumOptions coarse_pairs(const DistanceKnots& knots) {
-  PairSumOptions pairs;
-  pairs.floor_mm = 4.0 * knots.resolution_mm();
-  pairs.far_ratio = 3.0;
-  pairs.near_ratio = 0.7;
-  return pairs;
-}
-
 // l and its variance where the expected light is `l` and the exposures are these. Read noise counts
 // once an exposure and falls with the square of its time, photon noise with the time.
 void expose_rows(const Eigen::VectorXd& l, const std::vector<double>& exposures_s,
@@ -111,7 +102,7 @@ void CoarseShots::add_lights(const std::vector<CoarseShot>& shots, LitViews& lit
   add_weights(
       list, library_, true,
       [&](const SeenObject& seen, const SourceCloud& sources) {
-        return smooth_weights(seen.sites, sources, knots_, coarse_pairs(knots_));
+        return smooth_weights(seen.sites, sources, knots_, coarse_pair_options(knots_));
       },
       lit.weights);
   for (const auto& [key, weights] : lit.weights) {
@@ -129,7 +120,7 @@ bool CoarseShots::add_led(const SeenObject& seen, const RigLight& led, LitViews&
   if (light.lit.empty()) return false;
   const LightKey key{&seen, led.name, 0};
   lit.weights[key] = smooth_weights(seen.sites, SourceCloud(light, object.box.center_mm()), knots_,
-                                    coarse_pairs(knots_));
+                                    coarse_pair_options(knots_));
   lit.changed[key] = changed_weights(seen, led, 0, library_, knots_);
   return true;
 }

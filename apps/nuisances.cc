@@ -110,7 +110,9 @@ Changed<Each> changed(const SeenObject& seen, const RigLight& rig_light, std::si
   return out;
 }
 
-PairSumOptions coarse_pairs(const DistanceKnots& knots) {
+}  // namespace
+
+PairSumOptions coarse_pair_options(const DistanceKnots& knots) {
   PairSumOptions pairs;
   pairs.floor_mm = 4.0 * knots.resolution_mm();
   pairs.far_ratio = 3.0;
@@ -118,11 +120,9 @@ PairSumOptions coarse_pairs(const DistanceKnots& knots) {
   return pairs;
 }
 
-}  // namespace
-
 ChangedWeights changed_weights(const SeenObject& seen, const RigLight& light, std::size_t channel,
                                ObjectLibrary& library, const DistanceKnots& knots) {
-  const PairSumOptions pairs = coarse_pairs(knots);
+  const PairSumOptions pairs = coarse_pair_options(knots);
   return changed<WeightMatrix>(seen, light, channel, library,
                                [&](const std::vector<ExitSite>& sites, const SourceCloud& sources,
                                    bool) { return smooth_weights(sites, sources, knots, pairs); });
@@ -131,7 +131,7 @@ ChangedWeights changed_weights(const SeenObject& seen, const RigLight& light, st
 ChangedImages changed_images(const SeenObject& seen, const RigLight& light, std::size_t channel,
                              ObjectLibrary& library, const DistanceKnots& knots,
                              const std::vector<LitMedium>& media) {
-  const PairSumOptions pairs = coarse_pairs(knots);
+  const PairSumOptions pairs = coarse_pair_options(knots);
   const double eta = seen.object->rig->eta_int_over_ext;
   const Eigen::MatrixXd r = curves(media, knots, eta);
   const Eigen::MatrixXd other = curves(media, knots, eta + kEtaStep);

@@ -35,6 +35,9 @@ struct LightSensitivity {
   std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by moving the sites along two tangents
 };
 
+// For weights to some 1e-3: deviations need no more.
+PairSumOptions coarse_pair_options(const DistanceKnots& knots);
+
 // A view under a light, nominal and with one thing changed at a time. At the centres of the sites,
 // from light on patches of twice the size: errors of discretisation cancel in relative changes, and
 // these are nearly the same all over a site. What the rig knows exactly is not changed (no rows).

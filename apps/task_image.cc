@@ -50,21 +50,25 @@ TaskImage::TaskImage(const Rig& rig, const Task& task, const TaskRows& rows, con
       if (place_.try_emplace(c.nuisance.name, next).second) nuisances_.push_back(c.nuisance);
     }
   }
-  if (shots() == 0) return;
-  DenseSystem one = rows_of_shot(0);
-  const auto held = static_cast<Eigen::Index>(one.nuisances.size());
-  octaves_ = held - 1;
+  // Those of the method, as a shot without rows has them: its octaves', and its own.
+  DenseSystem none{WeightMatrix(0, knots.size()), Eigen::VectorXd(0), Eigen::VectorXd(0)};
+  add_method_errors(none);
+  octaves_ = static_cast<Eigen::Index>(none.nuisances.size()) - 1;
   nuisances_.insert(nuisances_.end(), static_cast<std::size_t>(octaves_) + shots(),
-                    one.nuisances.front());
+                    none.nuisances.front());
 }
 
 DenseSystem TaskImage::rows_of_shot(std::size_t s) const {
   DenseSystem system =
       system_of(rig_, task_, s, rows_[s], weights_, 1.0 / sigma_t_per_mm(first_.medium), patch_mm_);
+  add_method_errors(system);
+  return system;
+}
+
+void TaskImage::add_method_errors(DenseSystem& system) const {
   add_numerics(knots_, r_, patch_mm_.value_or(patch_size_mm(task_)),
                {first_.medium.sigma_s_prime_per_mm, first_.medium.sigma_a_per_mm, task_.eta},
                system);
-  return system;
 }
 
 ShotSystem TaskImage::shot(std::size_t s) const {

@@ -31,8 +31,9 @@ class TaskImage final : public ImageRows {
   ShotSystem shot(std::size_t shot) const override;
 
  private:
-  // Without nuisances.
+  // With the errors of the method alone.
   DenseSystem rows_of_shot(std::size_t shot) const;
+  void add_method_errors(DenseSystem& system) const;
 
   const Rig& rig_;
   const Task& task_;

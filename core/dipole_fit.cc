@@ -6,9 +6,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include "core/chi_square.h"
 #include "core/dipole_curve.h"
 #include "core/doubtful_input.h"
@@ -160,19 +157,16 @@ ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
   const DipoleCurve curve = dipole_curve(knots, p.u, p.q, eta_int_over_ext);
   const Eigen::VectorXd r = std::exp(p.log_s) * curve.r;
   std::vector<ComparedImage> shots(rows.shots());
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t s) {
-      const ShotSystem shot = rows.shot(s);
-      ComparedImage& out = shots[s];
-      out.l = shot.system->l;
-      out.std_l = shot.system->std_l;
-      out.predicted = shot.system->weights * r;
-      for (std::size_t k = 0; k < shot.nuisances.size(); ++k) {
-        const auto v = static_cast<std::size_t>(shot.nuisances[k]);
-        if (v >= p.v.size()) continue;  // held
-        out.predicted += p.v[v] * shot.system->nuisance_columns.col(static_cast<Eigen::Index>(k));
-      }
-    });
+  for_each_shot(rows, [&](std::size_t s, const ShotSystem& shot) {
+    ComparedImage& out = shots[s];
+    out.l = shot.system->l;
+    out.std_l = shot.system->std_l;
+    out.predicted = shot.system->weights * r;
+    for (std::size_t k = 0; k < shot.nuisances.size(); ++k) {
+      const auto v = static_cast<std::size_t>(shot.nuisances[k]);
+      if (v >= p.v.size()) continue;  // held
+      out.predicted += p.v[v] * shot.system->nuisance_columns.col(static_cast<Eigen::Index>(k));
+    }
   });
   const auto together = [&](Eigen::VectorXd ComparedImage::*part) {
     Eigen::Index n = 0;

@@ -4,9 +4,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 namespace scattermeter {
 
 ImageInformation image_information(const DenseSystem& system) {
@@ -43,12 +40,8 @@ ImageInformation image_information(const DenseSystem& system) {
 
 std::vector<ShotInformation> information_by_shot(const ImageRows& image) {
   std::vector<ShotInformation> out(image.shots());
-  // Isolated: a thread that waits here shall not begin another image's rows.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t s) {
-      const ShotSystem shot = image.shot(s);
-      out[s] = {image_information(*shot.system), shot.nuisances};
-    });
+  for_each_shot(image, [&](std::size_t s, const ShotSystem& shot) {
+    out[s] = {image_information(*shot.system), shot.nuisances};
   });
   return out;
 }

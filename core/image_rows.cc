@@ -5,6 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
 namespace scattermeter {
 
 std::size_t SystemRows::shots() const { return std::max<std::size_t>(1, system_.shot_rows.size()); }
@@ -19,6 +22,14 @@ ShotSystem SystemRows::shot(std::size_t shot) const {
   }
   return {std::make_shared<const DenseSystem>(shot_of(system_, shot)),
           nuisances_of_shot(system_, shot)};
+}
+
+void for_each_shot(const ImageRows& image,
+                   const std::function<void(std::size_t, const ShotSystem&)>& visit) {
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, image.shots(),
+                      [&](std::size_t s) { visit(s, image.shot(s)); });
+  });
 }
 
 DenseSystem stacked(const ImageRows& image, Eigen::Index step) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -39,6 +40,11 @@ class SystemRows final : public ImageRows {
  private:
   const DenseSystem& system_;
 };
+
+// visit(s, rows of shot s), several at once; a thread that waits begins no work of others
+// meanwhile.
+void for_each_shot(const ImageRows& image,
+                   const std::function<void(std::size_t, const ShotSystem&)>& visit);
 
 // Every step-th row of the image, from the first on, with all nuisances.
 DenseSystem stacked(const ImageRows& image, Eigen::Index step = 1);

@@ -6,8 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "core/convexity.h"
-
 namespace scattermeter {
 namespace {
 
@@ -22,7 +20,7 @@ PathBoundary::PathBoundary(const RayScene& scene, Method method)
       size_mm_(bounds(scene.mesh()).size_mm().maxCoeff()),
       grain_mm_(kGrain * size_mm_),
       body_(body_planes(scene.mesh(), kFewPlanes)),
-      convex_(body_.planes.empty() ? is_convex(scene.mesh()) : body_.convex),
+      convex_(body_.planes.empty() ? scene.convex() : body_.convex),
       by_planes_(body_.convex && method == Method::kAuto) {
   const TriangleMesh& mesh = scene.mesh();
   for (int f = 0; f < static_cast<int>(mesh.triangles.size()); ++f) {
