@@ -28,17 +28,25 @@ struct Sensitivities {
 };
 
 // The changed W are kept for other media and other shots where there is room for some ten of them.
-ChangedImages images_of(const Estimation& e, const LightKey& key,
-                        const std::vector<LitMedium>& media, const DistanceKnots& knots) {
+bool may_be_kept(const LightKey& key, const DistanceKnots& knots) {
   constexpr std::size_t kRoomForNumbers = 1 << 25;  // 256 MiB
+  return 10 * std::get<0>(key)->sites.size() * static_cast<std::size_t>(knots.size()) <=
+         kRoomForNumbers;
+}
+
+// kept: those of the light; filled if empty; null: not to be kept.
+ChangedImages images_of(const Estimation& e, const LightKey& key,
+                        const std::vector<LitMedium>& media, const DistanceKnots& knots,
+                        ChangedWeights* kept) {
   const auto& [seen, light, channel] = key;
   const RigLight& rig_light = e.rig.light(light);
-  if (10 * seen->sites.size() * static_cast<std::size_t>(knots.size()) > kRoomForNumbers) {
+  if (kept == nullptr) {
     return changed_images(*seen, rig_light, channel, e.library, knots, media);
   }
-  const auto [changed, is_new] = e.changed_weights.try_emplace(key);
-  if (is_new) changed->second = changed_weights(*seen, rig_light, channel, e.library, knots);
-  return changed_images(*seen, changed->second, knots, media);
+  if (kept->site_of_row.empty()) {
+    *kept = changed_weights(*seen, rig_light, channel, e.library, knots);
+  }
+  return changed_images(*seen, *kept, knots, media);
 }
 
 std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
@@ -65,11 +73,27 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
   const auto made = std::make_shared<Sensitivities>();
   Sensitivities& all = *made;
   Progress progress("uncertainties", static_cast<int>(media.size()), e.options.quiet);
+  struct Item {
+    const LightKey& key;
+    const std::vector<LitMedium>& media;
+    ChangedWeights* kept;
+    LightSensitivity& out;
+  };
+  std::vector<Item> leds, environments;
   for (const auto& [key, list] : media) {
-    all.by_light[key] = sensitivity(*std::get<0>(key), e.weights.at(key),
-                                    images_of(e, key, list, knots), list, knots);
-    progress.step();
+    const bool is_led = !e.rig.light(std::get<1>(key)).environment;
+    (is_led ? leds : environments)
+        .push_back({key, list, may_be_kept(key, knots) ? &e.changed_weights[key] : nullptr,
+                    all.by_light[key]});
   }
+  const auto make = [&](const Item& item) {
+    item.out = sensitivity(*std::get<0>(item.key), e.weights.at(item.key),
+                           images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
+    progress.step();
+  };
+  tbb::parallel_for(std::size_t{0}, leds.size(), [&](std::size_t k) { make(leds[k]); });
+  // The library makes one environment's light at a time.
+  for (const Item& item : environments) make(item);
   all.of_task.resize(e.tasks.size());
   for (std::size_t i = 0; i < e.tasks.size(); ++i) {
     for (const auto& [key, medium] : column[i]) {

@@ -82,14 +82,18 @@ void add_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, b
       }
     }
   }
-  Progress progress("light in each patch", static_cast<int>(keys.size()), quiet);
+  std::vector<const IncidentLight*> lights;
   for (const WeightKey& key : keys) {
     const auto& [view, name, channel] = key;
-    const SeenObject& seen = *view;
-    const IncidentLight& light = library.light(seen.object->rig->name, name, channel);
-    weights[key] = make(seen, SourceCloud(light, seen.object->box.center_mm()));
-    progress.step();
+    lights.push_back(&library.light(view->object->rig->name, name, channel));
+    weights[key];
   }
+  Progress progress("light in each patch", static_cast<int>(keys.size()), quiet);
+  tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t k) {
+    const SeenObject& seen = *std::get<0>(keys[k]);
+    weights.at(keys[k]) = make(seen, SourceCloud(*lights[k], seen.object->box.center_mm()));
+    progress.step();
+  });
 }
 
 TaskRows rows_of(const Rig& rig, const Task& task) {

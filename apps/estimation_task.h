@@ -38,7 +38,8 @@ std::string shot_problem(const OpenedShot& shot, std::size_t channel);
 using WeightKey = std::tuple<const SeenObject*, std::string, std::size_t>;
 using Weights = std::map<WeightKey, WeightMatrix>;
 
-// Makes W of every view and light that a shot needs, each once; those that are there already stay.
+// Makes W of every view and light that a shot needs, each once, several at a time; those that are
+// there already stay.
 void add_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
                  const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make,
                  Weights& weights);

@@ -17,11 +17,11 @@
 namespace scattermeter::apps {
 namespace {
 
+// Precondition: require_in_view() accepts the object.
 std::shared_ptr<const SeenObject> see(const Rig& rig, const ObjectScenes& scenes,
                                       const ObjectLibrary& library, const std::string& name,
                                       const calib::PoseResult& pose) {
   const CameraView view{rig.camera.intrinsics, pose.camera_from_world};
-  require_in_view(rig, scenes, view, name);
   auto seen = std::make_shared<SeenObject>();
   seen->object = &scenes.at(name);
   seen->patches = &library.patches(name);
@@ -129,8 +129,14 @@ double ObjectLibrary::longest_distance_mm() const {
 SharedView see_all(const Rig& rig, const ObjectScenes& scenes, const ObjectLibrary& library,
                    const calib::PoseResult& pose) {
   SharedView view{pose, {}};
-  for (const auto& [name, scene] : scenes)
-    view.objects[name] = see(rig, scenes, library, name, pose);
+  std::vector<std::pair<const std::string*, std::shared_ptr<const SeenObject>*>> objects;
+  for (const auto& [name, scene] : scenes) {
+    require_in_view(rig, scenes, {rig.camera.intrinsics, pose.camera_from_world}, name);
+    objects.push_back({&name, &view.objects[name]});
+  }
+  tbb::parallel_for(std::size_t{0}, objects.size(), [&](std::size_t i) {
+    *objects[i].second = see(rig, scenes, library, *objects[i].first, pose);
+  });
   return view;
 }
 
@@ -187,6 +193,8 @@ std::vector<OpenedShot> open_shots(const Rig& rig, const ShotSource& source,
         if (rig.pose.refine_by_silhouette) {
           shot.pose = pose_from_silhouette(rig, scenes, shot.pose, idx, frame, names.at(0));
         }
+        require_in_view(rig, scenes, {rig.camera.intrinsics, shot.pose.camera_from_world},
+                        shot.rig->object);
         shot.seen = see(rig, scenes, library, shot.rig->object, shot.pose);
       }
       const SampleMap& map = shot.seen->map;

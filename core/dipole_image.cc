@@ -8,6 +8,7 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
 
 #include "core/dipole.h"
 #include "core/distance_bins.h"
@@ -92,16 +93,23 @@ std::vector<Eigen::Array3d> dipole_radiosity(const std::vector<Eigen::Vector3d>&
   options.floor_mm = 0.25 * resolution_mm;
   const SourceCloud sources(light, origin_mm);
   std::vector<Eigen::Array3d> out(points_mm.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points_mm.size(), 16),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      std::vector<double> sums(static_cast<std::size_t>(bins.size()));
-                      for (std::size_t j = range.begin(); j < range.end(); ++j) {
-                        std::fill(sums.begin(), sums.end(), 0.0);
-                        sources.add_to(exit_point(points_mm[j]), bins, options, sums.data());
-                        const Eigen::Map<const Eigen::VectorXd> weights(sums.data(), bins.size());
-                        out[j] = intensity_W_per_sr * (r.matrix() * weights).array();
-                      }
-                    });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, points_mm.size(), 8),
+      [&](const tbb::blocked_range<std::size_t>& range) {
+        std::vector<ExitSite> sites;
+        for (std::size_t j = range.begin(); j < range.end(); ++j) {
+          sites.push_back(exit_point(points_mm[j]));
+        }
+        std::vector<float> sums(range.size() * static_cast<std::size_t>(bins.size()));
+        sources.add_to(sites, bins, options, sums.data());
+        const Eigen::Map<const Eigen::MatrixXf> weights(sums.data(), bins.size(),
+                                                        static_cast<Eigen::Index>(range.size()));
+        for (std::size_t j = range.begin(); j < range.end(); ++j) {
+          const auto at = static_cast<Eigen::Index>(j - range.begin());
+          out[j] = intensity_W_per_sr * (r.matrix() * weights.col(at).cast<double>()).array();
+        }
+      },
+      tbb::simple_partitioner());
   return out;
 }
 

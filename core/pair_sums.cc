@@ -1,8 +1,11 @@
 #include "core/pair_sums.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -12,6 +15,8 @@ namespace scattermeter {
 namespace {
 
 using Density = std::array<double, 3>;
+
+constexpr int kRulePoints = 6;
 
 double area_mm2(const Triangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
 
@@ -27,40 +32,6 @@ void for_rule(const Triangle& t, const Density& e, double area, const Visit& vis
     }
   }
 }
-
-// Integral of density times f(|p - x|) over a triangle into bins; density is linear.
-template <class Bins>
-class NearIntegral {
- public:
-  NearIntegral(const Eigen::Vector3d& p, double weight, const Bins& bins,
-               const PairSumOptions& options, double* sums)
-      : p_(p), weight_(weight), bins_(bins), options_(options), sums_(sums) {}
-
-  void add(const Triangle& t, const Density& e, double area, double edge) const {
-    const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
-    const double distance = (center - p_).norm();
-    if (edge <= options_.floor_mm || edge * options_.near_ratio <= distance) {
-      for_rule(t, e, area, [&](const Eigen::Vector3d& q, double power) {
-        bins_.add(static_cast<float>((q - p_).squaredNorm()), static_cast<float>(weight_ * power),
-                  sums_);
-      });
-      return;
-    }
-    const Triangle m = {0.5 * (t[1] + t[2]), 0.5 * (t[2] + t[0]), 0.5 * (t[0] + t[1])};
-    const Density f = {0.5 * (e[1] + e[2]), 0.5 * (e[2] + e[0]), 0.5 * (e[0] + e[1])};
-    add({t[0], m[2], m[1]}, {e[0], f[2], f[1]}, 0.25 * area, 0.5 * edge);
-    add({t[1], m[0], m[2]}, {e[1], f[0], f[2]}, 0.25 * area, 0.5 * edge);
-    add({t[2], m[1], m[0]}, {e[2], f[1], f[0]}, 0.25 * area, 0.5 * edge);
-    add({m[0], m[1], m[2]}, {f[0], f[1], f[2]}, 0.25 * area, 0.5 * edge);
-  }
-
- private:
-  const Eigen::Vector3d& p_;
-  double weight_;
-  const Bins& bins_;
-  const PairSumOptions& options_;
-  double* sums_;
-};
 
 }  // namespace
 
@@ -166,14 +137,16 @@ SourceCloud::SourceCloud(const IncidentLight& light, const Eigen::Vector3d& orig
     Rule& rule = rules_.emplace_back();
     rule.center = ((t.corners_mm[0] + t.corners_mm[1] + t.corners_mm[2]) / 3.0).cast<float>();
     rule.edge = static_cast<float>(longest_edge_mm(t.corners_mm));
-    std::size_t k = 0;
+    Eigen::Index k = 0;
     for_rule(t.corners_mm, t.irradiance_sr_per_mm2, area_mm2(t.corners_mm),
              [&](const Eigen::Vector3d& q, double power) {
-               rule.x[k] = static_cast<float>(q.x());
-               rule.y[k] = static_cast<float>(q.y());
-               rule.z[k] = static_cast<float>(q.z());
+               const Eigen::Vector3f from_center = q.cast<float>() - rule.center;
+               rule.x[k] = from_center.x();
+               rule.y[k] = from_center.y();
+               rule.z[k] = from_center.z();
                rule.power[k++] = static_cast<float>(power);
              });
+    for (; k < kLanes; ++k) rule.x[k] = rule.y[k] = rule.z[k] = rule.power[k] = 0.0F;
   }
   std::vector<std::int32_t> order(triangles_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -181,113 +154,242 @@ SourceCloud::SourceCloud(const IncidentLight& light, const Eigen::Vector3d& orig
   build(leaves, order.data(), order.data() + order.size());
 }
 
-// One site against the tree.
+// What one site is given of the tree. Pairs of distance and power go to the bins many at a time, so
+// that all but the adding itself is done in lanes.
 template <class Bins>
-struct SourceCloud::Sum {
-  const SourceCloud& cloud;
-  const Bins& bins;
-  const PairSumOptions& options;
-  double* sums;
-  float x, y, z, radius, far_ratio, near_ratio;
-  float xx, xy, xz, yy, yz, zz;  // the site's covariance
-  ExitSite near;                 // relative to the cloud's origin
+class SourceCloud::Sum {
+ public:
+  Sum(const SourceCloud& cloud, const ExitSite& site, const Bins& bins,
+      const PairSumOptions& options, typename Bins::Sum* sums)
+      : cloud_(cloud),
+        bins_(bins),
+        sums_(sums),
+        near_(moved(site, -cloud.origin_mm_)),
+        at_(near_.center_mm.cast<float>()),
+        covariance_(site.covariance_mm2.cast<float>()),
+        radius_(static_cast<float>(site.radius_mm())),
+        near_ratio2_(static_cast<float>(options.near_ratio * options.near_ratio)),
+        floor_mm_(static_cast<float>(options.floor_mm)) {}
 
-  void visit(std::int32_t at) {
-    const Node& node = cloud.nodes_[static_cast<std::size_t>(at)];
-    const float dx = node.x - x;
-    const float dy = node.y - y;
-    const float dz = node.z - z;
-    const float far = far_ratio * (node.radius + radius);
-    if (dx * dx + dy * dy + dz * dz >= far * far) {
-      add_cluster(node, dx, dy, dz);
-    } else if (node.right >= 0) {
-      visit(at + 1);
-      visit(node.right);
-    } else {
-      add_near(node.triangle);
+  const Eigen::Vector3f& center_mm() const { return at_; }
+  float radius_mm() const { return radius_; }
+
+  void keep_cluster(const Node& node, float dx, float dy, float dz) {
+    const Eigen::Index i = clusters_++;
+    x_[i] = dx;
+    y_[i] = dy;
+    z_[i] = dz;
+    of_cluster_[i] = node.power;
+    xx_[i] = node.xx;
+    xy_[i] = node.xy;
+    xz_[i] = node.xz;
+    yy_[i] = node.yy;
+    yz_[i] = node.yz;
+    zz_[i] = node.zz;
+    if (clusters_ == kClusters) add_clusters();
+  }
+
+  void add_near(std::int32_t triangle) {
+    const Rule& rule = cloud_.rules_[static_cast<std::size_t>(triangle)];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(near_.n_points); ++i) {
+      const Eigen::Vector3f v = rule.center - near_.points_mm[i].template cast<float>();
+      const auto weight = static_cast<float>(near_.weights[i]);
+      if (rule.edge * rule.edge * near_ratio2_ <= v.squaredNorm()) {
+        add_rule(rule, v, 1.0F, weight * rule.power);
+      } else {
+        integrate(rule, cloud_.triangles_[static_cast<std::size_t>(triangle)], near_.points_mm[i],
+                  weight);
+      }
     }
+  }
+
+  void finish() {
+    if (clusters_ > 0) add_clusters();
+    flush();
+  }
+
+ private:
+  static constexpr int kMost = Bins::kMost;  // pairs at a time
+  static constexpr int kClusters = 16;
+  using ClusterLanes = Eigen::Array<float, kClusters, 1>;
+
+  void flush() {
+    bins_.add(d2_.data(), power_.data(), pairs_, sums_);
+    pairs_ = 0;
+  }
+  void make_room(int pairs) {
+    if (pairs_ + pairs > kMost) flush();
   }
 
   // The difference of two independent points has the sum of their covariances C = L L^T. The four
   // points d + L v, v the corners of a cube of even parity, have mean d and covariance C.
-  void add_cluster(const Node& node, float dx, float dy, float dz) {
-    const auto root = [](float s) { return s > 0.0F ? std::sqrt(s) : 0.0F; };
-    const auto over = [](float a, float b) { return b > 0.0F ? a / b : 0.0F; };
-    const float l11 = root(node.xx + xx);
-    const float l21 = over(node.xy + xy, l11);
-    const float l31 = over(node.xz + xz, l11);
-    // What a plane parallel to an axis leaves is rounding: below 1e-6 it is none.
-    const float c22 = node.yy + yy;
-    const float r22 = c22 - l21 * l21;
-    const float l22 = r22 > 1e-6F * c22 ? std::sqrt(r22) : 0.0F;
-    const float l32 = over(node.yz + yz - l21 * l31, l22);
-    const float c33 = node.zz + zz;
-    const float r33 = c33 - l31 * l31 - l32 * l32;
-    const float l33 = r33 > 1e-6F * c33 ? std::sqrt(r33) : 0.0F;
-    const float quarter = 0.25F * node.power;
+  void add_clusters() {
+    constexpr float kLeast = 1e-30F;
+    const ClusterLanes c11 = xx_ + covariance_(0, 0);
+    const ClusterLanes l11 = (c11 + kLeast).sqrt();
+    const ClusterLanes l21 = (xy_ + covariance_(0, 1)) / l11;
+    const ClusterLanes l31 = (xz_ + covariance_(0, 2)) / l11;
+    // What a plane parallel to an axis leaves is rounding: below 1e-6 it is none. What stands over
+    // a root of none is none, too.
+    const ClusterLanes c22 = yy_ + covariance_(1, 1);
+    const ClusterLanes r22 = (c22 - l21 * l21 - 1e-6F * c22).max(0.0F);
+    const ClusterLanes l22 = r22.sqrt();
+    const ClusterLanes l32 = (yz_ + covariance_(1, 2) - l21 * l31) * l22 / (r22 + kLeast);
+    const ClusterLanes c33 = zz_ + covariance_(2, 2);
+    const ClusterLanes l33 = (c33 - l31 * l31 - l32 * l32 - 1e-6F * c33).max(0.0F).sqrt();
     constexpr float kV1[4] = {1, 1, -1, -1};
     constexpr float kV2[4] = {1, -1, 1, -1};
     constexpr float kV3[4] = {1, -1, -1, 1};
-    float d2[4];
+    make_room(4 * kClusters);
     for (int i = 0; i < 4; ++i) {
-      const float px = dx + l11 * kV1[i];
-      const float py = dy + l21 * kV1[i] + l22 * kV2[i];
-      const float pz = dz + l31 * kV1[i] + l32 * kV2[i] + l33 * kV3[i];
-      d2[i] = px * px + py * py + pz * pz;
+      // Lanes without a cluster write what is then written over.
+      Eigen::Map<ClusterLanes> d2(d2_.data() + pairs_), power(power_.data() + pairs_);
+      d2 = (x_ + l11 * kV1[i]).square() + (y_ + l21 * kV1[i] + l22 * kV2[i]).square() +
+           (z_ + l31 * kV1[i] + l32 * kV2[i] + l33 * kV3[i]).square();
+      power = 0.25F * of_cluster_;
+      pairs_ += clusters_;
     }
-    for (float s : d2) bins.add(s, quarter, sums);
+    clusters_ = 0;
   }
 
-  void add_near(std::int32_t triangle) {
-    const Rule& rule = cloud.rules_[static_cast<std::size_t>(triangle)];
-    for (std::size_t i = 0; i < static_cast<std::size_t>(near.n_points); ++i) {
-      const Eigen::Vector3f p = near.points_mm[i].template cast<float>();
-      if (rule.edge * near_ratio <= (rule.center - p).norm()) {
-        const auto weight = static_cast<float>(near.weights[i]);
-        for (std::size_t k = 0; k < rule.x.size(); ++k) {
-          const float rx = rule.x[k] - p.x();
-          const float ry = rule.y[k] - p.y();
-          const float rz = rule.z[k] - p.z();
-          bins.add(rx * rx + ry * ry + rz * rz, weight * rule.power[k], sums);
-        }
-        continue;
-      }
-      const LitTriangle& t = cloud.triangles_[static_cast<std::size_t>(triangle)];
-      NearIntegral<Bins>(near.points_mm[i], near.weights[i], bins, options, sums)
-          .add(t.corners_mm, t.irradiance_sr_per_mm2, area_mm2(t.corners_mm), rule.edge);
+  // The rule's points, `scale` times as far from a centroid at v.
+  void add_rule(const Rule& rule, const Eigen::Vector3f& v, float scale, const Lanes& power) {
+    make_room(kLanes);
+    Eigen::Map<Lanes>(d2_.data() + pairs_) = (v.x() + scale * rule.x).square() +
+                                             (v.y() + scale * rule.y).square() +
+                                             (v.z() + scale * rule.z).square();
+    Eigen::Map<Lanes>(power_.data() + pairs_) = power;
+    pairs_ += kRulePoints;
+  }
+
+  // A triangle with a linear density, cut into four until its parts are small for their distance.
+  // All parts are the triangle itself, `scale` times as large, turned over where that is negative.
+  struct Cut {
+    const Rule& rule;
+    std::array<Eigen::Vector3f, 3> corner;  // from the centroid
+    std::array<float, 3> rise;              // of the density from the centroid to a corner
+    Lanes even, slope;  // power of a density of 1, and of one that rises so; of all the triangle
+  };
+  void integrate(const Rule& rule, const LitTriangle& t, const Eigen::Vector3d& p, float weight) {
+    const Eigen::Vector3d center = (t.corners_mm[0] + t.corners_mm[1] + t.corners_mm[2]) / 3.0;
+    const auto& e = t.irradiance_sr_per_mm2;
+    const double mean = (e[0] + e[1] + e[2]) / 3.0;
+    Cut cut{rule, {}, {}, Lanes::Zero(), Lanes::Zero()};
+    for (std::size_t i = 0; i < 3; ++i) {
+      cut.corner[i] = (t.corners_mm[i] - center).cast<float>();
+      cut.rise[i] = static_cast<float>(e[i] - mean);
+    }
+    const double area = area_mm2(t.corners_mm);
+    Eigen::Index k = 0;
+    for (const TriangleOrbit& orbit : kCowper) {
+      for (int i = 0; i < 3; ++i) cut.even[k++] = weight * static_cast<float>(area * orbit.weight);
+    }
+    cut.slope = weight * rule.power - static_cast<float>(mean) * cut.even;
+    add_parts(cut, (center - p).cast<float>(), 1.0F, static_cast<float>(mean));
+  }
+  void add_parts(const Cut& cut, const Eigen::Vector3f& v, float scale, float density) {
+    const float edge = std::abs(scale) * cut.rule.edge;
+    if (edge <= floor_mm_ || edge * edge * near_ratio2_ <= v.squaredNorm()) {
+      add_rule(cut.rule, v, scale, (scale * scale) * (density * cut.even + scale * cut.slope));
+      return;
+    }
+    const float half = 0.5F * scale;
+    for (std::size_t i = 0; i < 3; ++i) {
+      add_parts(cut, v + half * cut.corner[i], half, density + half * cut.rise[i]);
+    }
+    add_parts(cut, v, -half, density);
+  }
+
+  const SourceCloud& cloud_;
+  const Bins& bins_;
+  typename Bins::Sum* sums_;
+  ExitSite near_;  // the site, relative to the cloud's origin
+  Eigen::Vector3f at_;
+  Eigen::Matrix3f covariance_;
+  float radius_, near_ratio2_, floor_mm_;
+  // What waits for the bins: more room than pairs, since whole lanes are written.
+  int pairs_ = 0;
+  alignas(16) std::array<float, kMost + kClusters> d2_, power_;
+  // Clusters that wait to be replaced by points.
+  int clusters_ = 0;
+  ClusterLanes x_ = ClusterLanes::Zero(), y_ = x_, z_ = x_, of_cluster_ = x_, xx_ = x_, xy_ = x_,
+               xz_ = x_, yy_ = x_, yz_ = x_, zz_ = x_;
+};
+
+// Some sites against the tree, in lanes; each comes to its own verdict about every cluster.
+template <class Bins>
+class SourceCloud::Group {
+ public:
+  static constexpr int kSites = 8;
+
+  Group(const SourceCloud& cloud, std::span<const ExitSite> sites, const Bins& bins,
+        const PairSumOptions& options, typename Bins::Sum* sums)
+      : cloud_(cloud) {
+    const auto far_ratio = static_cast<float>(options.far_ratio);
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      const Sum<Bins>& sum = sums_[i].emplace(cloud, sites[i], bins, options,
+                                              sums + i * static_cast<std::size_t>(bins.size()));
+      x_[i] = sum.center_mm().x();
+      y_[i] = sum.center_mm().y();
+      z_[i] = sum.center_mm().z();
+      far_of_site_[i] = far_ratio * sum.radius_mm();
+    }
+    far_ratio_ = far_ratio;
+    visit(0, (1 << sites.size()) - 1);
+    for (std::size_t i = 0; i < sites.size(); ++i) sums_[i]->finish();
+  }
+
+ private:
+  // sites: a bit for each that has come here.
+  void visit(std::int32_t at, int sites) {
+    const Node& node = cloud_.nodes_[static_cast<std::size_t>(at)];
+    const float far_of_node = far_ratio_ * node.radius;
+    std::array<float, kSites> dx, dy, dz;
+    int near = 0;
+    for (std::size_t i = 0; i < kSites; ++i) {
+      dx[i] = node.x - x_[i];
+      dy[i] = node.y - y_[i];
+      dz[i] = node.z - z_[i];
+      const float far = far_of_node + far_of_site_[i];
+      const float beyond = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i] - far * far;
+      near |= (std::bit_cast<std::int32_t>(beyond) >> 31) & (1 << i);
+    }
+    near &= sites;
+    for (auto far = static_cast<unsigned>(sites & ~near); far != 0; far &= far - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(far));
+      sums_[i]->keep_cluster(node, dx[i], dy[i], dz[i]);
+    }
+    if (near == 0) return;
+    if (node.right >= 0) {
+      visit(at + 1, near);
+      visit(node.right, near);
+      return;
+    }
+    for (auto left = static_cast<unsigned>(near); left != 0; left &= left - 1) {
+      sums_[static_cast<std::size_t>(std::countr_zero(left))]->add_near(node.triangle);
     }
   }
+
+  const SourceCloud& cloud_;
+  float far_ratio_ = 0.0F;
+  std::array<float, kSites> x_{}, y_{}, z_{}, far_of_site_{};
+  std::array<std::optional<Sum<Bins>>, kSites> sums_;
 };
 
 template <class Bins>
-void SourceCloud::add_to(const ExitSite& site, const Bins& bins, const PairSumOptions& options,
-                         double* sums) const {
+void SourceCloud::add_to(std::span<const ExitSite> sites, const Bins& bins,
+                         const PairSumOptions& options, typename Bins::Sum* sums) const {
   if (nodes_.empty()) return;
-  const Eigen::Vector3f c = (site.center_mm - origin_mm_).cast<float>();
-  const Eigen::Matrix3f s = site.covariance_mm2.cast<float>();
-  Sum<Bins> sum{*this,
-                bins,
-                options,
-                sums,
-                c.x(),
-                c.y(),
-                c.z(),
-                static_cast<float>(site.radius_mm()),
-                static_cast<float>(options.far_ratio),
-                static_cast<float>(options.near_ratio),
-                s(0, 0),
-                s(0, 1),
-                s(0, 2),
-                s(1, 1),
-                s(1, 2),
-                s(2, 2),
-                moved(site, -origin_mm_)};
-  sum.visit(0);
+  constexpr std::size_t kSites = Group<Bins>::kSites;
+  for (std::size_t i = 0; i < sites.size(); i += kSites) {
+    Group<Bins>(*this, sites.subspan(i, std::min(kSites, sites.size() - i)), bins, options,
+                sums + i * static_cast<std::size_t>(bins.size()));
+  }
 }
 
-template void SourceCloud::add_to(const ExitSite&, const UniformBins&, const PairSumOptions&,
-                                  double*) const;
-template void SourceCloud::add_to(const ExitSite&, const OctaveBins&, const PairSumOptions&,
-                                  double*) const;
+template void SourceCloud::add_to(std::span<const ExitSite>, const UniformBins&,
+                                  const PairSumOptions&, double*) const;
+template void SourceCloud::add_to(std::span<const ExitSite>, const OctaveBins&,
+                                  const PairSumOptions&, float*) const;
 
 }  // namespace scattermeter

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -81,8 +82,9 @@ class Mapper {
     const int yn = y + 1 < rays_.height ? y + 1 : y - 1;
     const Eigen::Vector3d d = direction(x, y);
     const double cross = std::abs((direction(xn, y) - d).cross(direction(x, yn) - d).dot(d));
-    const double solid_angle = cross / std::pow(d.norm(), 3);
-    const double distance_mm = static_cast<double>(seen_[i].distance) * d.norm();
+    const double length = d.norm();
+    const double solid_angle = cross / (length * length * length);
+    const double distance_mm = static_cast<double>(seen_[i].distance) * length;
     return solid_angle * distance_mm * distance_mm / static_cast<double>(seen_[i].cos_theta);
   }
 
@@ -153,30 +155,47 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
     }
   });
 
+  // Samples in the order of their patches: patch k has those from begin_of[k] to begin_of[k + 1].
   const auto n_patches = static_cast<std::size_t>(patches.size());
-  std::vector<double> seen_mm2(n_patches, 0.0);
-  std::vector<Eigen::Vector3d> sum_mm(n_patches, Eigen::Vector3d::Zero());
-  std::vector<Eigen::Matrix3d> square_mm2(n_patches, Eigen::Matrix3d::Zero());
-  std::vector<double> count(n_patches, 0.0);
+  std::vector<std::size_t> begin_of(n_patches + 1, 0);
   std::vector<std::size_t> guarded(n_patches, 0);
-  for (int y = 0; y < rays.height; ++y) {
-    for (int x = 0; x < rays.width; ++x) {
-      const std::size_t i = mapper.index(x, y);
-      if (mapper.seen(i).patch >= 0) ++map.samples_on_object;
-      if (patch_of_sample[i] >= 0) {
-        const auto k = static_cast<std::size_t>(patch_of_sample[i]);
-        seen_mm2[k] += mapper.footprint_mm2(x, y);
-        // Relative to the patch's centre: squares of small numbers keep their digits.
-        const Eigen::Vector3d p = mapper.point(i) - patches.center_mm(patch_of_sample[i]);
-        sum_mm[k] += p;
-        square_mm2[k] += p * p.transpose();
-        count[k] += 1.0;
-      } else if (mapper.seen(i).patch >= 0) {
-        ++map.samples_guarded;
-        ++guarded[static_cast<std::size_t>(mapper.seen(i).patch)];
-      }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (mapper.seen(i).patch < 0) continue;
+    ++map.samples_on_object;
+    if (patch_of_sample[i] >= 0) {
+      ++begin_of[static_cast<std::size_t>(patch_of_sample[i]) + 1];
+    } else {
+      ++map.samples_guarded;
+      ++guarded[static_cast<std::size_t>(mapper.seen(i).patch)];
     }
   }
+  std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
+  std::vector<std::size_t> in_order(begin_of.back());
+  std::vector<std::size_t> next(begin_of.begin(), begin_of.end() - 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (patch_of_sample[i] >= 0) in_order[next[static_cast<std::size_t>(patch_of_sample[i])]++] = i;
+  }
+  std::vector<double> seen_mm2(n_patches, 0.0);
+  std::vector<Eigen::Vector3d> mean_mm(n_patches);  // from the patch's centre
+  std::vector<Eigen::Matrix3d> spread_mm2(n_patches);
+  tbb::parallel_for(std::size_t{0}, n_patches, [&](std::size_t k) {
+    const Eigen::Vector3d center_mm = patches.center_mm(static_cast<int>(k));
+    Eigen::Vector3d sum_mm = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d square_mm2 = Eigen::Matrix3d::Zero();
+    for (std::size_t at = begin_of[k]; at < begin_of[k + 1]; ++at) {
+      const std::size_t i = in_order[at];
+      const auto width = static_cast<std::size_t>(rays.width);
+      seen_mm2[k] += mapper.footprint_mm2(static_cast<int>(i % width), static_cast<int>(i / width));
+      // Relative to the patch's centre: squares of small numbers keep their digits.
+      const Eigen::Vector3d p = mapper.point(i) - center_mm;
+      sum_mm += p;
+      square_mm2 += p * p.transpose();
+    }
+    const auto count = static_cast<double>(begin_of[k + 1] - begin_of[k]);
+    if (!(count > 0.0)) return;
+    mean_mm[k] = sum_mm / count;
+    spread_mm2[k] = square_mm2 / count - mean_mm[k] * mean_mm[k].transpose();
+  });
   std::vector<std::int32_t> row_of_patch(seen_mm2.size(), -1);
   for (int k = 0; k < patches.size(); ++k) {
     const auto idx = static_cast<std::size_t>(k);
@@ -190,9 +209,8 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
     map.patch_of_row.push_back(k);
     map.coverage.push_back(coverage);
     map.guarded_of_row.push_back(guarded[idx]);
-    const Eigen::Vector3d mean = sum_mm[idx] / count[idx];
-    map.mean_mm.push_back(patches.center_mm(k) + mean);
-    map.spread_mm2.push_back(square_mm2[idx] / count[idx] - mean * mean.transpose());
+    map.mean_mm.push_back(patches.center_mm(k) + mean_mm[idx]);
+    map.spread_mm2.push_back(spread_mm2[idx]);
   }
   map.row_of_sample.assign(n, -1);
   for (std::size_t i = 0; i < n; ++i) {

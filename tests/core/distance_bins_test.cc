@@ -38,7 +38,7 @@ TEST(DistanceBins, OctaveIsExactForLinearFunctionsOfTheSquare) {
     std::uniform_real_distribution<float> distance(0.0F, 40.0F);
     for (int i = 0; i < 1000; ++i) {
       const float d = i == 0 ? 0.0F : i == 1 ? 40.0F : distance(random);
-      std::vector<double> sums(static_cast<std::size_t>(bins.size()));
+      std::vector<float> sums(static_cast<std::size_t>(bins.size()));
       bins.add(d * d, 3.0F, sums.data());
       double total = 0.0, mean = 0.0;
       for (int k = 0; k < bins.size(); ++k) {
