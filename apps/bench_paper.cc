@@ -82,14 +82,9 @@ PaperBench bench_paper(const PaperBenchOptions& options) {
       open_shots(rig, source, scenes, library, see_all(rig, scenes, library, pose), options.quiet);
   const std::vector<Task> tasks = tasks_of(rig, opened);
   const Task& task = tasks.at(kChannel);
-  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
+  const DistanceKnots knots = smooth_knots(library);
   Weights smooth;
-  add_weights(
-      opened, library, options.quiet,
-      [&](const SeenObject& seen, const SourceCloud& sources) {
-        return smooth_weights(seen.sites, sources, knots, pair_options(knots));
-      },
-      smooth);
+  add_smooth_weights(opened, library, options.quiet, smooth);
   const TaskRows rows = rows_of(rig, task);
   const double mean_free_path_mm =
       1.0 / (bench.dipole.sigma_s_prime_per_mm.value + bench.dipole.sigma_a_per_mm.value);

@@ -82,11 +82,7 @@ class Likeness {
  public:
   Likeness(Estimation& e, const std::vector<OpenedShot>& shots, const ShotSource& source,
            const std::optional<SharedView>& shared)
-      : e_(e),
-        shots_(shots),
-        source_(source),
-        shared_(shared),
-        knots_(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm()) {
+      : e_(e), shots_(shots), source_(source), shared_(shared), knots_(smooth_knots(e.library)) {
     for (const auto& [s, a] : kMedia) {
       curves_.push_back(dipole_curve(knots_, std::log(s + a), a / (s + a), 1.4).r);
     }
@@ -164,13 +160,7 @@ class Likeness {
       stub.rig = &all;
       stub.seen = shot.seen;
     }
-    const PairSumOptions pairs = pair_options(knots_);
-    add_weights(
-        stubs, e_.library, true,
-        [&](const SeenObject& seen, const SourceCloud& sources) {
-          return smooth_weights(seen.sites, sources, knots_, pairs);
-        },
-        e_.weights);
+    add_smooth_weights(stubs, e_.library, true, e_.weights);
   }
 
   Observation observe_as(std::size_t i, const std::vector<capture::RawFrame>& exposures,

@@ -57,7 +57,7 @@ CoarseShots::CoarseShots(const Rig& rig, const ObjectScenes& scenes,
       measured_patch_mm_(measured_patch_mm),
       library_(rig, scenes, patch_size_mm, 0.0),
       view_(see_all(rig, scenes, library_, opened.front().pose)),
-      knots_(library_.smallest_patch_mm() / 16.0, library_.longest_distance_mm()),
+      knots_(smooth_knots(library_)),
       range_counts_(range_counts) {
   for (const auto& [name, seen] : view_.objects) {
     const SampleMap& map = seen->map;

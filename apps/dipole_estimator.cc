@@ -122,10 +122,7 @@ bool settled(const Estimate& before, const Estimate& after) {
 class DipoleEstimator {
  public:
   DipoleEstimator(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems)
-      : e_(e),
-        systems_(systems),
-        knots_(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm()),
-        work_(e.tasks.size()) {
+      : e_(e), systems_(systems), knots_(smooth_knots(e.library)), work_(e.tasks.size()) {
     fit_.scale = scale_prior(e.rig);
     fit_.without_noise = e.without_noise;
   }
@@ -134,13 +131,7 @@ class DipoleEstimator {
   // dependence on the nuisances is computed for; then with them, and once more where that shows
   // rows that are outliers.
   void run() {
-    const PairSumOptions pairs = pair_options(knots_);
-    add_weights(
-        e_.shots, e_.library, e_.options.quiet,
-        [&](const SeenObject& seen, const SourceCloud& sources) {
-          return smooth_weights(seen.sites, sources, knots_, pairs);
-        },
-        e_.weights);
+    add_smooth_weights(e_.shots, e_.library, e_.options.quiet, e_.weights);
     e_.watch.lap("light");
     for_open_tasks("fitting", e_, [&](std::size_t i) { first_fit(i); });
     e_.watch.lap("first fit");

@@ -199,6 +199,22 @@ std::vector<ShotRows> shot_rows(const Task& task, const TaskRows& rows,
   return out;
 }
 
+DistanceKnots smooth_knots(const ObjectLibrary& library) {
+  return {library.smallest_patch_mm() / 16.0, library.longest_distance_mm()};
+}
+
+void add_smooth_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
+                        Weights& weights) {
+  const DistanceKnots knots = smooth_knots(library);
+  const PairSumOptions pairs = pair_options(knots);
+  add_weights(
+      shots, library, quiet,
+      [&](const SeenObject& seen, const SourceCloud& sources) {
+        return smooth_weights(seen.sites, sources, knots, pairs);
+      },
+      weights);
+}
+
 PairSumOptions pair_options(const DistanceKnots& knots) {
   PairSumOptions options;
   // The shortest mean free path that is answered for is five resolutions (fit_dipole); a fifth of

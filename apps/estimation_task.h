@@ -72,8 +72,13 @@ void report_rows(const Task& task, const TaskRows& rows, ChannelResult& result);
 std::vector<ShotRows> shot_rows(const Task& task, const TaskRows& rows,
                                 const Eigen::VectorXd& predicted, const Eigen::VectorXd& std);
 
+// The knots of the library's objects: as fine as their patches allow for.
+DistanceKnots smooth_knots(const ObjectLibrary& library);
 // Near-field options for these knots.
 PairSumOptions pair_options(const DistanceKnots& knots);
+// add_weights() on smooth knots. Of the shots it needs rig and view alone.
+void add_smooth_weights(const std::vector<OpenedShot>& shots, ObjectLibrary& library, bool quiet,
+                        Weights& weights);
 
 // Everything that an estimator works on.
 struct Estimation {

@@ -1,7 +1,10 @@
 #include "apps/instrument.h"
 
 #include <algorithm>
+#include <exception>
 #include <set>
+
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include "apps/shot_pose.h"
 
@@ -66,6 +69,31 @@ Skipped skipped_of(const std::vector<OpenedShot>& shots, const ObjectLibrary& li
   return out;
 }
 
+// Reads the shots and meanwhile makes W of the views and lights that they need: neither wants the
+// other.
+std::vector<OpenedShot> open_and_light(const Rig& rig, const ShotSource& source,
+                                       const ObjectScenes& scenes, ObjectLibrary& library,
+                                       const SharedView& view, bool quiet, Weights& weights) {
+  std::vector<OpenedShot> unread(source.shot_idxs.size());
+  for (std::size_t i = 0; i < unread.size(); ++i) {
+    unread[i].rig = &rig.shots.at(source.shot_idxs[i]);
+    unread[i].seen = view.objects.at(unread[i].rig->object);
+  }
+  std::vector<OpenedShot> shots;
+  std::exception_ptr of_light;
+  tbb::parallel_invoke([&] { shots = open_shots(rig, source, scenes, library, view, quiet); },
+                       [&] {
+                         try {
+                           add_smooth_weights(unread, library, true, weights);
+                         } catch (...) {
+                           // What is wrong with a shot is told first.
+                           of_light = std::current_exception();
+                         }
+                       });
+  if (of_light) std::rethrow_exception(of_light);
+  return shots;
+}
+
 }  // namespace
 
 Instrument::Instrument(const Rig& rig, const ObjectScenes& scenes, const MeasureOptions& options)
@@ -114,7 +142,9 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch, bool
   if (!view && pose_ && !rig_.pose.per_shot) {
     view = see_all(rig_, scenes_, library_, pose_from_silhouettes(rig_, scenes_, *pose_, source));
   }
-  shots = open_shots(rig_, source, scenes_, library_, view, options_.quiet);
+  shots = view && model != Model::kPaper
+              ? open_and_light(rig_, source, scenes_, library_, *view, options_.quiet, weights_)
+              : open_shots(rig_, source, scenes_, library_, view, options_.quiet);
   watch.lap("shots");
   out.brackets = brackets_of(shots);
   const std::vector<Task> tasks = tasks_of(rig_, shots, options_.channels);

@@ -7,7 +7,7 @@
 namespace scattermeter::apps {
 
 void estimate_paper(Estimation& e) {
-  const DistanceKnots knots(e.library.smallest_patch_mm() / 16.0, e.library.longest_distance_mm());
+  const DistanceKnots knots = smooth_knots(e.library);
   std::vector<std::vector<PaperAnswer>> answers(e.tasks.size());
   const std::vector<double> widths = paper_widths_mm();
   for (std::size_t w = 0; w < widths.size(); ++w) {

@@ -1,5 +1,6 @@
 #include "calib/camera_model.h"
 
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -75,14 +76,19 @@ std::vector<Eigen::Vector3f> pixel_rays_in_camera(const CameraIntrinsics& intrin
   tbb::parallel_for(tbb::blocked_range<int>(0, height, 16), [&](const auto& rows) {
     for (int row = rows.begin(); row != rows.end(); ++row) {
       Eigen::Vector3f* out = rays.data() + static_cast<size_t>(row) * columns;
-      // Without distortion unproject() is exact. With it, the neighbour to the left is a start from
-      // which two Newton steps suffice; each row begins afresh, so that the split among threads
-      // does not show in the digits.
-      Eigen::Vector2d ray = Eigen::Vector2d::Constant(std::nan(""));
+      // Without distortion unproject() is exact. With it, a parabola through the three neighbours
+      // to the left is a start from which one Newton step or none suffices; each row begins afresh,
+      // so that the split among threads does not show in the digits.
+      const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::nan(""));
+      std::array<Eigen::Vector2d, 3> left = {none, none, none};  // the nearest first
       for (int column = 0; column < width; ++column) {
         const Eigen::Vector2d pixel(static_cast<double>(x0) + column,
                                     static_cast<double>(y0) + row);
-        ray = ray.allFinite() ? lens.unproject(pixel, ray) : lens.unproject(pixel);
+        const Eigen::Vector2d parabola = 3.0 * (left[0] - left[1]) + left[2];
+        const Eigen::Vector2d ray = parabola.allFinite()  ? lens.unproject(pixel, parabola)
+                                    : left[0].allFinite() ? lens.unproject(pixel, left[0])
+                                                          : lens.unproject(pixel);
+        left = {ray, left[0], left[1]};
         out[column] = Eigen::Vector3f(static_cast<float>(ray.x()), static_cast<float>(ray.y()),
                                       ray.allFinite() ? 1.0F : std::nanf(""));
       }

@@ -16,7 +16,8 @@ struct ExitSite {
   static constexpr int kMaxPoints = 6;
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_mm2 = Eigen::Matrix3d::Zero();  // rank at most 2
-  // Quadrature points with this mean and covariance; weights add up to 1.
+  // Quadrature points with this mean and covariance; weights add up to 1. Six of them are those of
+  // kCowper, in its order, under an affine map.
   int n_points = 1;
   std::array<Eigen::Vector3d, kMaxPoints> points_mm;
   std::array<double, kMaxPoints> weights{};

@@ -16,22 +16,9 @@ namespace {
 
 using Density = std::array<double, 3>;
 
-constexpr int kRulePoints = 6;
+Eigen::Vector3d middle_mm(const Triangle& t) { return (t[0] + t[1] + t[2]) / 3.0; }
 
 double area_mm2(const Triangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
-
-// visit(point, weight) for the rule's points on a triangle with a density that is linear.
-template <class Visit>
-void for_rule(const Triangle& t, const Density& e, double area, const Visit& visit) {
-  const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
-  for (const TriangleOrbit& orbit : kCowper) {
-    const double b = orbit.b();
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double density = b * (e[0] + e[1] + e[2]) + (orbit.a - b) * e[i];
-      visit(center + (orbit.a - b) * (t[i] - center), density * area * orbit.weight);
-    }
-  }
-}
 
 }  // namespace
 
@@ -134,19 +121,28 @@ SourceCloud::SourceCloud(const IncidentLight& light, const Eigen::Vector3d& orig
     leaves.push_back(Moments::of(t));
   }
   for (const LitTriangle& t : triangles_) {
+    const Eigen::Vector3d center = middle_mm(t.corners_mm);
+    const auto fill = [&](const auto& orbits, auto& points) {
+      const Density& e = t.irradiance_sr_per_mm2;
+      const double area = area_mm2(t.corners_mm);
+      Eigen::Index k = 0;
+      for (const TriangleOrbit& orbit : orbits) {
+        for (std::size_t i = 0; i < 3; ++i, ++k) {
+          const Eigen::Vector3f from_center =
+              ((orbit.a - orbit.b()) * (t.corners_mm[i] - center)).template cast<float>();
+          const double density = orbit.b() * (e[0] + e[1] + e[2]) + (orbit.a - orbit.b()) * e[i];
+          points.x[k] = from_center.x();
+          points.y[k] = from_center.y();
+          points.z[k] = from_center.z();
+          points.power[k] = static_cast<float>(density * area * orbit.weight);
+        }
+      }
+    };
     Rule& rule = rules_.emplace_back();
-    rule.center = ((t.corners_mm[0] + t.corners_mm[1] + t.corners_mm[2]) / 3.0).cast<float>();
+    rule.center = center.cast<float>();
     rule.edge = static_cast<float>(longest_edge_mm(t.corners_mm));
-    Eigen::Index k = 0;
-    for_rule(t.corners_mm, t.irradiance_sr_per_mm2, area_mm2(t.corners_mm),
-             [&](const Eigen::Vector3d& q, double power) {
-               const Eigen::Vector3f from_center = q.cast<float>() - rule.center;
-               rule.x[k] = from_center.x();
-               rule.y[k] = from_center.y();
-               rule.z[k] = from_center.z();
-               rule.power[k++] = static_cast<float>(power);
-             });
-    for (; k < kLanes; ++k) rule.x[k] = rule.y[k] = rule.z[k] = rule.power[k] = 0.0F;
+    fill(kCowper, rule.six);
+    fill(kThreePoints, rule.three);
   }
   std::vector<std::int32_t> order(triangles_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -169,7 +165,20 @@ class SourceCloud::Sum {
         covariance_(site.covariance_mm2.cast<float>()),
         radius_(static_cast<float>(site.radius_mm())),
         near_ratio2_(static_cast<float>(options.near_ratio * options.near_ratio)),
-        floor_mm_(static_cast<float>(options.floor_mm)) {}
+        floor_mm_(static_cast<float>(options.floor_mm)),
+        few_points_ratio_(static_cast<float>(options.few_points_ratio)) {
+    // Of six points the last three stand where those of the rule of three do, but farther out.
+    constexpr TriangleOrbit kSix = kCowper[1], kThree = kThreePoints[0];
+    const double kCloser = (kThree.a - kThree.b()) / (kSix.a - kSix.b());
+    const bool six = near_.n_points == 6;
+    n_few_ = six ? 3 : near_.n_points;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(n_few_); ++i) {
+      const Eigen::Vector3d& p = near_.points_mm[six ? i + 3 : i];
+      few_points_[i] =
+          (near_.center_mm + (six ? kCloser : 1.0) * (p - near_.center_mm)).template cast<float>();
+      few_weights_[i] = static_cast<float>(six ? kThree.weight : near_.weights[i]);
+    }
+  }
 
   const Eigen::Vector3f& center_mm() const { return at_; }
   float radius_mm() const { return radius_; }
@@ -191,11 +200,20 @@ class SourceCloud::Sum {
 
   void add_near(std::int32_t triangle) {
     const Rule& rule = cloud_.rules_[static_cast<std::size_t>(triangle)];
+    const float few = few_points_ratio_ * (rule.edge + radius_);
+    if ((rule.center - at_).squaredNorm() >= few * few) {
+      for (int i = 0; i < n_few_; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        add_points<3>(rule.three, rule.center - few_points_[k], 1.0F,
+                      few_weights_[k] * rule.three.power);
+      }
+      return;
+    }
     for (std::size_t i = 0; i < static_cast<std::size_t>(near_.n_points); ++i) {
       const Eigen::Vector3f v = rule.center - near_.points_mm[i].template cast<float>();
       const auto weight = static_cast<float>(near_.weights[i]);
       if (rule.edge * rule.edge * near_ratio2_ <= v.squaredNorm()) {
-        add_rule(rule, v, 1.0F, weight * rule.power);
+        add_points<6>(rule.six, v, 1.0F, weight * rule.six.power);
       } else {
         integrate(rule, cloud_.triangles_[static_cast<std::size_t>(triangle)], near_.points_mm[i],
                   weight);
@@ -252,14 +270,17 @@ class SourceCloud::Sum {
     clusters_ = 0;
   }
 
-  // The rule's points, `scale` times as far from a centroid at v.
-  void add_rule(const Rule& rule, const Eigen::Vector3f& v, float scale, const Lanes& power) {
-    make_room(kLanes);
-    Eigen::Map<Lanes>(d2_.data() + pairs_) = (v.x() + scale * rule.x).square() +
-                                             (v.y() + scale * rule.y).square() +
-                                             (v.z() + scale * rule.z).square();
+  // n points, `scale` times as far from a centroid at v.
+  template <int n, class Points>
+  void add_points(const Points& points, const Eigen::Vector3f& v, float scale,
+                  const typename Points::Lanes& power) {
+    using Lanes = typename Points::Lanes;
+    make_room(static_cast<int>(power.size()));
+    Eigen::Map<Lanes>(d2_.data() + pairs_) = (v.x() + scale * points.x).square() +
+                                             (v.y() + scale * points.y).square() +
+                                             (v.z() + scale * points.z).square();
     Eigen::Map<Lanes>(power_.data() + pairs_) = power;
-    pairs_ += kRulePoints;
+    pairs_ += n;
   }
 
   // A triangle with a linear density, cut into four until its parts are small for their distance.
@@ -268,13 +289,14 @@ class SourceCloud::Sum {
     const Rule& rule;
     std::array<Eigen::Vector3f, 3> corner;  // from the centroid
     std::array<float, 3> rise;              // of the density from the centroid to a corner
-    Lanes even, slope;  // power of a density of 1, and of one that rises so; of all the triangle
+    Points<8>::Lanes even,
+        slope;  // power of a density of 1, and of one that rises so; of all the triangle
   };
   void integrate(const Rule& rule, const LitTriangle& t, const Eigen::Vector3d& p, float weight) {
-    const Eigen::Vector3d center = (t.corners_mm[0] + t.corners_mm[1] + t.corners_mm[2]) / 3.0;
+    const Eigen::Vector3d center = middle_mm(t.corners_mm);
     const auto& e = t.irradiance_sr_per_mm2;
     const double mean = (e[0] + e[1] + e[2]) / 3.0;
-    Cut cut{rule, {}, {}, Lanes::Zero(), Lanes::Zero()};
+    Cut cut{rule, {}, {}, Points<8>::Lanes::Zero(), Points<8>::Lanes::Zero()};
     for (std::size_t i = 0; i < 3; ++i) {
       cut.corner[i] = (t.corners_mm[i] - center).cast<float>();
       cut.rise[i] = static_cast<float>(e[i] - mean);
@@ -284,13 +306,14 @@ class SourceCloud::Sum {
     for (const TriangleOrbit& orbit : kCowper) {
       for (int i = 0; i < 3; ++i) cut.even[k++] = weight * static_cast<float>(area * orbit.weight);
     }
-    cut.slope = weight * rule.power - static_cast<float>(mean) * cut.even;
+    cut.slope = weight * rule.six.power - static_cast<float>(mean) * cut.even;
     add_parts(cut, (center - p).cast<float>(), 1.0F, static_cast<float>(mean));
   }
   void add_parts(const Cut& cut, const Eigen::Vector3f& v, float scale, float density) {
     const float edge = std::abs(scale) * cut.rule.edge;
     if (edge <= floor_mm_ || edge * edge * near_ratio2_ <= v.squaredNorm()) {
-      add_rule(cut.rule, v, scale, (scale * scale) * (density * cut.even + scale * cut.slope));
+      add_points<6>(cut.rule.six, v, scale,
+                    (scale * scale) * (density * cut.even + scale * cut.slope));
       return;
     }
     const float half = 0.5F * scale;
@@ -306,7 +329,11 @@ class SourceCloud::Sum {
   ExitSite near_;  // the site, relative to the cloud's origin
   Eigen::Vector3f at_;
   Eigen::Matrix3f covariance_;
-  float radius_, near_ratio2_, floor_mm_;
+  float radius_, near_ratio2_, floor_mm_, few_points_ratio_;
+  // The site as fewer points.
+  int n_few_;
+  std::array<Eigen::Vector3f, ExitSite::kMaxPoints> few_points_;
+  std::array<float, ExitSite::kMaxPoints> few_weights_;
   // What waits for the bins: more room than pairs, since whole lanes are written.
   int pairs_ = 0;
   alignas(16) std::array<float, kMost + kClusters> d2_, power_;

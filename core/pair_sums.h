@@ -23,7 +23,10 @@ struct PairSumOptions {
   double far_ratio = 6.0;
   // Nearer lit triangles are integrated from each of the site's points: cut until they are smaller
   // than distance / near_ratio or than floor_mm.
-  double near_ratio = 1.0;
+  double near_ratio = 0.7;
+  // A lit triangle at least this many times its edge and the site's radius away is three points,
+  // seen from three: exact for polynomials of degree 2 in both. Nearer, both are six (degree 4).
+  double few_points_ratio = 2.5;
   double floor_mm = 0.02;
 };
 
@@ -54,14 +57,18 @@ class SourceCloud {
     std::int32_t triangle;         // of a leaf
     std::int32_t right;
   };
-  // A lit triangle as six points about its centroid, for sites that are farther away than it is
-  // large; the last two fill lanes.
-  static constexpr int kLanes = 8;
-  using Lanes = Eigen::Array<float, kLanes, 1>;
+  // A lit triangle as points about its centroid, for sites that are farther away than it is large:
+  // six, or three for sites a good deal farther. Zeros fill the lanes.
+  template <int kLanes>
+  struct Points {
+    using Lanes = Eigen::Array<float, kLanes, 1>;
+    Lanes x = Lanes::Zero(), y = Lanes::Zero(), z = Lanes::Zero(), power = Lanes::Zero();
+  };
   struct Rule {
     Eigen::Vector3f center;
-    float edge;  // the longest
-    Lanes x, y, z, power;
+    float edge;       // the longest
+    Points<8> six;    // kCowper
+    Points<4> three;  // kThreePoints
   };
   struct Moments;
   template <class Bins>

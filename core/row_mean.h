@@ -22,15 +22,17 @@ class RowSum {
   // variance: of the value, > 0.
   void add(const Monomials& from_origin, double value, double variance);
 
-  double n() const { return monomials_(0, 0); }
+  double n() const { return moments_[0]; }
   double mean() const { return value_[0] / n(); }
   double variance_of_mean() const { return variance_ / (n() * n()); }
-  Monomials mean_place() const { return monomials_.col(0) / n(); }
+  Monomials mean_place() const { return moments_.head<6>() / n(); }
 
  private:
   friend class RowFit;
-  Eigen::Matrix<double, 6, 6> monomials_ = Eigen::Matrix<double, 6, 6>::Zero();  // times each other
-  Monomials value_ = Monomials::Zero();                                          // times the value
+  // Of all places up to degree 4: the six monomials, x^3, x^2 y, x y^2, y^3, x^4, x^3 y, x^2 y^2,
+  // x y^3, y^4.
+  Eigen::Matrix<double, 15, 1> moments_ = Eigen::Matrix<double, 15, 1>::Zero();
+  Monomials value_ = Monomials::Zero();  // monomials times the value
   double variance_ = 0;
 };
 
@@ -57,6 +59,10 @@ class RowFit {
   RowMean mean_over(const Monomials& target) const;
 
  private:
+  // By the first `kTerms` monomials; false: they are not to be told apart, or cost too much noise.
+  template <int kTerms>
+  bool fitted_mean(const Monomials& step, RowMean& mean) const;
+
   const RowSum& row_;
   Eigen::Matrix<double, 6, 6> gram_;
   Monomials moment_;

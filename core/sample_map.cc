@@ -170,10 +170,11 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
     }
   }
   std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
-  std::vector<std::size_t> in_order(begin_of.back());
+  std::vector<std::uint32_t> in_order(begin_of.back());
   std::vector<std::size_t> next(begin_of.begin(), begin_of.end() - 1);
   for (std::size_t i = 0; i < n; ++i) {
-    if (patch_of_sample[i] >= 0) in_order[next[static_cast<std::size_t>(patch_of_sample[i])]++] = i;
+    if (patch_of_sample[i] < 0) continue;
+    in_order[next[static_cast<std::size_t>(patch_of_sample[i])]++] = static_cast<std::uint32_t>(i);
   }
   std::vector<double> seen_mm2(n_patches, 0.0);
   std::vector<Eigen::Vector3d> mean_mm(n_patches);  // from the patch's centre

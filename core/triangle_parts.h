@@ -57,4 +57,7 @@ struct TriangleOrbit {
 inline constexpr std::array<TriangleOrbit, 2> kCowper = {
     {{0.108103018168070, 0.223381589678011}, {0.816847572980459, 0.109951743655322}}};
 
+// Three points, of degree 2.
+inline constexpr std::array<TriangleOrbit, 1> kThreePoints = {{{2.0 / 3.0, 1.0 / 3.0}}};
+
 }  // namespace scattermeter
