@@ -45,6 +45,7 @@ void add_transport_bench(CLI::App& bench, CommandContext& context,
 void add_models_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_materials_bench(CLI::App& bench, CommandContext& context,
                          const SharedBenchOptions& common);
+void add_shots_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_sums_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 
 }  // namespace scattermeter::apps

@@ -13,6 +13,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "apps/growth_exponent.h"
 #include "core/dipole_pairs.h"
 #include "core/dipole_sums.h"
 #include "core/fresnel.h"
@@ -253,18 +254,13 @@ SumsBench bench_sums(const SumsBenchOptions& options) {
 
 double patches_exponent(const SumsBench& bench, const std::string& body, double rows,
                         double tolerance) {
-  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  std::vector<double> patches, seconds;
   for (const SumsBenchRow& r : bench.rows) {
     if (r.body != body || r.rows != rows || r.tolerance != tolerance) continue;
-    const double u = std::log(r.patches), v = std::log(r.tree_one_s + r.sum_one_s);
-    n += 1;
-    x += u;
-    y += v;
-    xx += u * u;
-    xy += u * v;
+    patches.push_back(r.patches);
+    seconds.push_back(r.tree_one_s + r.sum_one_s);
   }
-  const double spread = n * xx - x * x;
-  return spread > 0.0 ? (n * xy - x * y) / spread : std::numeric_limits<double>::quiet_NaN();
+  return growth_exponent(patches, seconds);
 }
 
 }  // namespace scattermeter::apps

@@ -43,7 +43,7 @@ ChangedImages images_of(const Estimation& e, const LightKey& key,
   if (kept == nullptr) {
     return changed_images(*seen, rig_light, channel, e.library, knots, media);
   }
-  if (kept->site_of_row.empty()) {
+  if (kept->nominal.size() == 0) {
     *kept = changed_weights(*seen, rig_light, channel, e.library, knots);
   }
   return changed_images(*seen, *kept, knots, media);
@@ -252,6 +252,7 @@ class DipoleEstimator {
                            first.scale.value};
     const TaskImage image(e_.rig, task, work_[i].rows, e_.weights, knots_, medium,
                           sensitivities_->of_task[i]);
+    result.nuisances_negligible = image.negligible_nuisances();
     std::vector<ShotInformation> shots;
     ImageInformation joint;
     const auto fitted = [&] {

@@ -172,6 +172,7 @@ Measurement Instrument::measure(const ShotSource& source, Stopwatch& watch, bool
     estimate_dipole(estimation);
   }
   out.skipped = skipped_of(shots, library_);
+  for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;
   out.skipped.channels_not_asked = tasks_of(rig_, shots).size() - tasks.size();
   return out;
 }

@@ -1,7 +1,6 @@
 #include "apps/light_sensitivity.h"
 
 #include <cmath>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -10,7 +9,6 @@
 #include "core/dipole.h"
 #include "core/fresnel.h"
 #include "core/incident_light.h"
-#include "core/triangle_mesh.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -45,37 +43,10 @@ std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
 
 namespace {
 
-// Points on the object that stand for all rows of a view around them: the middle of the rows on
-// each patch of a coarser mesh.
-struct CoarseSites {
-  std::vector<ExitSite> sites;
-  std::vector<Eigen::Index> of_row;
-};
-
-CoarseSites coarse_sites(const SeenObject& seen, const PatchMesh& coarse) {
-  const TriangleMesh& mesh = seen.object->mesh();
-  CoarseSites out;
-  std::map<int, Eigen::Index> site_of_patch;
-  std::vector<double> rows;
-  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
-    const Eigen::Vector3d& at_mm = seen.sites[j].center_mm;
-    const int facet = seen.patches->facet_idx(seen.map.patch_of_row[j]);
-    const int patch = coarse.locate(facet, barycentric(mesh, facet, at_mm)).patch_idx;
-    const auto [it, is_new] =
-        site_of_patch.try_emplace(patch, static_cast<Eigen::Index>(out.sites.size()));
-    if (is_new) {
-      out.sites.push_back(exit_point(Eigen::Vector3d::Zero()));
-      rows.push_back(0.0);
-    }
-    const auto site = static_cast<std::size_t>(it->second);
-    out.sites[site].center_mm += at_mm;
-    rows[site] += 1.0;
-    out.of_row.push_back(it->second);
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    out.sites[i] = exit_point(out.sites[i].center_mm / rows[i]);
-  }
-  return out;
+// The knots with fewer bins between: their error is the same before and after a change.
+DistanceKnots with_few_bins(const DistanceKnots& knots) {
+  constexpr int kPerOctave = 6, kFineBits = 5;
+  return {knots.resolution_mm(), knots.max_distance_mm(), kPerOctave, kFineBits};
 }
 
 // make(sites, sources, is_other_eta): of one change.
@@ -95,30 +66,34 @@ Changed<Each> changed(const SeenObject& seen, const RigLight& rig_light, std::si
         object.box.center_mm());
   };
   Changed<Each> out;
-  CoarseSites at = coarse_sites(seen, coarse);
-  out.site_of_row = std::move(at.of_row);
-  if (rig_light.is_ambient) {
-    // What else is uncertain matters little to a small even light.
-    return out;
+  // What else is uncertain matters little to a small even light.
+  if (rig_light.is_ambient) return out;
+  std::array<std::vector<ExitSite>, 3> sites;
+  out.shift_mm = 0.1 * seen.patches->patch_size_mm();
+  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
+    const ExitSite center = exit_point(seen.sites[j].center_mm);
+    const auto along = tangents(seen.patches->normal(seen.map.patch_of_row[j]));
+    sites[0].push_back(center);
+    for (std::size_t t = 0; t < 2; ++t) {
+      sites[t + 1].push_back(moved(center, out.shift_mm * along[t]));
+    }
   }
   const SourceCloud nominal = lit_by(led, eta);
+  out.nominal = make(sites[0], nominal, false);
+  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = make(sites[t + 1], nominal, false);
   const auto under = [&](const Led& light, double eta_here) {
-    return make(at.sites, lit_by(light, eta_here), eta_here != eta);
+    return make(sites[0], lit_by(light, eta_here), eta_here != eta);
   };
-  const bool is_calibrated = rig_light.calibrated.has_value();
-  const bool position = is_calibrated || rig_light.position_std_mm > 0.0;
-  const bool exponent = is_calibrated || rig_light.exponent_std > 0.0;
-  const bool other_eta = object.rig->eta_std > 0.0;
-  if (position || exponent || other_eta) out.nominal = make(at.sites, nominal, false);
   // A hundredth of the distance: shadow edges then move by several of the parts that patches are
   // cut into, and the next order is still a hundredth of the first.
   out.move_mm = 0.01 * (led.position_mm - object.box.center_mm()).norm();
-  for (int i = 0; i < 3 && position; ++i) {
+  const bool is_calibrated = rig_light.calibrated.has_value();
+  for (int i = 0; i < 3 && (is_calibrated || rig_light.position_std_mm > 0.0); ++i) {
     Led other = led;
     other.position_mm[i] += out.move_mm;
     out.moved[static_cast<std::size_t>(i)] = under(other, eta);
   }
-  if (exponent) {
+  if (is_calibrated || rig_light.exponent_std > 0.0) {
     Led other = led;
     other.exponent += kExponentStep;
     out.other_exponent = under(other, eta);
@@ -129,21 +104,7 @@ Changed<Each> changed(const SeenObject& seen, const RigLight& rig_light, std::si
     other.axis = (led.axis + kTurnRad * rig_light.calibrated->tangents[t]).normalized();
     out.turned[t] = under(other, eta);
   }
-  if (other_eta) out.other_eta = under(led, eta + kEtaStep);
-  // Where the sites are, row by row: beside edges and shadows the light changes from each to the
-  // next.
-  out.shift_mm = 0.1 * seen.patches->patch_size_mm();
-  std::array<std::vector<ExitSite>, 3> sites;
-  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
-    const ExitSite center = exit_point(seen.sites[j].center_mm);
-    const auto along = tangents(seen.patches->normal(seen.map.patch_of_row[j]));
-    sites[0].push_back(center);
-    for (std::size_t t = 0; t < 2; ++t) {
-      sites[t + 1].push_back(moved(center, out.shift_mm * along[t]));
-    }
-  }
-  out.unshifted = make(sites[0], nominal, false);
-  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = make(sites[t + 1], nominal, false);
+  if (object.rig->eta_std > 0.0) out.other_eta = under(led, eta + kEtaStep);
   return out;
 }
 
@@ -160,22 +121,24 @@ PairSumOptions coarse_pair_options(const DistanceKnots& knots) {
 ChangedWeights changed_weights(const SeenObject& seen, const RigLight& light, std::size_t channel,
                                ObjectLibrary& library, const DistanceKnots& knots) {
   const PairSumOptions pairs = coarse_pair_options(knots);
+  const DistanceKnots few = with_few_bins(knots);
   return changed<WeightMatrix>(seen, light, channel, library,
                                [&](const std::vector<ExitSite>& sites, const SourceCloud& sources,
-                                   bool) { return smooth_weights(sites, sources, knots, pairs); });
+                                   bool) { return smooth_weights(sites, sources, few, pairs); });
 }
 
 ChangedImages changed_images(const SeenObject& seen, const RigLight& light, std::size_t channel,
                              ObjectLibrary& library, const DistanceKnots& knots,
                              const std::vector<LitMedium>& media) {
   const PairSumOptions pairs = coarse_pair_options(knots);
+  const DistanceKnots few = with_few_bins(knots);
   const double eta = seen.object->rig->eta_int_over_ext;
   const Eigen::MatrixXd r = curves(media, knots, eta);
   const Eigen::MatrixXd other = curves(media, knots, eta + kEtaStep);
   return changed<Eigen::MatrixXd>(
       seen, light, channel, library,
       [&](const std::vector<ExitSite>& sites, const SourceCloud& sources, bool is_other_eta) {
-        return smooth_images(sites, sources, knots, pairs, is_other_eta ? other : r);
+        return smooth_images(sites, sources, few, pairs, is_other_eta ? other : r);
       });
 }
 
@@ -198,9 +161,7 @@ ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weigh
     out.other_eta = weights.other_eta * curves(media, knots, eta + kEtaStep);
   }
   for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = image(weights.shifted[t]);
-  out.unshifted = image(weights.unshifted);
   out.shift_mm = weights.shift_mm;
-  out.site_of_row = weights.site_of_row;
   return out;
 }
 
@@ -210,20 +171,17 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
   const double eta = seen.object->rig->eta_int_over_ext;
   LightSensitivity out;
   out.l = nominal * curves(media, knots, eta);
-  const auto relative = [](const Eigen::MatrixXd& changed, const Eigen::MatrixXd& from, double by) {
-    return (from.array() > 0.0).select((changed - from).array() / (by * from.array()), 0.0).eval();
-  };
+  const Eigen::MatrixXd& l = images.nominal;
   const auto change = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
     if (changed.size() == 0) return {};
-    return relative(changed, images.nominal, by)(images.site_of_row, Eigen::all) * out.l.array();
+    const Eigen::ArrayXXd per_l = (changed - l).array() / (by * l.array());
+    return (l.array() > 0.0).select(per_l * out.l.array(), 0.0);
   };
   for (std::size_t i = 0; i < 3; ++i) out.per_mm[i] = change(images.moved[i], images.move_mm);
   out.per_exponent = change(images.other_exponent, kExponentStep);
   for (std::size_t t = 0; t < 2; ++t) out.per_rad[t] = change(images.turned[t], images.turn_rad);
   for (std::size_t t = 0; t < 2; ++t) {
-    if (images.shifted[t].size() == 0) continue;
-    out.per_tangent_mm[t] =
-        relative(images.shifted[t], images.unshifted, images.shift_mm) * out.l.array();
+    out.per_tangent_mm[t] = change(images.shifted[t], images.shift_mm);
   }
   out.per_eta = change(images.other_eta, kEtaStep);
   if (out.per_eta.size() == 0) return out;

@@ -34,10 +34,9 @@ struct LightSensitivity {
 // For weights to some 1e-3: deviations need no more.
 PairSumOptions coarse_pair_options(const DistanceKnots& knots);
 
-// A view under a light, nominal and with one thing changed at a time, on lit patches of twice the
-// size: errors of discretisation cancel in relative changes. What changes the light is nearly the
-// same all over such a patch, so one point stands for all its rows; what shifts a row is its own.
-// What the rig knows exactly is not changed (no rows).
+// A view under a light, nominal and with one thing changed at a time. At the centres of the sites,
+// from light on patches of twice the size: errors of discretisation cancel in relative changes, and
+// these are nearly the same all over a site. What the rig knows exactly is not changed (no rows).
 template <class Each>
 struct Changed {
   Each nominal;
@@ -47,15 +46,12 @@ struct Changed {
   std::array<Each, 2> turned;  // the axis, by turn_rad along the calibration's tangents
   double turn_rad = 0;
   Each other_eta;
-  std::vector<Eigen::Index> site_of_row;  // which row of all these tells of a row of the view
-  // The centres of the view's rows, and these moved by shift_mm along two tangents.
-  Each unshifted;
-  std::array<Each, 2> shifted;
+  std::array<Each, 2> shifted;  // the sites, by shift_mm along two tangents
   double shift_mm = 0;
 };
 // W: all that the sensitivities of any medium need of the geometry.
 using ChangedWeights = Changed<WeightMatrix>;
-// The images themselves of some media, sites or rows x media: as many numbers as W has knots times
+// The images themselves of some media, rows x media: as many numbers as W has knots times
 // fewer.
 using ChangedImages = Changed<Eigen::MatrixXd>;
 // `channel`: of the library's light.

@@ -67,6 +67,7 @@ struct ChannelResult {
   // those that the silhouette, a crease or another part of the object hides in part.
   std::array<std::size_t, kRowStates> patches_by_state{};
   std::size_t patches_partly_seen = 0;
+  std::size_t nuisances_negligible = 0;  // left out of the dipole's fit (apps/task_image.h)
   // Dipole and transport.
   std::vector<ShotResult> singles;  // each shot alone; empty for a single shot
   ShotAgreement agreement;          // whether they tell the same
@@ -109,6 +110,7 @@ struct Skipped {
   std::size_t patches_unseen = 0;      // of the objects' views: no row
   std::size_t patches_unlit = 0;       // of objects under each light: c_k = 0, in no sum
   std::size_t shadow_rays = 0;         // on convex objects
+  std::size_t nuisances = 0;           // of materials' channels, too small to count
 };
 
 struct Measurement {

@@ -167,7 +167,8 @@ std::string result_json(const Measurement& m, const std::string& command_line) {
                   {"samples_beside_the_objects", m.skipped.samples_outside},
                   {"patches_not_seen", m.skipped.patches_unseen},
                   {"patches_not_lit", m.skipped.patches_unlit},
-                  {"shadow_rays_on_convex_objects", m.skipped.shadow_rays}};
+                  {"shadow_rays_on_convex_objects", m.skipped.shadow_rays},
+                  {"negligible_nuisances", m.skipped.nuisances}};
   j["notes"] = m.notes;
   j["timing_s"] = Json::object();
   for (const auto& [stage, seconds] : m.timing_s) j["timing_s"][stage] = seconds;

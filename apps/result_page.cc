@@ -73,6 +73,7 @@ Html skipped(const Skipped& s) {
   add(s.patches_unseen, "patches that no shot sees");
   add(s.patches_unlit, "patches that a light does not reach");
   add(s.shadow_rays, "shadow rays on convex objects");
+  add(s.nuisances, "causes of error too small to count");
   if (parts.empty()) return {};
   return html_element("p",
                       html_text(fmt::format("Left undone without a change of the answer: {}.",

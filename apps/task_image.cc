@@ -1,8 +1,12 @@
 #include "apps/task_image.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include "core/dipole_curve.h"
 #include "core/numerics.h"
@@ -21,6 +25,34 @@ std::vector<Eigen::Index> used_rows(const ChannelObservation& o) {
 
 double sigma_t_per_mm(const Medium& medium) {
   return medium.sigma_s_prime_per_mm + medium.sigma_a_per_mm;
+}
+
+// A nuisance, and the square of the length of what one deviation of it changes in the image, in
+// deviations of the rows; infinite where it is free.
+struct Effect {
+  Nuisance nuisance;
+  double square = 0;
+};
+
+// Of one shot, from a part of its rows evenly among all.
+std::vector<Effect> effects(const RigNuisances& nuisances, const OpenedShot& shot,
+                            const ChannelObservation& rows) {
+  constexpr std::size_t kRows = 500;
+  const std::vector<Eigen::Index> used = used_rows(rows);
+  const std::size_t step = std::max<std::size_t>(1, used.size() / kRows);
+  std::vector<Eigen::Index> some;
+  for (std::size_t i = 0; i < used.size(); i += step) some.push_back(used[i]);
+  std::vector<Effect> out;
+  for (const NuisanceColumn& c : nuisances.columns(shot, rows, some)) {
+    Effect& effect = out.emplace_back(Effect{c.nuisance, 0.0});
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const double change = c.nuisance.std * c.change[static_cast<Eigen::Index>(i)];
+      effect.square += static_cast<double>(step) * change * change /
+                       rows.variance[static_cast<std::size_t>(some[i])];
+    }
+    if (!std::isfinite(effect.square)) effect.square = std::numeric_limits<double>::infinity();
+  }
+  return out;
 }
 
 Eigen::VectorXd reflectance(const LitMedium& first, const DistanceKnots& knots, double eta) {
@@ -44,11 +76,39 @@ TaskImage::TaskImage(const Rig& rig, const Task& task, const TaskRows& rows, con
       r_(reflectance(first, knots, task.eta)),
       rig_nuisances_(rig, task.channel, sensitivities),
       patch_mm_(patch_mm) {
-  for (std::size_t s = 0; s < shots(); ++s) {
-    for (const NuisanceColumn& c : rig_nuisances_.columns(*task.shots[s], rows[s], {})) {
-      const auto next = static_cast<Eigen::Index>(nuisances_.size());
-      if (place_.try_emplace(c.nuisance.name, next).second) nuisances_.push_back(c.nuisance);
+  std::vector<std::vector<Effect>> of_shot(shots());
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, shots(), [&](std::size_t s) {
+      of_shot[s] = effects(rig_nuisances_, *task.shots[s], rows[s]);
+    });
+  });
+  std::vector<Effect> all;  // in the order in which the shots have them
+  std::map<std::string, std::size_t> known;
+  for (const std::vector<Effect>& list : of_shot) {
+    for (const Effect& e : list) {
+      const auto [it, is_new] = known.try_emplace(e.nuisance.name, all.size());
+      if (is_new) all.push_back({e.nuisance, 0.0});
+      all[it->second].square += e.square;
     }
+  }
+  // The smallest first, as long as all of them are together nothing.
+  constexpr double kNothing = 1e-2;
+  std::vector<std::size_t> by_size(all.size());
+  std::iota(by_size.begin(), by_size.end(), std::size_t{0});
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [&](std::size_t a, std::size_t b) { return all[a].square < all[b].square; });
+  double together = 0.0;
+  std::vector<bool> negligible(all.size());
+  for (const std::size_t k : by_size) {
+    together += all[k].square;
+    if (!(together < kNothing * kNothing)) break;
+    negligible[k] = true;
+    ++negligible_;
+  }
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (negligible[k]) continue;
+    place_[all[k].nuisance.name] = static_cast<Eigen::Index>(nuisances_.size());
+    nuisances_.push_back(all[k].nuisance);
   }
   // Those of the method, as a shot without rows has them: its octaves', and its own.
   DenseSystem none{WeightMatrix(0, knots.size()), Eigen::VectorXd(0), Eigen::VectorXd(0)};
@@ -73,8 +133,9 @@ void TaskImage::add_method_errors(DenseSystem& system) const {
 
 ShotSystem TaskImage::shot(std::size_t s) const {
   auto system = std::make_shared<DenseSystem>(rows_of_shot(s));
-  const std::vector<NuisanceColumn> own =
+  std::vector<NuisanceColumn> own =
       rig_nuisances_.columns(*task_.shots[s], rows_[s], used_rows(rows_[s]));
+  std::erase_if(own, [&](const NuisanceColumn& c) { return !place_.contains(c.nuisance.name); });
   // The rig's first, as in the image's list.
   const auto n_own = static_cast<Eigen::Index>(own.size());
   Eigen::MatrixXd columns(system->l.size(), n_own + system->nuisance_columns.cols());

@@ -17,6 +17,9 @@ namespace scattermeter::apps {
 // The used rows of the task under all their lights, with all that the rig knows only to a standard
 // deviation (apps/nuisances.h) and with the errors of the method (core/numerics.h). What it is made
 // of must outlive it, the rows as well: those that are left out later are gone from the image.
+// Nuisances of the rig that together can move no answer by more than a hundredth of the deviation
+// that the noise alone leaves it are left out: the length of what one deviation of them changes, in
+// deviations of the rows, is a bound for that.
 class TaskImage final : public ImageRows {
  public:
   // first: the material as known so far, for which nuisances and errors are computed.
@@ -29,6 +32,7 @@ class TaskImage final : public ImageRows {
   std::size_t shots() const override { return task_.shots.size(); }
   const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
   ShotSystem shot(std::size_t shot) const override;
+  std::size_t negligible_nuisances() const { return negligible_; }
 
  private:
   // With the errors of the method alone.
@@ -46,6 +50,7 @@ class TaskImage final : public ImageRows {
   std::optional<double> patch_mm_;
   std::vector<Nuisance> nuisances_;
   std::map<std::string, Eigen::Index> place_;  // of the rig's, by name
+  std::size_t negligible_ = 0;                 // of the rig's, that are in neither
   Eigen::Index octaves_ = 0;                   // numerics that the shots share
 };
 

@@ -14,8 +14,6 @@
 namespace scattermeter {
 namespace {
 
-constexpr int kFineBits = 7;  // 128 fine bins an octave
-
 // Lagrange's polynomial through six knots 0 .. 5 at u: what each of them counts.
 std::array<double, 6> lagrange(double u) {
   std::array<double, 6> w;
@@ -31,11 +29,13 @@ std::array<double, 6> lagrange(double u) {
 
 }  // namespace
 
-DistanceKnots::DistanceKnots(double resolution_mm, double max_distance_mm, int per_octave)
+DistanceKnots::DistanceKnots(double resolution_mm, double max_distance_mm, int per_octave,
+                             int fine_bits)
     : resolution_mm_(resolution_mm),
       max_distance_mm_(max_distance_mm),
-      bins_(resolution_mm * resolution_mm, max_distance_mm, kFineBits) {
-  if (!(resolution_mm > 0.0) || !(max_distance_mm > resolution_mm) || per_octave < 1) {
+      bins_(resolution_mm * resolution_mm, max_distance_mm, fine_bits) {
+  if (!(resolution_mm > 0.0) || !(max_distance_mm > resolution_mm) || per_octave < 1 ||
+      fine_bits < 4 || fine_bits > 12) {
     throw std::invalid_argument("DistanceKnots: resolution " + std::to_string(resolution_mm) +
                                 " mm, longest distance " + std::to_string(max_distance_mm) + " mm");
   }
@@ -53,15 +53,16 @@ DistanceKnots::DistanceKnots(double resolution_mm, double max_distance_mm, int p
   };
   // Where runs of other octaves have the same shares: by the first bin and knot, less octaves.
   std::map<std::array<int, 3>, std::size_t> known;
-  constexpr int kOctave = 1 << kFineBits;
+  const int octave_bins = 1 << fine_bits;
   for (int i = 0; i < bins_.size();) {
     Run run{0, first_knot(i), shares_.size()};
     const int begin = i;
     while (i < bins_.size() && first_knot(i) == run.first_knot) ++i;
     run.bins = i - begin;
-    const int octave = begin / kOctave;
+    const int octave = begin / octave_bins;
     const bool has_both_sides = begin > 0 && i < bins_.size();
-    const std::array<int, 3> key{begin % kOctave, run.first_knot - octave * per_octave, run.bins};
+    const std::array<int, 3> key{begin % octave_bins, run.first_knot - octave * per_octave,
+                                 run.bins};
     const auto [it, is_new] = known.try_emplace(key, shares_.size());
     run.shares = it->second;
     if (is_new || !has_both_sides) {

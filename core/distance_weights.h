@@ -22,7 +22,10 @@ class DistanceKnots {
  public:
   // Throws std::invalid_argument unless 0 < resolution_mm < max_distance_mm.
   // s0 is at most resolution_mm^2: finer structure of R than resolution_mm cannot be told apart.
-  DistanceKnots(double resolution_mm, double max_distance_mm, int per_octave = 6);
+  // fine_bits: pairs are gathered in 2^fine_bits bins an octave first, and R between these is taken
+  // as linear: off by at most 0.4 4^-fine_bits of it, and as much above as below.
+  DistanceKnots(double resolution_mm, double max_distance_mm, int per_octave = 6,
+                int fine_bits = 7);
 
   int size() const { return static_cast<int>(knots_mm_.size()); }
   const std::vector<double>& knots_mm() const { return knots_mm_; }

@@ -23,7 +23,7 @@ struct PairSumOptions {
   double far_ratio = 6.0;
   // Nearer lit triangles are integrated from each of the site's points: cut until they are smaller
   // than distance / near_ratio or than floor_mm.
-  double near_ratio = 0.7;
+  double near_ratio = 1.0;
   // A lit triangle at least this many times its edge and the site's radius away is three points,
   // seen from three: exact for polynomials of degree 2 in both. Nearer, both are six (degree 4).
   double few_points_ratio = 2.5;

@@ -75,18 +75,6 @@ Eigen::Vector3d area_vector_mm2(const TriangleMesh& mesh, int triangle_idx) {
   return 0.5 * (mesh.vertices_mm[t[1]] - a).cross(mesh.vertices_mm[t[2]] - a);
 }
 
-Eigen::Vector3d barycentric(const TriangleMesh& mesh, int triangle_idx,
-                            const Eigen::Vector3d& p_mm) {
-  const auto& t = mesh.triangles[static_cast<std::size_t>(triangle_idx)];
-  const Eigen::Vector3d& a = mesh.vertices_mm[t[0]];
-  const Eigen::Vector3d ab = mesh.vertices_mm[t[1]] - a;
-  const Eigen::Vector3d ac = mesh.vertices_mm[t[2]] - a;
-  const Eigen::Vector3d n = ab.cross(ac);
-  const double to_b = (p_mm - a).cross(ac).dot(n) / n.squaredNorm();
-  const double to_c = ab.cross(p_mm - a).dot(n) / n.squaredNorm();
-  return {1.0 - to_b - to_c, to_b, to_c};
-}
-
 double signed_volume_mm3(const TriangleMesh& mesh) {
   // Relative to the first vertex: keeps the digits of a mesh far from the origin.
   if (mesh.vertices_mm.empty()) return 0.0;

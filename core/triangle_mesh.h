@@ -17,11 +17,6 @@ struct TriangleMesh {
 // Area vector of a triangle: its length is the area in mm^2, its direction the outward normal.
 Eigen::Vector3d area_vector_mm2(const TriangleMesh& mesh, int triangle_idx);
 
-// Weights of a triangle's three vertices, sum 1, that make the point of its plane nearest to p.
-// Precondition: the triangle has an area.
-Eigen::Vector3d barycentric(const TriangleMesh& mesh, int triangle_idx,
-                            const Eigen::Vector3d& p_mm);
-
 // Volume enclosed by a closed, oriented mesh (divergence theorem), in mm^3; negative when the
 // orientation is inside out.
 double signed_volume_mm3(const TriangleMesh& mesh);

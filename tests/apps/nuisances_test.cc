@@ -40,19 +40,44 @@ class CalibratedNuisances : public ::testing::Test {
         scenes_(bodies_scenes(exact_)),
         shots_(exact_, scenes_, {.noise = true, .quiet = true}) {}
 
-  Estimate measured(const Rig& rig) const {
+  Estimate measured(const Rig& rig) const { return result(rig).estimate; }
+  ChannelResult result(const Rig& rig) const {
     MeasureOptions options;
     options.quiet = true;
     options.model = Model::kDipole;
     Instrument instrument(rig, scenes_, options);
     const FrameSource frames = [&](std::size_t i, std::size_t k) { return shots_.frame(i, 1, k); };
-    return instrument.measure(shots_from(rig, {0}, frames)).results.at(1).estimate;
+    return instrument.measure(shots_from(rig, {0}, frames)).results.at(1);
   }
 
   Rig exact_;
   ObjectScenes scenes_;
   VirtualShots shots_;
 };
+
+// A cause too small to count is left out, and nothing of the answer tells.
+TEST_F(CalibratedNuisances, WhatIsTooSmallToCountIsLeftOut) {
+  Rig open = exact_;
+  for (RigLight& light : open.lights) light.position_std_mm = 0.3;
+  Rig little = open;
+  for (RigLight& light : little.lights) {
+    light.exponent_std = 1e-7;
+    light.power_relative_std = 1e-7;
+  }
+  const ChannelResult without = result(open);
+  const ChannelResult with = result(little);
+  ASSERT_TRUE(without.estimate.converged && with.estimate.converged);
+  EXPECT_EQ(with.nuisances_negligible, without.nuisances_negligible + 2);  // of the shot's LED
+  EXPECT_EQ(with.estimate.sigma_s_prime_per_mm.value, without.estimate.sigma_s_prime_per_mm.value);
+  EXPECT_EQ(with.estimate.sigma_s_prime_per_mm.std, without.estimate.sigma_s_prime_per_mm.std);
+  EXPECT_EQ(with.estimate.sigma_a_per_mm.std, without.estimate.sigma_a_per_mm.std);
+  EXPECT_GT(part(with.estimate, "LED position"), 0.0);
+  // A thousand times as much counts.
+  for (RigLight& light : little.lights) light.power_relative_std = 1e-4;
+  const ChannelResult more = result(little);
+  EXPECT_EQ(more.nuisances_negligible, without.nuisances_negligible + 1);
+  EXPECT_GT(part(more.estimate, "LED power"), 0.0);
+}
 
 // What the three deviations of a light say, said as a covariance, gives the same answer.
 TEST_F(CalibratedNuisances, AgreeWithTheSingleDeviations) {

@@ -37,19 +37,6 @@ TEST(TriangleMesh, AreaVectorsOfAClosedMeshCancel) {
   EXPECT_EQ(area_vector_mm2(testing::make_cube(), 0), Eigen::Vector3d(0, 0, -200));
 }
 
-TEST(TriangleMesh, BarycentricWeightsMakeThePoint) {
-  const TriangleMesh mesh = testing::make_pyramid(8, 13);
-  for (int f = 0; f < static_cast<int>(mesh.triangles.size()); ++f) {
-    const auto& t = mesh.triangles[static_cast<std::size_t>(f)];
-    const Eigen::Vector3d w(0.2, 0.7, 0.1);
-    Eigen::Vector3d p = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 3; ++i) p += w[i] * mesh.vertices_mm[static_cast<std::size_t>(t[i])];
-    // What stands off the plane does not count.
-    p += 3.0 * area_vector_mm2(mesh, f).normalized();
-    EXPECT_LT((barycentric(mesh, f, p) - w).norm(), 1e-13);
-  }
-}
-
 TEST(TriangleMesh, VerticesRepeatedPerFaceAreOne) {
   const TriangleMesh cube = testing::make_cube();
   TriangleMesh soup;
