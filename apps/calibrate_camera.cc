@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "apps/camera_calibration_pictures.h"
+#include "apps/file_kind.h"
 #include "apps/grey_picture.h"
 #include "apps/raw_shot.h"
 #include "apps/rig_camera_calibration.h"
@@ -51,7 +52,7 @@ std::vector<std::string> files_of_folder(const std::string& folder) {
 
 std::vector<std::string> files_of_rig(const CalibrateCameraOptions& options,
                                       const RigCameraCalibration& calibration) {
-  if (options.shots.size() != 1 || !fs::is_directory(options.shots.front())) {
+  if (options.shots.size() != 1 || !is_folder(options.shots.front())) {
     throw InputError(options.shots.front(), "is not the folder of the rig's shots");
   }
   std::vector<std::string> files;
@@ -59,7 +60,7 @@ std::vector<std::string> files_of_rig(const CalibrateCameraOptions& options,
   int first_line = 0;
   for (const RigBoardShot& shot : calibration.shots) {
     files.push_back((fs::path(options.shots.front()) / shot.file).string());
-    if (fs::exists(files.back())) continue;
+    if (is_there(files.back())) continue;
     missing += (missing.empty() ? "" : ", ") + shot.file;
     if (first_line == 0) first_line = shot.line;
   }
@@ -163,7 +164,7 @@ CameraCalibrationRun calibrate_camera_shots(const CalibrateCameraOptions& option
     max_megapixels = rig.max_megapixels;
     size = {rig.width_px, rig.height_px};
     files = files_of_rig(options, rig.calibration);
-  } else if (options.shots.size() == 1 && fs::is_directory(options.shots.front())) {
+  } else if (options.shots.size() == 1 && is_folder(options.shots.front())) {
     files = files_of_folder(options.shots.front());
     must_be_picture = false;
   }

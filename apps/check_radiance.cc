@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/check_stations.h"
+#include "apps/file_kind.h"
 #include "apps/radiance_file.h"
 #include "apps/raw_shot.h"
 #include "calib/dark_fit.h"
@@ -23,7 +24,7 @@ void add_darks(const CheckedRig& checked, std::vector<CheckItem>& out) {
   const double iso = usual_iso(checked);
   for (const RadianceShot& shot : checked.rig.calibration.radiance->dark) {
     const std::filesystem::path path = std::filesystem::path(checked.folder) / shot.file;
-    if (!std::filesystem::exists(path)) continue;
+    if (!is_there(path)) continue;
     const capture::RawFrame frame = open_shot(checked.rig, path.string());
     const auto detail = [&](double value, double std, std::vector<CheckDetail>& list) {
       CheckDetail d;

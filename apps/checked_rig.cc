@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "apps/file_kind.h"
 #include "apps/progress.h"
 #include "apps/radiance_file.h"
 #include "apps/shot_folder.h"
@@ -83,7 +84,7 @@ std::vector<LedCheck> checked_leds(const Rig& rig, const std::string& folder) {
         std::all_of(rig.calibration.led->shots.begin(), rig.calibration.led->shots.end(),
                     [&](const RigLedShot& shot) {
                       return (shot.kind != LedShotKind::kAmbient && shot.light != light) ||
-                             std::filesystem::exists(std::filesystem::path(folder) / shot.file);
+                             is_there(std::filesystem::path(folder) / shot.file);
                     });
     if (all_there) out.push_back(check_led(rig, light, led_frames_in(rig, folder)));
   }

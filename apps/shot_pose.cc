@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/file_kind.h"
 #include "apps/grey_picture.h"
 #include "apps/raw_shot.h"
 #include "apps/rig_lens.h"
@@ -53,7 +54,7 @@ calib::PoseResult pose_from_board(const Rig& rig, const capture::RawFrame& frame
 void take_points_from_board_shot(const std::string& shots_folder, Rig& rig) {
   if (!rig.pose.charuco || rig.pose.board_shot.empty()) return;
   const std::string path = (std::filesystem::path(shots_folder) / rig.pose.board_shot).string();
-  if (!std::filesystem::exists(path)) {
+  if (!is_there(path)) {
     throw InputError(rig.at(rig.pose.line) + ": pose.shot",
                      "is not in the folder " + shots_folder + ": " + rig.pose.board_shot);
   }

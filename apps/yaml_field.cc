@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "apps/file_kind.h"
 #include "core/input_error.h"
 
 namespace scattermeter::apps {
@@ -38,7 +39,7 @@ YamlField::YamlField(const YAML::Node& node, std::string file, std::string path)
     : node_(node), file_(std::move(file)), path_(std::move(path)) {}
 
 YamlField YamlField::load(const std::string& file) {
-  if (std::filesystem::is_directory(file)) throw InputError(file, "is a folder, not a rig file");
+  if (is_folder(file)) throw InputError(file, "is a folder, not a rig file");
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(file, "the rig file cannot be opened");
   std::stringstream text;

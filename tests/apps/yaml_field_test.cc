@@ -1,5 +1,9 @@
 #include "apps/yaml_field.h"
 
+#include <filesystem>
+#include <functional>
+#include <string>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,6 +60,15 @@ TEST(YamlField, RefusesWhatIsNoMap) {
   expect_message([&] { load(folder, "- 1\n- 2\n"); }, "map at the top");
   expect_message([&] { load(folder, ""); }, "map at the top");
   expect_message([&] { load(folder, "a: [1, 2\nb: 3"); }, "not valid YAML");
+}
+
+// What the system refuses to look up is a file that can't be read, no error of another kind.
+TEST(YamlField, NamesThatTheSystemRefuses) {
+  const TemporaryFolder folder;
+  expect_message([&] { YamlField::load(folder / std::string(5000, 'a')); }, "cannot be opened");
+  std::filesystem::create_symlink("loop.yaml", std::filesystem::path(folder / "loop.yaml"));
+  expect_message([&] { YamlField::load(folder / "loop.yaml"); }, "cannot be opened");
+  expect_message([&] { YamlField::load(folder / "."); }, "is a folder");
 }
 
 }  // namespace
