@@ -18,8 +18,8 @@ struct PagePlot {
   std::string caption;  // says what is to be seen, also to those who don't see it
 };
 
-// Figures with the plots as pictures, drawn at the same time. A plot without anything to draw is
-// left out; where gnuplot fails or is missing, its message stands in the plot's place.
+// Figures with the plots as pictures. A plot without anything to draw is left out; where gnuplot
+// fails or is missing, its message stands in the plot's place.
 Html plot_figures(const std::vector<PagePlot>& plots);
 
 }  // namespace scattermeter::apps

@@ -75,4 +75,7 @@ void write_plot(const Plot& plot, const std::string& path);
 // The same as the text of an SVG file.
 std::string plot_svg(const Plot& plot);
 
+// The same of many plots, by one start of gnuplot; throws as for the first that cannot be drawn.
+std::vector<std::string> plot_svgs(const std::vector<Plot>& plots);
+
 }  // namespace scattermeter::apps

@@ -94,6 +94,30 @@ TEST(Plot, CellsHaveAColourEach) {
   EXPECT_THROW(plot_svg(plot), std::invalid_argument);
 }
 
+// One start of gnuplot draws what starts for each draw: nothing of a plot stays for the next.
+TEST(Plot, ManyAtOnceAreTheSame) {
+  Plot cells;
+  PlotSeries series{"", PlotSeries::Style::kCells, {0.5, 1.5}, {0.5, 0.5}};
+  series.dx = series.dy = {1, 1};
+  series.value = {1.2, 9};
+  cells.series = {series};
+  cells.colours = {"deviation [%]", 9, 1.2, true};
+  cells.equal_axes = true;
+  cells.y_down = true;
+  Plot text = example();
+  text.title = "</svg>\n<svg>";
+  text.x.log = text.y.log = true;
+  text.legend_outside = true;
+  const std::vector<Plot> plots = {example(), cells, text, example(), cells};
+  const std::vector<std::string> svgs = plot_svgs(plots);
+  ASSERT_EQ(svgs.size(), plots.size());
+  for (std::size_t i = 0; i < plots.size(); ++i) EXPECT_EQ(svgs[i], plot_svg(plots[i])) << i;
+  EXPECT_EQ(svgs[0], svgs[3]);
+  EXPECT_THAT(svgs[2], HasSubstr("&lt;/svg>"));
+  EXPECT_TRUE(plot_svgs({}).empty());
+  EXPECT_THROW(plot_svgs({example(), Plot{}}), std::invalid_argument);
+}
+
 // From dark blue to yellow, with labels inside a decade.
 TEST(Plot, CellsOnALogScale) {
   Plot plot;
