@@ -1,7 +1,9 @@
 #include "calib/camera_model.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 
@@ -64,6 +66,85 @@ std::vector<Eigen::Vector2d> undistort(const CameraIntrinsics& intrinsics,
   return rays;
 }
 
+namespace {
+
+// Undistorted pixels of one row.
+class RayRow {
+ public:
+  RayRow(const Lens& lens, int x0, double y) : lens_(lens), x0_(x0), y_(y) {}
+
+  // Pixels from `column` on, each by itself. A parabola through the three neighbours to the left is
+  // a start from which one Newton step or none suffices.
+  void each(std::span<Eigen::Vector3f> out, int column) const {
+    Start start;
+    for (Eigen::Vector3f& ray : out) ray = homogeneous(next(column++, start));
+  }
+
+  // Cubics through every 16th pixel, wherever they are right within the tolerance halfway between
+  // these, where a cubic is off the most.
+  void interpolated(std::span<Eigen::Vector3f> out, double tolerance) const {
+    constexpr int kStep = 16;
+    using Weights = std::array<double, 4>;
+    static const std::array<Weights, kStep> kWeights = [] {
+      std::array<Weights, kStep> all;
+      for (size_t i = 0; i < all.size(); ++i) {
+        const double t = static_cast<double>(i) / kStep;
+        all[i] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
+                  -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
+      }
+      return all;
+    }();
+    Start start;
+    std::array<Eigen::Vector2d, 4> knots;  // one before the stretch, its ends, one behind
+    for (int k = 0; k < 3; ++k) knots[static_cast<size_t>(k + 1)] = next(kStep * (k - 1), start);
+    const auto cubic = [&](const Weights& w) -> Eigen::Vector2d {
+      return w[0] * knots[0] + w[1] * knots[1] + w[2] * knots[2] + w[3] * knots[3];
+    };
+    for (size_t first = 0; first < out.size(); first += kStep) {
+      const int column = static_cast<int>(first);
+      std::rotate(knots.begin(), knots.begin() + 1, knots.end());
+      knots[3] = next(column + 2 * kStep, start);
+      const std::span stretch = out.subspan(first, std::min<size_t>(kStep, out.size() - first));
+      const Eigen::Vector2d middle = cubic(kWeights[kStep / 2]);
+      // False for what is not finite, too.
+      if (middle.allFinite() &&
+          (lens_.unproject(pixel(column + kStep / 2), middle) - middle).norm() <= tolerance) {
+        for (size_t i = 0; i < stretch.size(); ++i) stretch[i] = homogeneous(cubic(kWeights[i]));
+      } else {
+        each(stretch, column);
+      }
+    }
+  }
+
+ private:
+  // The last three, the nearest first.
+  struct Start {
+    std::array<Eigen::Vector2d, 3> left;
+    Start() { left.fill(Eigen::Vector2d::Constant(std::nan(""))); }
+  };
+
+  Eigen::Vector2d pixel(int column) const { return {static_cast<double>(x0_) + column, y_}; }
+  static Eigen::Vector3f homogeneous(const Eigen::Vector2d& ray) {
+    return {static_cast<float>(ray.x()), static_cast<float>(ray.y()),
+            ray.allFinite() ? 1.0F : std::nanf("")};
+  }
+  Eigen::Vector2d next(int column, Start& start) const {
+    const auto& left = start.left;
+    const Eigen::Vector2d parabola = 3.0 * (left[0] - left[1]) + left[2];
+    const Eigen::Vector2d ray = parabola.allFinite()  ? lens_.unproject(pixel(column), parabola)
+                                : left[0].allFinite() ? lens_.unproject(pixel(column), left[0])
+                                                      : lens_.unproject(pixel(column));
+    start.left = {ray, left[0], left[1]};
+    return ray;
+  }
+
+  const Lens& lens_;
+  int x0_;
+  double y_;
+};
+
+}  // namespace
+
 std::vector<Eigen::Vector3f> pixel_rays_in_camera(const CameraIntrinsics& intrinsics, int x0,
                                                   int y0, int width, int height) {
   if (width < 0 || height < 0) {
@@ -71,27 +152,17 @@ std::vector<Eigen::Vector3f> pixel_rays_in_camera(const CameraIntrinsics& intrin
                                 " x " + std::to_string(height));
   }
   const Lens lens(intrinsics);
+  const bool straight = std::all_of(intrinsics.distortion.begin(), intrinsics.distortion.end(),
+                                    [](double term) { return term == 0.0; });
+  const double tolerance = 2e-7 / std::max(intrinsics.fx_px, intrinsics.fy_px);
   const auto columns = static_cast<size_t>(width);
   std::vector<Eigen::Vector3f> rays(columns * static_cast<size_t>(height));
   tbb::parallel_for(tbb::blocked_range<int>(0, height, 16), [&](const auto& rows) {
     for (int row = rows.begin(); row != rows.end(); ++row) {
-      Eigen::Vector3f* out = rays.data() + static_cast<size_t>(row) * columns;
-      // Without distortion unproject() is exact. With it, a parabola through the three neighbours
-      // to the left is a start from which one Newton step or none suffices; each row begins afresh,
-      // so that the split among threads does not show in the digits.
-      const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::nan(""));
-      std::array<Eigen::Vector2d, 3> left = {none, none, none};  // the nearest first
-      for (int column = 0; column < width; ++column) {
-        const Eigen::Vector2d pixel(static_cast<double>(x0) + column,
-                                    static_cast<double>(y0) + row);
-        const Eigen::Vector2d parabola = 3.0 * (left[0] - left[1]) + left[2];
-        const Eigen::Vector2d ray = parabola.allFinite()  ? lens.unproject(pixel, parabola)
-                                    : left[0].allFinite() ? lens.unproject(pixel, left[0])
-                                                          : lens.unproject(pixel);
-        left = {ray, left[0], left[1]};
-        out[column] = Eigen::Vector3f(static_cast<float>(ray.x()), static_cast<float>(ray.y()),
-                                      ray.allFinite() ? 1.0F : std::nanf(""));
-      }
+      const std::span out(rays.data() + static_cast<size_t>(row) * columns, columns);
+      // Each row begins afresh, so that the split among threads does not show in the digits.
+      const RayRow ray_row(lens, x0, static_cast<double>(y0) + row);
+      straight ? ray_row.each(out, 0) : ray_row.interpolated(out, tolerance);
     }
   });
   return rays;
