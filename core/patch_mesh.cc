@@ -1,6 +1,8 @@
 #include "core/patch_mesh.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -92,19 +94,19 @@ PatchPoint PatchMesh::locate(int facet, const Eigen::Vector3d& barycentric) cons
   std::int32_t node = facet;
   Eigen::Vector3d w = barycentric;
   while (nodes_[node].child > 0) {
-    const int apex = nodes_[node].apex;
+    constexpr std::array<std::array<Eigen::Index, 2>, 3> kOthers = {{{1, 2}, {2, 0}, {0, 1}}};
+    const std::uint8_t apex = nodes_[node].apex;
     const double wa = w[apex];
-    const double wb = w[(apex + 1) % 3];
-    const double wc = w[(apex + 2) % 3];
+    const double wb = w[kOthers[apex][0]];
+    const double wc = w[kOthers[apex][1]];
     // With m = (b + c) / 2:  wa a + wb b + wc c = wa a + (wb - wc) b + 2 wc m
     //                                           = wa a + 2 wb m + (wc - wb) c.
-    if (wb >= wc) {
-      w = {wa, wb - wc, 2.0 * wc};
-      node = nodes_[node].child;
-    } else {
-      w = {wa, 2.0 * wb, wc - wb};
-      node = nodes_[node].child + 1;
-    }
+    // Without a branch, which would be foretold wrongly half of the time.
+    const int second = wb < wc ? 1 : 0;
+    w[0] = wa;
+    w[1 + second] = std::abs(wb - wc);
+    w[2 - second] = 2.0 * std::min(wb, wc);
+    node = nodes_[node].child + second;
   }
   return {-nodes_[node].child - 1, w};
 }

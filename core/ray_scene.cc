@@ -6,6 +6,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -65,17 +66,69 @@ RayScene::RayScene(const TriangleMesh& mesh)
 
 RayScene::~RayScene() = default;
 
+RayScene::Start RayScene::start_of(const Eigen::Vector3d& origin_mm,
+                                   const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d from_center_mm = origin_mm - center_mm_;
+  Start start;
+  start.length = direction.norm();
+  start.unit = direction / start.length;
+  start.skip_mm = std::max(0.0, -from_center_mm.dot(start.unit) - 2.0 * size_mm_);
+  start.at_mm = from_center_mm + start.skip_mm * start.unit;
+  return start;
+}
+
 RayHit RayScene::first_hit(const Eigen::Vector3d& origin_mm,
                            const Eigen::Vector3d& direction) const {
-  // The ray starts where it comes near the object, so that float keeps its digits for a far camera.
-  const Eigen::Vector3d from_center_mm = origin_mm - center_mm_;
-  const double length = direction.norm();
-  const Eigen::Vector3d unit = direction / length;
-  const double skip_mm = std::max(0.0, -from_center_mm.dot(unit) - 2.0 * size_mm_);
-  const Eigen::Vector3d start_mm = from_center_mm + skip_mm * unit;
-  RayHit hit = hit_between(start_mm, unit, 0.0F, std::numeric_limits<float>::infinity());
-  if (hit.facet_idx >= 0) hit.distance = (skip_mm + hit.distance) / length;
+  const Start start = start_of(origin_mm, direction);
+  RayHit hit = hit_between(start.at_mm, start.unit, 0.0F, std::numeric_limits<float>::infinity());
+  if (hit.facet_idx >= 0) hit.distance = (start.skip_mm + hit.distance) / start.length;
   return hit;
+}
+
+void RayScene::first_hits(const Eigen::Vector3d& origin_mm,
+                          std::span<const Eigen::Vector3f> directions,
+                          std::span<RayHit> hits) const {
+  constexpr std::size_t kRays = 16;
+  for (std::size_t first = 0; first < directions.size(); first += kRays) {
+    const std::size_t n = std::min(kRays, directions.size() - first);
+    RTCRayHit16 query{};
+    alignas(64) std::array<int, kRays> valid{};
+    std::array<Start, kRays> starts;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Eigen::Vector3f& direction = directions[first + i];
+      hits[first + i] = {};
+      if (!direction.allFinite()) continue;
+      starts[i] = start_of(origin_mm, direction.cast<double>());
+      valid[i] = -1;
+      query.ray.org_x[i] = static_cast<float>(starts[i].at_mm.x());
+      query.ray.org_y[i] = static_cast<float>(starts[i].at_mm.y());
+      query.ray.org_z[i] = static_cast<float>(starts[i].at_mm.z());
+      query.ray.dir_x[i] = static_cast<float>(starts[i].unit.x());
+      query.ray.dir_y[i] = static_cast<float>(starts[i].unit.y());
+      query.ray.dir_z[i] = static_cast<float>(starts[i].unit.z());
+      query.ray.tfar[i] = std::numeric_limits<float>::infinity();
+      query.ray.mask[i] = 0xFFFFFFFFU;
+      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+#if RTC_VERSION_MAJOR >= 4
+    rtcIntersect16(valid.data(), embree_->scene, &query);
+#else
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect16(valid.data(), embree_->scene, &context, &query);
+#endif
+    for (std::size_t i = 0; i < n; ++i) {
+      if (valid[i] == 0 || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+      RayHit& hit = hits[first + i];
+      const double u = static_cast<double>(query.hit.u[i]);
+      const double v = static_cast<double>(query.hit.v[i]);
+      hit.facet_idx = static_cast<int>(query.hit.primID[i]);
+      hit.barycentric = {1.0 - u - v, u, v};
+      hit.distance =
+          (starts[i].skip_mm + static_cast<double>(query.ray.tfar[i])) / starts[i].length;
+    }
+  }
 }
 
 RayHit RayScene::first_hit_between(const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& unit,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -39,7 +40,18 @@ class Mapper {
       : rays_(rays), scene_(scene), patches_(patches), options_(options) {
     seen_.resize(rays.directions_in_world.size());
     for_rows(rays.height, [&](int y) {
-      for (int x = 0; x < rays_.width; ++x) seen_[index(x, y)] = trace(index(x, y));
+      const std::span directions(&rays_.directions_in_world[index(0, y)],
+                                 static_cast<std::size_t>(rays_.width));
+      std::vector<RayHit> hits(directions.size());
+      scene_.first_hits(rays_.origin_in_world_mm, directions, hits);
+      for (std::size_t x = 0; x < hits.size(); ++x) {
+        const Eigen::Vector3d direction = directions[x].cast<double>();
+        const PixelHit hit = pixel_hit(hits[x], patches_, direction);
+        if (hit.facet_idx < 0) continue;
+        seen_[index(static_cast<int>(x), y)] = {
+            hit.at.patch_idx, hit.facet_idx, static_cast<float>(hit.distance_mm / direction.norm()),
+            static_cast<float>(hit.cos_theta)};
+      }
     });
   }
 
@@ -99,14 +111,6 @@ class Mapper {
   static constexpr std::array<std::pair<int, int>, 8> kNeighbours = {
       {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
-  Seen trace(std::size_t i) const {
-    const Eigen::Vector3d direction = rays_.directions_in_world[i].cast<double>();
-    const PixelHit hit = trace_pixel(scene_, patches_, rays_.origin_in_world_mm, direction);
-    if (hit.facet_idx < 0) return {};
-    return {hit.at.patch_idx, hit.facet_idx, static_cast<float>(hit.distance_mm / direction.norm()),
-            static_cast<float>(hit.cos_theta)};
-  }
-
   const RayGrid& rays_;
   const RayScene& scene_;
   const PatchMesh& patches_;
@@ -116,11 +120,8 @@ class Mapper {
 
 }  // namespace
 
-PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
-                     const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction) {
+PixelHit pixel_hit(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction) {
   PixelHit out;
-  if (!direction.allFinite()) return out;
-  const RayHit hit = scene.first_hit(origin_mm, direction);
   if (hit.facet_idx < 0) return out;
   const double length = direction.norm();
   const double cos_theta = -patches.facet_normal(hit.facet_idx).dot(direction) / length;
@@ -130,6 +131,12 @@ PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
   out.distance_mm = hit.distance * length;
   out.cos_theta = cos_theta;
   return out;
+}
+
+PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
+                     const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction) {
+  if (!direction.allFinite()) return {};
+  return pixel_hit(scene.first_hit(origin_mm, direction), patches, direction);
 }
 
 SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMesh& patches,

@@ -26,6 +26,8 @@ struct PixelHit {
   double cos_theta = 0;  // between the direction back to the camera and the normal; > 0
 };
 
+// Of a ray in that direction (of any length) and what it hits first.
+PixelHit pixel_hit(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction);
 PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
                      const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction);
 

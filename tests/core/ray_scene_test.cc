@@ -1,6 +1,8 @@
 #include "core/ray_scene.h"
 
+#include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -55,6 +57,39 @@ TEST(RayScene, HasNoGapsAtEdges) {
       EXPECT_GE(scene.first_hit(from, on_edge - from).facet_idx, 0);
     }
   }
+}
+
+// Side by side rays meet what each meets by itself, also those through edges and beside the object.
+TEST(RayScene, ManyRaysAreTheSame) {
+  const RayScene scene(testing::make_cube());
+  const Eigen::Vector3d from(33, -170, 90);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> x(-12.0, 12.0);
+  std::vector<Eigen::Vector3f> directions;
+  for (int i = 0; i < 1003; ++i) {
+    const Eigen::Vector3d to(x(random), i % 3 == 0 ? -10 : x(random), i % 5 == 0 ? 20 : x(random));
+    directions.emplace_back((to - from).cast<float>());
+    if (i % 7 == 0) directions.back().y() = std::nanf("");
+  }
+  std::vector<RayHit> hits(directions.size(), RayHit{5, Eigen::Vector3d::Zero(), 1.0});
+  scene.first_hits(from, directions, hits);
+  int on = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!directions[i].allFinite()) {
+      EXPECT_EQ(hits[i].facet_idx, -1) << i;
+      continue;
+    }
+    const RayHit one = scene.first_hit(from, directions[i].cast<double>());
+    ASSERT_EQ(hits[i].facet_idx < 0, one.facet_idx < 0) << i;
+    if (one.facet_idx < 0) continue;
+    ++on;
+    // Of an edge either facet will do.
+    EXPECT_NEAR(hits[i].distance, one.distance, 1e-6) << i;
+    if (hits[i].facet_idx == one.facet_idx) {
+      EXPECT_LT((hits[i].barycentric - one.barycentric).norm(), 1e-5) << i;
+    }
+  }
+  EXPECT_GT(on, 300);
 }
 
 TEST(RayScene, MissesWhatIsBeside) {
