@@ -94,7 +94,7 @@ std::vector<Eigen::Array3d> dipole_radiosity(const std::vector<Eigen::Vector3d>&
   const SourceCloud sources(light, origin_mm);
   std::vector<Eigen::Array3d> out(points_mm.size());
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, points_mm.size(), 8),
+      tbb::blocked_range<std::size_t>(0, points_mm.size(), SourceCloud::kSideBySide),
       [&](const tbb::blocked_range<std::size_t>& range) {
         std::vector<ExitSite> sites;
         for (std::size_t j = range.begin(); j < range.end(); ++j) {

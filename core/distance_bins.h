@@ -12,12 +12,12 @@ namespace scattermeter {
 // Both kinds of bins take pairs (d^2, weight) and share each weight between the two knots around d
 // so that a function that is linear between knots is summed exactly. Sum: what a knot's sum is kept
 // in.
+inline constexpr int kPairsAtOnce = 256;  // that can be added at most
 
 // Knots d'_i = i * width: the paper's quantised distances (eq. 17 to 25).
 class UniformBins {
  public:
   using Sum = double;
-  static constexpr int kMost = 256;  // pairs that can be added at once
   UniformBins(double width_mm, double max_distance_mm)
       : width_mm_(width_mm),
         inv_width_(1.0F / static_cast<float>(width_mm)),
@@ -51,7 +51,6 @@ class UniformBins {
 class OctaveBins {
  public:
   using Sum = float;
-  static constexpr int kMost = 256;  // pairs that can be added at once
   // s0 is rounded down to a power of two, so that the first knot stands at d = 0.
   OctaveBins(double s0_mm2, double max_distance_mm, int bits)
       : s0_(static_cast<float>(std::exp2(std::floor(std::log2(s0_mm2))))),
@@ -72,8 +71,8 @@ class OctaveBins {
   void add(float d2_mm2, float weight, float* sums) const { add(&d2_mm2, &weight, 1, sums); }
   void add(const float* d2_mm2, const float* weight, int n, float* sums) const {
     // Places first: in lanes.
-    std::array<std::int32_t, kMost> at;
-    std::array<float, kMost> to_next;
+    std::array<std::int32_t, kPairsAtOnce> at;
+    std::array<float, kPairsAtOnce> to_next;
     const auto mask = static_cast<std::int32_t>((1U << shift_) - 1U);
     for (int k = 0; k < n; ++k) {
       const auto position = std::bit_cast<std::int32_t>(d2_mm2[k] + s0_);

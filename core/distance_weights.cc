@@ -14,12 +14,13 @@
 namespace scattermeter {
 namespace {
 
-// Lagrange's polynomial through six knots 0 .. 5 at u: what each of them counts.
-std::array<double, 6> lagrange(double u) {
-  std::array<double, 6> w;
-  for (int a = 0; a < 6; ++a) {
+// Lagrange's polynomial through the knots 0 .. kStencil - 1 at u: what each of them counts.
+template <int kStencil>
+std::array<double, kStencil> lagrange(double u) {
+  std::array<double, kStencil> w;
+  for (int a = 0; a < kStencil; ++a) {
     double product = 1.0;
-    for (int b = 0; b < 6; ++b) {
+    for (int b = 0; b < kStencil; ++b) {
       if (b != a) product *= (u - b) / static_cast<double>(a - b);
     }
     w[static_cast<std::size_t>(a)] = product;
@@ -33,6 +34,7 @@ DistanceKnots::DistanceKnots(double resolution_mm, double max_distance_mm, int p
                              int fine_bits)
     : resolution_mm_(resolution_mm),
       max_distance_mm_(max_distance_mm),
+      per_octave_(per_octave),
       bins_(resolution_mm * resolution_mm, max_distance_mm, fine_bits) {
   if (!(resolution_mm > 0.0) || !(max_distance_mm > resolution_mm) || per_octave < 1 ||
       fine_bits < 4 || fine_bits > 12) {
@@ -67,17 +69,17 @@ DistanceKnots::DistanceKnots(double resolution_mm, double max_distance_mm, int p
     run.shares = it->second;
     if (is_new || !has_both_sides) {
       run.shares = shares_.size();
-      for (int k = begin; k < i; ++k) shares_.push_back(shares(k, run.first_knot, per_octave));
+      for (int k = begin; k < i; ++k) shares_.push_back(shares(k, run.first_knot));
     }
     runs_.push_back(run);
   }
 }
 
-DistanceKnots::Shares DistanceKnots::shares(int bin, int first_knot, int per_octave) const {
+DistanceKnots::Shares DistanceKnots::shares(int bin, int first_knot) const {
   const double s0 = bins_.s0_mm2();
   const double s = bins_.knot_s_mm2(bin);
   const auto at = [&](double s_here) {
-    return lagrange(std::log2(s_here / s0) * per_octave - first_knot);
+    return lagrange<kStencil>(std::log2(s_here / s0) * per_octave_ - first_knot);
   };
   // Linear shares between fine bins hold on average h^2 / 12 of the second derivative too much,
   // h being the distance to the next bin; half of the pairs come from either side.
@@ -111,7 +113,7 @@ namespace {
 template <class Use>
 void for_smooth_rows(const std::vector<ExitSite>& sites, const SourceCloud& sources,
                      const DistanceKnots& knots, const PairSumOptions& options, const Use& use) {
-  constexpr std::size_t kSideBySide = 8;
+  constexpr std::size_t kSideBySide = SourceCloud::kSideBySide;
   const auto bins = static_cast<std::size_t>(knots.fine_bins().size());
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, (sites.size() + kSideBySide - 1) / kSideBySide),

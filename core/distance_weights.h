@@ -27,6 +27,11 @@ class DistanceKnots {
   DistanceKnots(double resolution_mm, double max_distance_mm, int per_octave = 6,
                 int fine_bits = 7);
 
+  // The same knots with so many bins between.
+  DistanceKnots with_fine_bits(int fine_bits) const {
+    return {resolution_mm_, max_distance_mm_, per_octave_, fine_bits};
+  }
+
   int size() const { return static_cast<int>(knots_mm_.size()); }
   const std::vector<double>& knots_mm() const { return knots_mm_; }
   double resolution_mm() const { return resolution_mm_; }
@@ -45,10 +50,11 @@ class DistanceKnots {
     int first_knot;
     std::size_t shares;  // where in `shares_` those of its first bin stand
   };
-  Shares shares(int bin, int first_knot, int per_octave) const;
+  Shares shares(int bin, int first_knot) const;
 
   double resolution_mm_;
   double max_distance_mm_;
+  int per_octave_;
   OctaveBins bins_;
   std::vector<double> knots_mm_;
   std::vector<Run> runs_;

@@ -12,64 +12,11 @@
 #include "core/triangle_parts.h"
 
 namespace scattermeter {
-namespace {
-
-using Density = std::array<double, 3>;
-
-Eigen::Vector3d middle_mm(const Triangle& t) { return (t[0] + t[1] + t[2]) / 3.0; }
-
-double area_mm2(const Triangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
-
-}  // namespace
-
-// Zeroth to second moment of entering power.
-struct SourceCloud::Moments {
-  double power = 0;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d min, max;  // bounds of the members
-
-  static Moments of(const LitTriangle& t) {
-    const auto& c = t.corners_mm;
-    const auto& e = t.irradiance_sr_per_mm2;
-    Moments m;
-    const double sum = e[0] + e[1] + e[2];
-    m.power = sum / 3.0 * area_mm2(c);
-    // ∫ λ_i λ_j λ_k over a triangle of unit area is 1/10 (i = j = k), 1/30 (two alike), 1/60; a
-    // linear density is Σ e_i λ_i. Centroid: (sum + e_i) / (4 sum) of corner i.
-    for (int i = 0; i < 3; ++i) m.mean += (sum + e[i]) / (4.0 * sum) * c[i];
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        const double weight = i == j ? (2.0 * sum + 4.0 * e[i]) / 20.0 : (sum + e[i] + e[j]) / 20.0;
-        m.covariance += weight / sum * (c[i] - m.mean) * (c[j] - m.mean).transpose();
-      }
-    }
-    m.min = c[0].cwiseMin(c[1]).cwiseMin(c[2]);
-    m.max = c[0].cwiseMax(c[1]).cwiseMax(c[2]);
-    return m;
-  }
-
-  static Moments joined(const Moments& a, const Moments& b) {
-    Moments m;
-    m.power = a.power + b.power;
-    const double share = b.power / m.power;
-    const Eigen::Vector3d step = b.mean - a.mean;
-    m.mean = a.mean + share * step;
-    m.covariance = (1.0 - share) * a.covariance + share * b.covariance +
-                   share * (1.0 - share) * step * step.transpose();
-    m.min = a.min.cwiseMin(b.min);
-    m.max = a.max.cwiseMax(b.max);
-    return m;
-  }
-
-  double radius() const { return (max - mean).cwiseMax(mean - min).norm(); }
-};
-
-SourceCloud::Moments SourceCloud::build(const std::vector<Moments>& leaves, std::int32_t* begin,
-                                        std::int32_t* end) {
+PowerMoments SourceCloud::build(const std::vector<PowerMoments>& leaves, std::int32_t* begin,
+                                std::int32_t* end) {
   const std::size_t at = nodes_.size();
   nodes_.emplace_back();
-  Moments m;
+  PowerMoments m;
   std::int32_t right = -1;
   if (end - begin == 1) {
     m = leaves[static_cast<std::size_t>(*begin)];
@@ -88,9 +35,9 @@ SourceCloud::Moments SourceCloud::build(const std::vector<Moments>& leaves, std:
       const double xb = leaves[static_cast<std::size_t>(b)].mean[axis];
       return xa != xb ? xa < xb : a < b;
     });
-    const Moments first = build(leaves, begin, middle);
+    const PowerMoments first = build(leaves, begin, middle);
     right = static_cast<std::int32_t>(nodes_.size());
-    m = Moments::joined(first, build(leaves, middle, end));
+    m = PowerMoments::joined(first, build(leaves, middle, end));
   }
   const Eigen::Matrix3f c = m.covariance.cast<float>();
   const Eigen::Vector3f p = m.mean.cast<float>();
@@ -98,7 +45,7 @@ SourceCloud::Moments SourceCloud::build(const std::vector<Moments>& leaves, std:
                 p.y(),
                 p.z(),
                 static_cast<float>(m.power),
-                static_cast<float>(m.radius()),
+                static_cast<float>(m.radius_mm()),
                 c(0, 0),
                 c(0, 1),
                 c(0, 2),
@@ -110,44 +57,61 @@ SourceCloud::Moments SourceCloud::build(const std::vector<Moments>& leaves, std:
   return m;
 }
 
+SourceCloud::Rule SourceCloud::rule_of(const LitTriangle& t) {
+  const Eigen::Vector3d center = middle_mm(t.corners_mm);
+  const auto& e = t.irradiance_sr_per_mm2;
+  const double mean = (e[0] + e[1] + e[2]) / 3.0, area = area_mm2(t.corners_mm);
+  Rule rule;
+  const auto fill = [&](const auto& orbits, auto& points) {
+    Eigen::Index k = 0;
+    for (const TriangleOrbit& orbit : orbits) {
+      for (std::size_t i = 0; i < 3; ++i, ++k) {
+        const Eigen::Vector3f from_center =
+            ((orbit.a - orbit.b()) * (t.corners_mm[i] - center)).template cast<float>();
+        const double density = 3.0 * orbit.b() * mean + (orbit.a - orbit.b()) * e[i];
+        points.x[k] = from_center.x();
+        points.y[k] = from_center.y();
+        points.z[k] = from_center.z();
+        points.power[k] = static_cast<float>(density * area * orbit.weight);
+      }
+    }
+  };
+  rule.center = center.cast<float>();
+  rule.edge = static_cast<float>(longest_edge_mm(t.corners_mm));
+  fill(kThreePoints, rule.three);
+  fill(kCowper, rule.six);
+  rule.density = static_cast<float>(mean);
+  rule.area = static_cast<float>(area);
+  for (std::size_t i = 0; i < 3; ++i) {
+    rule.corner[i] = (t.corners_mm[i] - center).cast<float>();
+    rule.rise[i] = static_cast<float>(e[i] - mean);
+  }
+  rule.precise_center = center;
+  return rule;
+}
+
 SourceCloud::SourceCloud(const IncidentLight& light, const Eigen::Vector3d& origin_mm)
-    : origin_mm_(origin_mm), triangles_(light.lit) {
-  if (triangles_.empty()) return;
-  std::vector<Moments> leaves;
-  leaves.reserve(triangles_.size());
-  for (LitTriangle& t : triangles_) {
+    : origin_mm_(origin_mm) {
+  if (light.lit.empty()) return;
+  std::vector<LitTriangle> triangles = light.lit;
+  std::vector<PowerMoments> leaves;
+  leaves.reserve(triangles.size());
+  for (LitTriangle& t : triangles) {
     // Positions relative to the origin from here on.
     for (Eigen::Vector3d& corner : t.corners_mm) corner -= origin_mm_;
-    leaves.push_back(Moments::of(t));
+    leaves.push_back(PowerMoments::of(t));
   }
-  for (const LitTriangle& t : triangles_) {
-    const Eigen::Vector3d center = middle_mm(t.corners_mm);
-    const auto fill = [&](const auto& orbits, auto& points) {
-      const Density& e = t.irradiance_sr_per_mm2;
-      const double area = area_mm2(t.corners_mm);
-      Eigen::Index k = 0;
-      for (const TriangleOrbit& orbit : orbits) {
-        for (std::size_t i = 0; i < 3; ++i, ++k) {
-          const Eigen::Vector3f from_center =
-              ((orbit.a - orbit.b()) * (t.corners_mm[i] - center)).template cast<float>();
-          const double density = orbit.b() * (e[0] + e[1] + e[2]) + (orbit.a - orbit.b()) * e[i];
-          points.x[k] = from_center.x();
-          points.y[k] = from_center.y();
-          points.z[k] = from_center.z();
-          points.power[k] = static_cast<float>(density * area * orbit.weight);
-        }
-      }
-    };
-    Rule& rule = rules_.emplace_back();
-    rule.center = center.cast<float>();
-    rule.edge = static_cast<float>(longest_edge_mm(t.corners_mm));
-    fill(kCowper, rule.six);
-    fill(kThreePoints, rule.three);
-  }
-  std::vector<std::int32_t> order(triangles_.size());
+  std::vector<std::int32_t> order(triangles.size());
   std::iota(order.begin(), order.end(), 0);
-  nodes_.reserve(2 * triangles_.size());
+  nodes_.reserve(2 * triangles.size());
   build(leaves, order.data(), order.data() + order.size());
+  rules_.reserve(triangles.size());
+  for (Node& node : nodes_) {
+    if (node.right >= 0) continue;
+    const auto triangle = static_cast<std::size_t>(node.triangle);
+    node.triangle = static_cast<std::int32_t>(rules_.size());
+    rules_.push_back(rule_of(triangles[triangle]));
+  }
 }
 
 // What one site is given of the tree. Pairs of distance and power go to the bins many at a time, so
@@ -169,7 +133,7 @@ class SourceCloud::Sum {
         few_points_ratio_(static_cast<float>(options.few_points_ratio)) {
     // Of six points the last three stand where those of the rule of three do, but farther out.
     constexpr TriangleOrbit kSix = kCowper[1], kThree = kThreePoints[0];
-    const double kCloser = (kThree.a - kThree.b()) / (kSix.a - kSix.b());
+    constexpr double kCloser = (kThree.a - kThree.b()) / (kSix.a - kSix.b());
     const bool six = near_.n_points == 6;
     n_few_ = six ? 3 : near_.n_points;
     for (std::size_t i = 0; i < static_cast<std::size_t>(n_few_); ++i) {
@@ -215,8 +179,9 @@ class SourceCloud::Sum {
       if (rule.edge * rule.edge * near_ratio2_ <= v.squaredNorm()) {
         add_points<6>(rule.six, v, 1.0F, weight * rule.six.power);
       } else {
-        integrate(rule, cloud_.triangles_[static_cast<std::size_t>(triangle)], near_.points_mm[i],
-                  weight);
+        add_parts(cut_of(rule, weight),
+                  (rule.precise_center - near_.points_mm[i]).template cast<float>(), 1.0F,
+                  rule.density);
       }
     }
   }
@@ -227,7 +192,7 @@ class SourceCloud::Sum {
   }
 
  private:
-  static constexpr int kMost = Bins::kMost;  // pairs at a time
+  static constexpr int kMost = kPairsAtOnce;
   static constexpr int kClusters = 16;
   using ClusterLanes = Eigen::Array<float, kClusters, 1>;
 
@@ -287,27 +252,18 @@ class SourceCloud::Sum {
   // All parts are the triangle itself, `scale` times as large, turned over where that is negative.
   struct Cut {
     const Rule& rule;
-    std::array<Eigen::Vector3f, 3> corner;  // from the centroid
-    std::array<float, 3> rise;              // of the density from the centroid to a corner
-    Points<8>::Lanes even,
-        slope;  // power of a density of 1, and of one that rises so; of all the triangle
+    Points<8>::Lanes even, slope;  // power of a density of 1, and of one that rises as the rule's
   };
-  void integrate(const Rule& rule, const LitTriangle& t, const Eigen::Vector3d& p, float weight) {
-    const Eigen::Vector3d center = middle_mm(t.corners_mm);
-    const auto& e = t.irradiance_sr_per_mm2;
-    const double mean = (e[0] + e[1] + e[2]) / 3.0;
-    Cut cut{rule, {}, {}, Points<8>::Lanes::Zero(), Points<8>::Lanes::Zero()};
-    for (std::size_t i = 0; i < 3; ++i) {
-      cut.corner[i] = (t.corners_mm[i] - center).cast<float>();
-      cut.rise[i] = static_cast<float>(e[i] - mean);
-    }
-    const double area = area_mm2(t.corners_mm);
-    Eigen::Index k = 0;
-    for (const TriangleOrbit& orbit : kCowper) {
-      for (int i = 0; i < 3; ++i) cut.even[k++] = weight * static_cast<float>(area * orbit.weight);
-    }
-    cut.slope = weight * rule.six.power - static_cast<float>(mean) * cut.even;
-    add_parts(cut, (center - p).cast<float>(), 1.0F, static_cast<float>(mean));
+  static Cut cut_of(const Rule& rule, float weight) {
+    static const Points<8>::Lanes kShares = [] {
+      Points<8>::Lanes shares = Points<8>::Lanes::Zero();
+      for (Eigen::Index k = 0; k < 6; ++k) {
+        shares[k] = static_cast<float>(kCowper[static_cast<std::size_t>(k / 3)].weight);
+      }
+      return shares;
+    }();
+    const Points<8>::Lanes even = (weight * rule.area) * kShares;
+    return {rule, even, weight * rule.six.power - rule.density * even};
   }
   void add_parts(const Cut& cut, const Eigen::Vector3f& v, float scale, float density) {
     const float edge = std::abs(scale) * cut.rule.edge;
@@ -318,7 +274,7 @@ class SourceCloud::Sum {
     }
     const float half = 0.5F * scale;
     for (std::size_t i = 0; i < 3; ++i) {
-      add_parts(cut, v + half * cut.corner[i], half, density + half * cut.rise[i]);
+      add_parts(cut, v + half * cut.rule.corner[i], half, density + half * cut.rule.rise[i]);
     }
     add_parts(cut, v, -half, density);
   }
@@ -347,21 +303,17 @@ class SourceCloud::Sum {
 template <class Bins>
 class SourceCloud::Group {
  public:
-  static constexpr int kSites = 8;
-
   Group(const SourceCloud& cloud, std::span<const ExitSite> sites, const Bins& bins,
         const PairSumOptions& options, typename Bins::Sum* sums)
-      : cloud_(cloud) {
-    const auto far_ratio = static_cast<float>(options.far_ratio);
+      : cloud_(cloud), far_ratio_(static_cast<float>(options.far_ratio)) {
     for (std::size_t i = 0; i < sites.size(); ++i) {
       const Sum<Bins>& sum = sums_[i].emplace(cloud, sites[i], bins, options,
                                               sums + i * static_cast<std::size_t>(bins.size()));
       x_[i] = sum.center_mm().x();
       y_[i] = sum.center_mm().y();
       z_[i] = sum.center_mm().z();
-      far_of_site_[i] = far_ratio * sum.radius_mm();
+      far_of_site_[i] = far_ratio_ * sum.radius_mm();
     }
-    far_ratio_ = far_ratio;
     visit(0, (1 << sites.size()) - 1);
     for (std::size_t i = 0; i < sites.size(); ++i) sums_[i]->finish();
   }
@@ -371,9 +323,9 @@ class SourceCloud::Group {
   void visit(std::int32_t at, int sites) {
     const Node& node = cloud_.nodes_[static_cast<std::size_t>(at)];
     const float far_of_node = far_ratio_ * node.radius;
-    std::array<float, kSites> dx, dy, dz;
+    std::array<float, kSideBySide> dx, dy, dz;
     int near = 0;
-    for (std::size_t i = 0; i < kSites; ++i) {
+    for (std::size_t i = 0; i < kSideBySide; ++i) {
       dx[i] = node.x - x_[i];
       dy[i] = node.y - y_[i];
       dz[i] = node.z - z_[i];
@@ -398,18 +350,17 @@ class SourceCloud::Group {
   }
 
   const SourceCloud& cloud_;
-  float far_ratio_ = 0.0F;
-  std::array<float, kSites> x_{}, y_{}, z_{}, far_of_site_{};
-  std::array<std::optional<Sum<Bins>>, kSites> sums_;
+  float far_ratio_;
+  std::array<float, kSideBySide> x_{}, y_{}, z_{}, far_of_site_{};
+  std::array<std::optional<Sum<Bins>>, kSideBySide> sums_;
 };
 
 template <class Bins>
 void SourceCloud::add_to(std::span<const ExitSite> sites, const Bins& bins,
                          const PairSumOptions& options, typename Bins::Sum* sums) const {
   if (nodes_.empty()) return;
-  constexpr std::size_t kSites = Group<Bins>::kSites;
-  for (std::size_t i = 0; i < sites.size(); i += kSites) {
-    Group<Bins>(*this, sites.subspan(i, std::min(kSites, sites.size() - i)), bins, options,
+  for (std::size_t i = 0; i < sites.size(); i += kSideBySide) {
+    Group<Bins>(*this, sites.subspan(i, std::min(kSideBySide, sites.size() - i)), bins, options,
                 sums + i * static_cast<std::size_t>(bins.size()));
   }
 }

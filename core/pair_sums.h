@@ -11,6 +11,7 @@
 #include "core/distance_bins.h"
 #include "core/exit_site.h"
 #include "core/incident_light.h"
+#include "core/power_moments.h"
 
 namespace scattermeter {
 
@@ -36,7 +37,9 @@ class SourceCloud {
  public:
   SourceCloud(const IncidentLight& light, const Eigen::Vector3d& origin_mm);
 
-  std::size_t size() const { return triangles_.size(); }
+  std::size_t size() const { return rules_.size(); }
+  // Sites that share a walk through the tree.
+  static constexpr std::size_t kSideBySide = 8;
   // Adds, for the mean over each site, the entering power of every source at its distance:
   // afterwards sum over i of sums[i] f(d_i) is the mean over the site of
   // ∫ E(x) f(|x_site - x|) dA, for any f that the bins represent. sums: bins.size() values a site,
@@ -67,20 +70,25 @@ class SourceCloud {
   struct Rule {
     Eigen::Vector3f center;
     float edge;       // the longest
-    Points<8> six;    // kCowper
     Points<4> three;  // kThreePoints
+    Points<8> six;    // kCowper
+    // For sites so near that it is cut.
+    float density, area;                    // the mean one in sr / mm^2; mm^2
+    std::array<Eigen::Vector3f, 3> corner;  // from the centroid
+    std::array<float, 3> rise;              // of the density from the centroid to a corner
+    Eigen::Vector3d precise_center;
   };
-  struct Moments;
+  static Rule rule_of(const LitTriangle& t);
   template <class Bins>
   class Sum;
   template <class Bins>
   class Group;
-  Moments build(const std::vector<Moments>& leaves, std::int32_t* begin, std::int32_t* end);
+  PowerMoments build(const std::vector<PowerMoments>& leaves, std::int32_t* begin,
+                     std::int32_t* end);
 
   Eigen::Vector3d origin_mm_;
   std::vector<Node> nodes_;
-  std::vector<LitTriangle> triangles_;  // relative to the origin
-  std::vector<Rule> rules_;             // of the same
+  std::vector<Rule> rules_;  // relative to the origin, in the order of the tree
 };
 
 }  // namespace scattermeter

@@ -1,4 +1,4 @@
-// Triangles: their longest edge, their equal parts, a rule to integrate over them.
+// Triangles: their middle, area and longest edge, their equal parts, a rule to integrate over them.
 #pragma once
 
 #include <algorithm>
@@ -7,10 +7,15 @@
 #include <cstddef>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace scattermeter {
 
 using Triangle = std::array<Eigen::Vector3d, 3>;
+
+inline Eigen::Vector3d middle_mm(const Triangle& t) { return (t[0] + t[1] + t[2]) / 3.0; }
+
+inline double area_mm2(const Triangle& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
 
 inline double longest_edge_mm(const Triangle& t) {
   return std::sqrt(std::max(
@@ -52,7 +57,7 @@ void for_16_parts(const Triangle& t, const Visit& visit) {
 struct TriangleOrbit {
   double a;
   double weight;  // of each point; the six add up to 1
-  double b() const { return 0.5 * (1.0 - a); }
+  constexpr double b() const { return 0.5 * (1.0 - a); }
 };
 inline constexpr std::array<TriangleOrbit, 2> kCowper = {
     {{0.108103018168070, 0.223381589678011}, {0.816847572980459, 0.109951743655322}}};
