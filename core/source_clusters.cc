@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -11,12 +12,14 @@
 #include <Eigen/Geometry>
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 namespace scattermeter {
 
 struct WeightedPoint {
-  Eigen::Vector3d at;
-  double weight;
+  Eigen::Array4d placed;  // x, y, z in mm; weight
+  Eigen::Vector3d at() const { return placed.head<3>().matrix(); }
+  double weight() const { return placed[3]; }
 };
 
 // The plane of many of the points, if there is one: through three of a few samples that holds at
@@ -45,17 +48,17 @@ bool plane_of(const WeightedPoint* begin, const WeightedPoint* end, const Eigen:
   Eigen::Vector3d a = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero();
   constexpr int kSamples = 8;
   for (int i = 0; i < kSamples; ++i) {
-    const Eigen::Vector3d d = begin[i * (count - 1) / (kSamples - 1)].at - center;
+    const Eigen::Vector3d d = begin[i * (count - 1) / (kSamples - 1)].at() - center;
     if (d.squaredNorm() > a.squaredNorm()) a = d;
   }
   for (int i = 0; i < kSamples; ++i) {
-    const Eigen::Vector3d n = a.cross(begin[i * (count - 1) / (kSamples - 1)].at - center);
+    const Eigen::Vector3d n = a.cross(begin[i * (count - 1) / (kSamples - 1)].at() - center);
     if (n.squaredNorm() > normal.squaredNorm()) normal = n;
   }
   if (!(normal.norm() > 1e-2 * radius * radius)) return false;
   normal.normalize();
   for (const WeightedPoint* p = begin; p != end; ++p) {
-    if (std::abs(normal.dot(p->at - center)) > 1e-7 * radius) return false;
+    if (std::abs(normal.dot(p->at() - center)) > 1e-7 * radius) return false;
   }
   frame.row(0) = a.normalized();
   frame.row(1) = normal.cross(a.normalized());
@@ -67,8 +70,8 @@ bool plane_of_many(const WeightedPoint* begin, const WeightedPoint* end, double 
                    ClusterPlane& plane) {
   constexpr std::ptrdiff_t kSamples = 16, kMany = 6;
   const std::ptrdiff_t count = end - begin;
-  const auto sample = [&](std::ptrdiff_t i) -> const Eigen::Vector3d& {
-    return begin[i * (count - 1) / (kSamples - 1)].at;
+  const auto sample = [&](std::ptrdiff_t i) {
+    return begin[i * (count - 1) / (kSamples - 1)].at();
   };
   for (std::ptrdiff_t i = 0; i < kSamples; ++i) {
     // Neighbours in the order of an earlier split, and ones farther apart.
@@ -171,13 +174,13 @@ void coefficients_from(const KernelMoments& moments, int degree, double weight, 
 
 }  // namespace
 
-// Splits points into clusters; large parts may be left to be split by others.
+// Splits points into clusters.
 class ClusterSplit {
  public:
   using Node = SourceClusters::Node;
-  struct Part {
-    std::int32_t first, last, parent, plane;
-    bool left;
+  // Where a cluster's points [first, last) part; first or last: nowhere.
+  struct Parting {
+    std::int32_t middle, left_plane, right_plane;
   };
 
   // `room` for as many points as there are.
@@ -185,33 +188,42 @@ class ClusterSplit {
 
   std::vector<Node> nodes;
   std::vector<ClusterPlane> planes;
-  std::vector<Part> parts;
 
-  // Parts of up to `whole` points are left to others.
-  std::int32_t split(std::int32_t first, std::int32_t last, std::int32_t whole,
-                     std::int32_t bucket = -1, std::int32_t plane = -1) {
+  // The cluster of those points and all of its parts.
+  std::int32_t split(std::int32_t first, std::int32_t last, std::int32_t bucket = -1,
+                     std::int32_t plane = -1) {
+    const auto at = static_cast<std::int32_t>(nodes.size());
+    const Parting parting = add(first, last, bucket, plane);
+    if (parting.middle == first || parting.middle == last) return at;
+    if (bucket < 0 && last - first <= SourceClusters::kBucket) bucket = at;
+    const std::int32_t left = split(first, parting.middle, bucket, parting.left_plane);
+    const std::int32_t right = split(parting.middle, last, bucket, parting.right_plane);
+    nodes[static_cast<std::size_t>(at)].left = left;
+    nodes[static_cast<std::size_t>(at)].right = right;
+    return at;
+  }
+
+  // The cluster alone; its points are put in the order of its parts.
+  Parting add(std::int32_t first, std::int32_t last, std::int32_t bucket, std::int32_t plane) {
     const auto at = static_cast<std::int32_t>(nodes.size());
     WeightedPoint* const begin = points_ + first;
     WeightedPoint* const end = points_ + last;
-    Eigen::Vector3d low = begin->at, high = begin->at, mean = Eigen::Vector3d::Zero();
-    const Eigen::Vector3d origin = begin->at;
+    const Eigen::Array4d origin = begin->placed;
+    Eigen::Array4d low = origin, high = origin, mean = Eigen::Array4d::Zero();
     double weight = 0.0;
     for (const WeightedPoint* p = begin; p != end; ++p) {
-      for (Eigen::Index i = 0; i < 3; ++i) {
-        const double x = p->at[i];
-        low[i] = x < low[i] ? x : low[i];
-        high[i] = x > high[i] ? x : high[i];
-        mean[i] += p->weight * (x - origin[i]);
-      }
-      weight += p->weight;
+      low = low.min(p->placed);
+      high = high.max(p->placed);
+      mean += p->weight() * (p->placed - origin);
+      weight += p->weight();
     }
     Node node{};
-    const Eigen::Vector3d center = origin + mean / weight;
-    Eigen::Map<Eigen::Vector3d>(node.center_mm) = center;
+    const Eigen::Array4d center = origin + mean / weight;
+    Eigen::Map<Eigen::Vector3d>(node.center_mm) = center.head<3>().matrix();
     double radius2 = 0.0;
     for (const WeightedPoint* p = begin; p != end; ++p) {
-      const double r2 = (p->at - center).squaredNorm();
-      radius2 = r2 > radius2 ? r2 : radius2;
+      const Eigen::Array4d d2 = (p->placed - center).square();
+      radius2 = std::max(radius2, d2[0] + d2[1] + d2[2]);
     }
     node.radius_mm = std::sqrt(radius2) * (1.0 + 1e-12);
     node.weight = weight;
@@ -222,43 +234,32 @@ class ClusterSplit {
     if (plane >= 0 && node.radius_mm < 1e5 * planes[static_cast<std::size_t>(plane)].tolerance) {
       plane = -1;
     }
+    Eigen::Index axis = 0;
+    const double side = (high - low).head<3>().maxCoeff(&axis);
+    const double cut = low[axis] + 0.5 * side;
+    Parting parting{first, plane, plane};
+    if (last - first > SourceClusters::kLeaf) {
+      ClusterPlane found;
+      if (plane < 0 && last - first >= kManyPoints && plane_of_many(begin, end, side, found)) {
+        parting.middle +=
+            divide(begin, end, [&](const WeightedPoint& p) { return found.holds(p.at()); });
+        parting.left_plane = static_cast<std::int32_t>(planes.size());
+        planes.push_back(found);
+        if (parting.middle == last) {
+          plane = parting.right_plane = parting.left_plane;
+          parting.middle = first;
+        }
+      }
+      // In vain for points that coincide, or differ by a rounding.
+      if (parting.middle == first) {
+        parting.middle +=
+            divide(begin, end, [&](const WeightedPoint& p) { return p.placed[axis] < cut; });
+      }
+    }
     node.plane = plane;
-    if (bucket < 0 && last - first <= SourceClusters::kBucket) bucket = at;
     node.bucket = bucket < 0 ? at : bucket;
     nodes.push_back(node);
-    if (last - first <= SourceClusters::kLeaf) return at;
-    Eigen::Index axis = 0;
-    const double side = (high - low).maxCoeff(&axis);
-    const double cut = low[axis] + 0.5 * side;
-    std::int32_t left_plane = plane, middle = first;
-    ClusterPlane found;
-    if (plane < 0 && last - first >= kManyPoints && plane_of_many(begin, end, side, found)) {
-      middle =
-          first + divide(begin, end, [&](const WeightedPoint& p) { return found.holds(p.at); });
-      left_plane = static_cast<std::int32_t>(planes.size());
-      planes.push_back(found);
-      if (middle == last) {
-        plane = nodes[static_cast<std::size_t>(at)].plane = left_plane;
-        middle = first;
-      }
-    }
-    if (middle == first) {
-      middle = first + divide(begin, end, [&](const WeightedPoint& p) { return p.at[axis] < cut; });
-    }
-    // Points that coincide, or differ by a rounding.
-    if (middle == first || middle == last) return at;
-    const auto next = [&](std::int32_t from, std::int32_t to, std::int32_t in, bool is_left) {
-      if (to - from > SourceClusters::kBucket && to - from <= whole) {
-        parts.push_back({from, to, at, in, is_left});
-        return std::int32_t{-1};
-      }
-      return split(from, to, whole, bucket, in);
-    };
-    const std::int32_t left = next(first, middle, left_plane, true);
-    const std::int32_t right = next(middle, last, plane, false);
-    nodes[static_cast<std::size_t>(at)].left = left;
-    nodes[static_cast<std::size_t>(at)].right = right;
-    return at;
+    return parting;
   }
 
  private:
@@ -291,43 +292,32 @@ class ClusterBuilder {
   ClusterBuilder(SourceClusters& out, std::vector<WeightedPoint>& points)
       : out_(out), points_(points) {}
 
-  // Large parts at a time, then each by itself.
+  // Both parts of a large cluster at the same time.
   void split() {
-    constexpr std::int32_t kPart = 4096;
     std::vector<WeightedPoint> room(points_.size());
-    ClusterSplit top(points_.data(), room.data());
-    const auto count = static_cast<std::int32_t>(points_.size());
-    top.split(0, count, count > kPart ? kPart : 0);
-    std::vector<std::unique_ptr<ClusterSplit>> below(top.parts.size());
-    oneapi::tbb::parallel_for(std::size_t{0}, below.size(), [&](std::size_t i) {
-      const ClusterSplit::Part& part = top.parts[i];
-      below[i] = std::make_unique<ClusterSplit>(points_.data(), room.data());
-      if (part.plane >= 0) below[i]->planes = {top.planes[static_cast<std::size_t>(part.plane)]};
-      below[i]->nodes.reserve(static_cast<std::size_t>(part.last - part.first) / 2);
-      below[i]->split(part.first, part.last, 0, -1, part.plane >= 0 ? 0 : -1);
-    });
-    out_.nodes_ = std::move(top.nodes);
-    planes_ = std::move(top.planes);
-    std::size_t size = out_.nodes_.size();
-    for (const auto& part : below) size += part->nodes.size();
-    out_.nodes_.reserve(size);
-    for (std::size_t i = 0; i < below.size(); ++i) {
-      const auto offset = static_cast<std::int32_t>(out_.nodes_.size());
-      const auto plane = static_cast<std::int32_t>(planes_.size());
-      const ClusterSplit::Part& part = top.parts[i];
-      SourceClusters::Node& parent = out_.nodes_[static_cast<std::size_t>(part.parent)];
-      (part.left ? parent.left : parent.right) = offset;
-      for (SourceClusters::Node node : below[i]->nodes) {
-        node.bucket += offset;
+    const Tree tree = grown(room, 0, static_cast<std::int32_t>(points_.size()), std::nullopt);
+    std::vector<Place> places;
+    std::int32_t nodes = 0, planes = 0;
+    place(tree, nodes, planes, places);
+    out_.nodes_.resize(static_cast<std::size_t>(nodes));
+    planes_.resize(static_cast<std::size_t>(planes));
+    oneapi::tbb::parallel_for(std::size_t{0}, places.size(), [&](std::size_t i) {
+      const Place& p = places[i];
+      std::copy(p.tree->top.planes.begin(), p.tree->top.planes.end(), planes_.begin() + p.plane);
+      SourceClusters::Node* to = &out_.nodes_[static_cast<std::size_t>(p.node)];
+      for (SourceClusters::Node node : p.tree->top.nodes) {
+        node.bucket += p.node;
         if (node.left >= 0) {
-          node.left += offset;
-          node.right += offset;
+          node.left += p.node;
+          node.right += p.node;
+        } else if (p.left >= 0) {
+          node.left = p.left;
+          node.right = p.right;
         }
-        if (node.plane >= 0) node.plane += plane;
-        out_.nodes_.push_back(node);
+        if (node.plane >= 0) node.plane += p.plane;
+        *to++ = node;
       }
-      planes_.insert(planes_.end(), below[i]->planes.begin(), below[i]->planes.end());
-    }
+    });
   }
 
   // What is to be told of a cluster where it is judged.
@@ -359,7 +349,7 @@ class ClusterBuilder {
           out_.nodes_[static_cast<std::size_t>(node.bucket)].center_mm);
       for (std::int32_t i = node.first; i < node.last; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const Eigen::Vector3f d = (points_[k].at - bucket).cast<float>();
+        const Eigen::Vector3f d = (points_[k].at() - bucket).cast<float>();
         out_.dx_mm_[k] = d.x();
         out_.dy_mm_[k] = d.y();
         out_.dz_mm_[k] = d.z();
@@ -367,7 +357,7 @@ class ClusterBuilder {
       return;
     }
     if (node.series < 0) return;
-    float* const to = out_.series_.data() + node.series;
+    float* const to = out_.series_.get() + node.series;
     Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
     const WeightedPoint* const begin = points_.data() + node.first;
     if (node.plane >= 0) {
@@ -394,6 +384,55 @@ class ClusterBuilder {
   }
 
  private:
+  // A whole tree; or its first node alone, and both parts.
+  struct Tree {
+    ClusterSplit top;
+    std::unique_ptr<Tree> left, right;
+  };
+  // Where a tree's own nodes and planes come to stand, and of a single node its parts.
+  struct Place {
+    const Tree* tree;
+    std::int32_t node, plane, left, right;
+  };
+
+  Tree grown(std::vector<WeightedPoint>& room, std::int32_t first, std::int32_t last,
+             const std::optional<ClusterPlane>& plane) const {
+    constexpr std::int32_t kWhole = 4096;
+    Tree tree{ClusterSplit(points_.data(), room.data()), nullptr, nullptr};
+    if (plane) tree.top.planes = {*plane};
+    const std::int32_t in = plane ? 0 : -1;
+    if (last - first <= kWhole) {
+      tree.top.nodes.reserve(static_cast<std::size_t>(last - first) / 2);
+      tree.top.split(first, last, -1, in);
+      return tree;
+    }
+    const ClusterSplit::Parting parting = tree.top.add(first, last, -1, in);
+    if (parting.middle == first || parting.middle == last) return tree;
+    const auto part = [&](std::int32_t from, std::int32_t to, std::int32_t of) {
+      std::optional<ClusterPlane> own;
+      if (of >= 0) own = tree.top.planes[static_cast<std::size_t>(of)];
+      return std::make_unique<Tree>(grown(room, from, to, own));
+    };
+    oneapi::tbb::parallel_invoke(
+        [&] { tree.left = part(first, parting.middle, parting.left_plane); },
+        [&] { tree.right = part(parting.middle, last, parting.right_plane); });
+    return tree;
+  }
+
+  // A node before its parts.
+  static void place(const Tree& tree, std::int32_t& nodes, std::int32_t& planes,
+                    std::vector<Place>& places) {
+    const std::size_t at = places.size();
+    places.push_back({&tree, nodes, planes, -1, -1});
+    nodes += static_cast<std::int32_t>(tree.top.nodes.size());
+    planes += static_cast<std::int32_t>(tree.top.planes.size());
+    if (tree.left == nullptr) return;
+    places[at].left = nodes;
+    place(*tree.left, nodes, planes, places);
+    places[at].right = nodes;
+    place(*tree.right, nodes, planes, places);
+  }
+
   SourceClusters& out_;
   std::vector<WeightedPoint>& points_;
   std::vector<ClusterPlane> planes_;
@@ -420,24 +459,25 @@ SourceClusters::SourceClusters(std::span<const Eigen::Vector3d> points_mm,
       throw std::invalid_argument(text.str());
     }
     if (weights[i] > 0.0) {
-      points.push_back({points_mm[i], weights[i]});
+      const Eigen::Vector3d& at = points_mm[i];
+      points.push_back({{at.x(), at.y(), at.z(), weights[i]}});
       weight_ += weights[i];
     }
   }
   left_out_ = points_mm.size() - points.size();
   if (points.empty()) return;
   const double scale = 1.0 / weight_;
-  for (WeightedPoint& p : points) p.weight *= scale;
+  for (WeightedPoint& p : points) p.placed[3] *= scale;
   ClusterBuilder builder(*this, points);
   builder.split();
   const std::size_t n = points.size();
   for (auto* v : {&x_mm_, &y_mm_, &z_mm_}) v->resize(n);
   for (auto* v : {&weights_, &dx_mm_, &dy_mm_, &dz_mm_}) v->resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    x_mm_[i] = points[i].at.x();
-    y_mm_[i] = points[i].at.y();
-    z_mm_[i] = points[i].at.z();
-    weights_[i] = static_cast<float>(points[i].weight);
+    x_mm_[i] = points[i].placed[0];
+    y_mm_[i] = points[i].placed[1];
+    z_mm_[i] = points[i].placed[2];
+    weights_[i] = static_cast<float>(points[i].weight());
   }
   const auto stride = [&](bool planar) {
     return static_cast<std::int32_t>(9 + coefficient_place(largest_degree + 1, 0, planar));
@@ -448,7 +488,7 @@ SourceClusters::SourceClusters(std::span<const Eigen::Vector3d> points_mm,
     node.series = series;
     series += stride(node.plane >= 0);
   }
-  series_.resize(static_cast<std::size_t>(series));
+  series_ = std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(series));
   traits_.resize(nodes_.size());
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, nodes_.size(), 64),
                             [&](const auto& range) {
@@ -460,7 +500,7 @@ SourceClusters::SourceClusters(std::span<const Eigen::Vector3d> points_mm,
 }
 
 KernelCluster SourceClusters::cluster(const Node& node) const {
-  const float* const series = series_.data() + node.series;
+  const float* const series = series_.get() + node.series;
   return {{node.center_mm[0], node.center_mm[1], node.center_mm[2]},
           node.radius_mm,
           series,

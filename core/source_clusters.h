@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -70,7 +71,7 @@ class SourceClusters {
   std::vector<double> x_mm_, y_mm_, z_mm_;
   std::vector<float> weights_;                // relative to that of all
   std::vector<float> dx_mm_, dy_mm_, dz_mm_;  // from the bucket's centre
-  std::vector<float> series_;                 // frames (9) and coefficients
+  std::unique_ptr<float[]> series_;           // frames (9) and coefficients
 };
 
 }  // namespace scattermeter
