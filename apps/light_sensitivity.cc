@@ -34,25 +34,16 @@ Eigen::MatrixXd curves(const std::vector<LitMedium>& media, const DistanceKnots&
   return r;
 }
 
-}  // namespace
-
-std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d first = normal.unitOrthogonal();
-  return {first, normal.cross(first)};
-}
-
-namespace {
-
-// The knots with fewer bins between: their error is the same before and after a change.
-DistanceKnots with_few_bins(const DistanceKnots& knots) {
-  constexpr int kPerOctave = 6, kFineBits = 5;
-  return {knots.resolution_mm(), knots.max_distance_mm(), kPerOctave, kFineBits};
-}
+// Bins between the knots: their error is the same before and after a change.
+constexpr int kFineBits = 5;
 
 // make(sites, sources, is_other_eta): of one change.
 template <class Each, class Make>
 Changed<Each> changed(const SeenObject& seen, const RigLight& rig_light, std::size_t channel,
                       ObjectLibrary& library, const Make& make) {
+  Changed<Each> out;
+  // What else is uncertain matters little to a small even light.
+  if (rig_light.is_ambient) return out;
   const Led& led = rig_light.led;
   const ObjectScene& object = *seen.object;
   const double eta = object.rig->eta_int_over_ext;
@@ -65,9 +56,6 @@ Changed<Each> changed(const SeenObject& seen, const RigLight& rig_light, std::si
                          eta_here),
         object.box.center_mm());
   };
-  Changed<Each> out;
-  // What else is uncertain matters little to a small even light.
-  if (rig_light.is_ambient) return out;
   std::array<std::vector<ExitSite>, 3> sites;
   out.shift_mm = 0.1 * seen.patches->patch_size_mm();
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
@@ -110,6 +98,11 @@ Changed<Each> changed(const SeenObject& seen, const RigLight& rig_light, std::si
 
 }  // namespace
 
+std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d first = normal.unitOrthogonal();
+  return {first, normal.cross(first)};
+}
+
 PairSumOptions coarse_pair_options(const DistanceKnots& knots) {
   PairSumOptions pairs;
   pairs.floor_mm = 4.0 * knots.resolution_mm();
@@ -121,7 +114,7 @@ PairSumOptions coarse_pair_options(const DistanceKnots& knots) {
 ChangedWeights changed_weights(const SeenObject& seen, const RigLight& light, std::size_t channel,
                                ObjectLibrary& library, const DistanceKnots& knots) {
   const PairSumOptions pairs = coarse_pair_options(knots);
-  const DistanceKnots few = with_few_bins(knots);
+  const DistanceKnots few = knots.with_fine_bits(kFineBits);
   return changed<WeightMatrix>(seen, light, channel, library,
                                [&](const std::vector<ExitSite>& sites, const SourceCloud& sources,
                                    bool) { return smooth_weights(sites, sources, few, pairs); });
@@ -131,7 +124,7 @@ ChangedImages changed_images(const SeenObject& seen, const RigLight& light, std:
                              ObjectLibrary& library, const DistanceKnots& knots,
                              const std::vector<LitMedium>& media) {
   const PairSumOptions pairs = coarse_pair_options(knots);
-  const DistanceKnots few = with_few_bins(knots);
+  const DistanceKnots few = knots.with_fine_bits(kFineBits);
   const double eta = seen.object->rig->eta_int_over_ext;
   const Eigen::MatrixXd r = curves(media, knots, eta);
   const Eigen::MatrixXd other = curves(media, knots, eta + kEtaStep);

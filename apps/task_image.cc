@@ -55,6 +55,37 @@ std::vector<Effect> effects(const RigNuisances& nuisances, const OpenedShot& sho
   return out;
 }
 
+// Of all shots, in the order in which these have them.
+std::vector<Effect> summed(const std::vector<std::vector<Effect>>& of_shot) {
+  std::vector<Effect> all;
+  std::map<std::string, std::size_t> known;
+  for (const std::vector<Effect>& list : of_shot) {
+    for (const Effect& e : list) {
+      const auto [it, is_new] = known.try_emplace(e.nuisance.name, all.size());
+      if (is_new) all.push_back({e.nuisance, 0.0});
+      all[it->second].square += e.square;
+    }
+  }
+  return all;
+}
+
+// Those that are nothing: the smallest, as long as all of them are together.
+std::vector<bool> negligible_of(const std::vector<Effect>& all) {
+  constexpr double kNothing = 1e-2;
+  std::vector<std::size_t> by_size(all.size());
+  std::iota(by_size.begin(), by_size.end(), std::size_t{0});
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [&](std::size_t a, std::size_t b) { return all[a].square < all[b].square; });
+  double together = 0.0;
+  std::vector<bool> out(all.size());
+  for (const std::size_t k : by_size) {
+    together += all[k].square;
+    if (!(together < kNothing * kNothing)) break;
+    out[k] = true;
+  }
+  return out;
+}
+
 Eigen::VectorXd reflectance(const LitMedium& first, const DistanceKnots& knots, double eta) {
   const double sigma_t = sigma_t_per_mm(first.medium);
   return first.scale *
@@ -82,31 +113,13 @@ TaskImage::TaskImage(const Rig& rig, const Task& task, const TaskRows& rows, con
       of_shot[s] = effects(rig_nuisances_, *task.shots[s], rows[s]);
     });
   });
-  std::vector<Effect> all;  // in the order in which the shots have them
-  std::map<std::string, std::size_t> known;
-  for (const std::vector<Effect>& list : of_shot) {
-    for (const Effect& e : list) {
-      const auto [it, is_new] = known.try_emplace(e.nuisance.name, all.size());
-      if (is_new) all.push_back({e.nuisance, 0.0});
-      all[it->second].square += e.square;
-    }
-  }
-  // The smallest first, as long as all of them are together nothing.
-  constexpr double kNothing = 1e-2;
-  std::vector<std::size_t> by_size(all.size());
-  std::iota(by_size.begin(), by_size.end(), std::size_t{0});
-  std::stable_sort(by_size.begin(), by_size.end(),
-                   [&](std::size_t a, std::size_t b) { return all[a].square < all[b].square; });
-  double together = 0.0;
-  std::vector<bool> negligible(all.size());
-  for (const std::size_t k : by_size) {
-    together += all[k].square;
-    if (!(together < kNothing * kNothing)) break;
-    negligible[k] = true;
-    ++negligible_;
-  }
+  const std::vector<Effect> all = summed(of_shot);
+  const std::vector<bool> negligible = negligible_of(all);
   for (std::size_t k = 0; k < all.size(); ++k) {
-    if (negligible[k]) continue;
+    if (negligible[k]) {
+      ++negligible_;
+      continue;
+    }
     place_[all[k].nuisance.name] = static_cast<Eigen::Index>(nuisances_.size());
     nuisances_.push_back(all[k].nuisance);
   }
