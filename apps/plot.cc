@@ -163,7 +163,9 @@ std::string colour_scale(const Plot& plot) {
 
 std::string script_of(const Plot& plot, const std::string& terminal) {
   std::string script = terminal;
-  script += fmt::format("set title {} noenhanced\n", gnuplot_quoted(plot.title));
+  if (!plot.title.empty()) {
+    script += fmt::format("set title {} noenhanced\n", gnuplot_quoted(plot.title));
+  }
   script += axis("x", plot.x, false) + axis("y", plot.y, plot.y_down);
   script += "set grid lc rgb '#DDDDDD'\nset boxwidth 1.0 relative\n";
   script += colour_scale(plot);

@@ -38,6 +38,7 @@ TEST(BenchSums, ErrorsAreBelowTheTolerance) {
   EXPECT_LT(std::abs(bench.peers[0].error_sigma_s_prime), 1e-4);
   EXPECT_LT(std::abs(bench.peers[0].error_sigma_a), 1e-3);
   EXPECT_THAT(sums_bench_table(bench), HasSubstr("patches^"));
+  EXPECT_THAT(sums_bench_table(bench), HasSubstr("measured at tolerance 1e-04, "));
   EXPECT_THAT(sums_bench_csv(bench), HasSubstr("sphere,1,2000,300,"));
   EXPECT_THAT(sums_peer_csv(bench), HasSubstr("chunked"));
   EXPECT_EQ(sums_patches_plot(bench).series.size(), 4U);
