@@ -11,8 +11,27 @@ write_basic_package_version_file(
 install(FILES ${PROJECT_BINARY_DIR}/scattermeter-config.cmake
               ${PROJECT_BINARY_DIR}/scattermeter-config-version.cmake
         DESTINATION ${config_folder} COMPONENT development)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/scattermeter RENAME copyright
-        COMPONENT program)
+# Each Debian package has its own licence and changelog.
+string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+file(WRITE ${PROJECT_BINARY_DIR}/changelog "scattermeter (${PROJECT_VERSION}) unstable; urgency=medium
+
+  * What changed: CHANGELOG.md.
+
+ -- scattermeter developers <scattermeter@localhost>  ${package_date}
+")
+file(ARCHIVE_CREATE OUTPUT ${PROJECT_BINARY_DIR}/changelog.gz PATHS ${PROJECT_BINARY_DIR}/changelog
+     FORMAT raw COMPRESSION GZip COMPRESSION_LEVEL 9)
+function(scattermeter_package component name)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} RENAME copyright
+          COMPONENT ${component})
+  install(FILES ${PROJECT_BINARY_DIR}/changelog.gz
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component})
+endfunction()
+scattermeter_package(program scattermeter)
+scattermeter_package(development libscattermeter-dev)
+if(SCATTERMETER_PYTHON)
+  scattermeter_package(python python3-scattermeter)
+endif()
 install(FILES README.md CHANGELOG.md apps/RIG.md
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/scattermeter COMPONENT program)
 
@@ -28,7 +47,8 @@ if(SCATTERMETER_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-scattermeter)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, scattermeter, libstdc++6")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy, scattermeter")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/.ci/prerm)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
       "scattermeter for Python: measure, read results, forward models on NumPy arrays.")

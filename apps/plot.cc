@@ -183,8 +183,9 @@ std::string script_of(const Plot& plot, const std::string& terminal) {
     if (!curves.empty()) curves += ", ";
     // The bars first: gnuplot blanks the place of their points.
     if (!s.y_std.empty()) {
-      curves += fmt::format("$series{} using 1:2:3 notitle with yerrorbars pt 7 ps 0 lc rgb '{}', ",
-                            i, colour_of(s, i));
+      curves +=
+          fmt::format("$series{} using 1:2:3 notitle with yerrorbars pt 7 ps 0.01 lc rgb '{}', ", i,
+                      colour_of(s, i));
     }
     const std::string title = s.name.empty() ? "notitle" : "title " + gnuplot_quoted(s.name);
     curves += fmt::format("$series{} using {} {} {}", i, columns_of(s), title, style_of(s, i));

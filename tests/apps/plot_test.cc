@@ -94,6 +94,17 @@ TEST(Plot, CellsHaveAColourEach) {
   EXPECT_THROW(plot_svg(plot), std::invalid_argument);
 }
 
+Plot log_cells() {
+  Plot plot;
+  PlotSeries cells{"", PlotSeries::Style::kCells, {0.5, 1.5}, {0.5, 0.5}};
+  cells.dx = cells.dy = {1, 1};
+  cells.value = {1.2, 9};
+  plot.series = {cells};
+  plot.colours = {"deviation [%]", 9, 1.2, true};
+  plot.equal_axes = true;
+  return plot;
+}
+
 // Less its first group, which is empty and has the colour that was last used.
 std::string drawn(std::string svg) {
   const std::size_t group = svg.find("<g fill", svg.find("</defs>"));
@@ -102,13 +113,7 @@ std::string drawn(std::string svg) {
 
 // One start of gnuplot draws what starts for each draw: nothing of a plot stays for the next.
 TEST(Plot, ManyAtOnceAreTheSame) {
-  Plot cells;
-  PlotSeries series{"", PlotSeries::Style::kCells, {0.5, 1.5}, {0.5, 0.5}};
-  series.dx = series.dy = {1, 1};
-  series.value = {1.2, 9};
-  cells.series = {series};
-  cells.colours = {"deviation [%]", 9, 1.2, true};
-  cells.equal_axes = true;
+  Plot cells = log_cells();
   cells.y_down = true;
   Plot text = example();
   text.title = "</svg>\n<svg>";
@@ -126,14 +131,7 @@ TEST(Plot, ManyAtOnceAreTheSame) {
 
 // From dark blue to yellow, with labels inside a decade.
 TEST(Plot, CellsOnALogScale) {
-  Plot plot;
-  PlotSeries cells{"", PlotSeries::Style::kCells, {0.5, 1.5}, {0.5, 0.5}};
-  cells.dx = cells.dy = {1, 1};
-  cells.value = {1.2, 9};
-  plot.series = {cells};
-  plot.colours = {"deviation [%]", 9, 1.2, true};
-  plot.equal_axes = true;
-  const std::string svg = plot_svg(plot);
+  const std::string svg = plot_svg(log_cells());
   for (const char* text : {"rgb( 68,   1,  84)", "rgb(253, 231,  37)", ">1.5<", ">7<"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }

@@ -17,7 +17,7 @@ endfunction()
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/there)
 run(${WORK}/there/bin/scattermeter --version)
 expect("${out}" "scattermeter ${VERSION}\nbuilt with .*Embree 3.*LibRaw 0.*")
-foreach(file share/man/man1/scattermeter.1 share/bash-completion/completions/scattermeter
+foreach(file share/man/man1/scattermeter.1.gz share/bash-completion/completions/scattermeter
              share/zsh/vendor-completions/_scattermeter share/doc/scattermeter/copyright
              include/scattermeter/core/dipole.h)
   if(NOT EXISTS ${WORK}/there/${file})
