@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <unistd.h>
 
+#include "apps/png.h"
 #include "calib/opencv_quiet.h"
 #include "capture/pending_file.h"
 #include "core/input_error.h"
@@ -118,11 +118,8 @@ std::vector<std::uint8_t> overlay_png(const capture::RawFrame& frame,
                static_cast<int>(std::lround(dot.radius_px * (1 << kFractionBits))), bgr(dot.colour),
                cv::FILLED, cv::LINE_AA, kFractionBits);
   }
-  std::vector<std::uint8_t> png;
-  if (!cv::imencode(".png", picture, png)) {
-    throw std::runtime_error("overlay_png: OpenCV cannot encode PNG");
-  }
-  return png;
+  cv::cvtColor(picture, picture, cv::COLOR_BGR2RGB);
+  return png_of_rgb(picture.cols, picture.rows, {picture.data, 3 * picture.total()});
 }
 
 ImageRect crop_around(const std::vector<OverlayLine>& lines, int width_px, int height_px) {

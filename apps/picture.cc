@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "apps/png.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -62,18 +62,8 @@ int text_width(const std::string& text, int height_px) {
 }
 
 std::string png_bytes(const Picture& picture) {
-  if (picture.rgb.empty()) throw std::invalid_argument("png_bytes: an empty picture");
-  cv::Mat bgr(picture.height_px, picture.width_px, CV_8UC3);
-  for (int y = 0; y < picture.height_px; ++y) {
-    for (int x = 0; x < picture.width_px; ++x) {
-      const PictureColour c = picture.at(x, y);
-      bgr.at<cv::Vec3b>(y, x) = {c[2], c[1], c[0]};
-    }
-  }
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6})) {
-    throw std::runtime_error("png_bytes: the picture cannot be encoded");
-  }
+  const std::vector<std::uint8_t> bytes =
+      png_of_rgb(picture.width_px, picture.height_px, picture.rgb);
   return {bytes.begin(), bytes.end()};
 }
 

@@ -31,6 +31,7 @@ if(NOT program OR NOT development)
 endif()
 run(dpkg-deb --field ${program} Depends)
 expect("${out}" "libceres.*libembree3-3.*libraw20.*gnuplot-nox [|] gnuplot|gnuplot-nox [|] gnuplot.*libembree3-3")
+expect("${out}" "libopencv-imgcodecs[0-9]+")
 run(dpkg-deb --contents ${program})
 foreach(file usr/bin/scattermeter usr/share/man/man1/scattermeter.1.gz usr/share/doc/scattermeter/copyright
              usr/share/doc/scattermeter/changelog.gz)
