@@ -137,6 +137,9 @@ std::vector<PlanBenchRow> plan_and_measure(const Rig& rig, const ObjectScenes& s
     row.channel = stated.channel;
     row.planned = !forecast.refused();
     row.measured = !stated.refused();
+    if (row.planned != row.measured) {
+      row.reasons = (row.planned ? stated : forecast).estimate.reasons;
+    }
     const auto of = [](const ChannelResult& result, Quantity Estimate::*coefficient) {
       return result.refused() ? std::numeric_limits<double>::quiet_NaN()
                               : relative_std(result.estimate.*coefficient);
@@ -217,11 +220,18 @@ std::string plan_bench_table(const std::vector<PlanBenchRow>& rows) {
     last = row.rig;
   }
   const PlanBenchRatios r = plan_bench_ratios(rows);
-  return table.text() +
-         fmt::format(
-             "forecast over stated deviation, {} values: median {:.3f}, {:.3f} to {:.3f}; "
-             "{} of {} verdicts differ\n",
-             r.n, r.median, r.least, r.most, differ, rows.size());
+  std::string text =
+      table.text() +
+      fmt::format(
+          "forecast over stated deviation, {} values: median {:.3f}, {:.3f} to {:.3f}; "
+          "{} of {} verdicts differ\n",
+          r.n, r.median, r.least, r.most, differ, rows.size());
+  for (const PlanBenchRow& row : rows) {
+    for (const std::string& reason : row.reasons) {
+      text += fmt::format("rig {}, {}, {}: {}\n", row.rig, row.setting, row.channel, reason);
+    }
+  }
+  return text;
 }
 
 std::string plan_bench_csv(const std::vector<PlanBenchRow>& rows) {

@@ -23,8 +23,9 @@ struct PlanBenchRow {
   int rig = 0;
   std::string setting;  // what was drawn, in words
   char channel = 'R';
-  bool planned = false;   // the forecast is no refusal
-  bool measured = false;  // nor is the measurement
+  bool planned = false;              // the forecast is no refusal
+  bool measured = false;             // nor is the measurement
+  std::vector<std::string> reasons;  // of the one that is refused, where the other is not
   // Standard deviations over the values; NaN where there is none.
   double forecast_sigma_s_prime = 0, stated_sigma_s_prime = 0;
   double forecast_sigma_a = 0, stated_sigma_a = 0;

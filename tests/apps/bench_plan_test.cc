@@ -27,7 +27,13 @@ TEST(BenchPlan, TwentyRigs) {
   EXPECT_GT(ratios.least, 0.7);
   EXPECT_LT(ratios.most, 1.4);
   int differ = 0;
-  for (const PlanBenchRow& row : rows) differ += row.planned == row.measured ? 0 : 1;
+  for (const PlanBenchRow& row : rows) {
+    differ += row.planned == row.measured ? 0 : 1;
+    EXPECT_EQ(row.reasons.empty(), row.planned == row.measured) << row.rig;
+    for (const std::string& reason : row.reasons) {
+      EXPECT_NE(plan_bench_table(rows).find(reason), std::string::npos);
+    }
+  }
   EXPECT_LE(differ, 3) << plan_bench_table(rows);
 }
 
