@@ -55,6 +55,17 @@ TEST_F(RawReaderRefusal, WhatIsNoRawFile) {
               AllOf(StartsWith(path_), HasSubstr("no raw file")));
 }
 
+// LibRaw ends the process on such names (parseHassyModel()).
+TEST_F(RawReaderRefusal, NamesThatLibRawHasNoRoomFor) {
+  constexpr unsigned kMake = 271;
+  constexpr unsigned kModel = 272;
+  CfaDng dng(image_);
+  dng.ascii(kMake, "Hasselblad");
+  EXPECT_EQ(refusal_of(dng.file({samples_})), "accepted");
+  dng.ascii(kModel, std::string(40, 'x') + '-' + std::string(22, 'x'));
+  EXPECT_THAT(refusal_of(dng.file({samples_})), AllOf(StartsWith(path_), HasSubstr("Hasselblad")));
+}
+
 TEST_F(RawReaderRefusal, WhatHasNoBayerPattern) {
   const auto with = [&](const auto& change) {
     CfaDng dng(image_);

@@ -44,6 +44,9 @@ void raws(const fs::path& folder) {
     metadata.linearization_table.push_back(static_cast<std::uint16_t>(4 * i));
   }
   scattermeter::capture::write_dng(folder / "table.dng", kSide, kSide, codes, metadata);
+  metadata.make = "Hasselblad";  // read through a process on trial
+  metadata.model = "Hasselblad H3D-39";
+  scattermeter::capture::write_dng(folder / "hasselblad.dng", kSide, kSide, codes, metadata);
 }
 
 void probes(const fs::path& folder) {
