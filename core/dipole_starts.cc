@@ -12,12 +12,12 @@ namespace scattermeter {
 std::vector<DipoleSolver::Point> dipole_starts(const RecoveredReflectance& recovered,
                                                const DistanceKnots& knots, double eta,
                                                const ScalePrior& scale) {
-  using Point = DipoleSolver::Point;
-  std::vector<Point> line;
+  using Start = DipoleSolver::Point;
+  std::vector<Start> line;
   const int steps =
       4 + static_cast<int>(2.0 * std::log2(knots.max_distance_mm() / knots.resolution_mm()));
   for (int k = 0; k < steps; ++k) {
-    Point best;
+    Start best;
     best.u = -std::log(knots.resolution_mm()) - 0.5 * k * std::numbers::ln2;
     best.cost = std::numeric_limits<double>::infinity();
     for (double q : {1e-5, 1e-3, 0.01, 0.05, 0.15, 0.3, 0.5, 0.75}) {
@@ -39,7 +39,7 @@ std::vector<DipoleSolver::Point> dipole_starts(const RecoveredReflectance& recov
     }
     line.push_back(best);
   }
-  std::vector<Point> minima;
+  std::vector<Start> minima;
   for (std::size_t k = 0; k < line.size(); ++k) {
     if (!std::isfinite(line[k].cost)) continue;
     const bool below_last = k == 0 || line[k].cost < line[k - 1].cost;
@@ -49,7 +49,7 @@ std::vector<DipoleSolver::Point> dipole_starts(const RecoveredReflectance& recov
   if (minima.empty()) minima.push_back(line.front());
   // The best of the fine line is nearly always the one; more than three cost time only.
   std::sort(minima.begin(), minima.end(),
-            [](const Point& a, const Point& b) { return a.cost < b.cost; });
+            [](const Start& a, const Start& b) { return a.cost < b.cost; });
   minima.resize(std::min<std::size_t>(minima.size(), 3));
   return minima;
 }

@@ -14,7 +14,7 @@
 namespace scattermeter::apps {
 namespace {
 
-constexpr int kSeeds = 50;
+constexpr int kCalibrations = 50;
 
 // A parameter over the draws that estimated it.
 struct Parameter {
@@ -30,7 +30,7 @@ struct Parameter {
 // Of distortion, single terms are less well known than stated: see calib/lens_choice.h.
 TEST(CalibrateCamera, FiftySeedsAreUnbiasedAndKnowTheirScatter) {
   std::vector<Parameter> all = {{"f_px", 520}, {"cx_px", 243.1}, {"cy_px", 159.4}};
-  for (int seed = 1; seed <= kSeeds; ++seed) {
+  for (int seed = 1; seed <= kCalibrations; ++seed) {
     const BoardRig rig(kChess, static_cast<std::uint64_t>(seed), 6);
     rig.shoot(seed);
     const Answer a = rig.calibrate({"--rig", rig.rig()});
@@ -57,7 +57,7 @@ TEST(CalibrateCamera, FiftySeedsAreUnbiasedAndKnowTheirScatter) {
     SCOPED_TRACE(p.name);
     std::printf("%s: %.0f draws, bias %+.3g, scatter %.3g, predicted/sampled %.2f\n",
                 p.name.c_str(), p.n, p.bias(), p.scatter(), p.ratio());
-    ASSERT_EQ(p.n, kSeeds);
+    ASSERT_EQ(p.n, kCalibrations);
     EXPECT_LT(std::abs(p.bias()), 3.5 * p.scatter() / std::sqrt(p.n));
     EXPECT_NEAR(p.ratio(), 1.0, 0.33);
     log_ratio += std::log(p.ratio()) / static_cast<double>(all.size());

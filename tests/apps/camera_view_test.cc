@@ -32,7 +32,7 @@ TEST(CameraView, LookAtHasOpenCvsAxes) {
 
 TEST(CameraView, RaysCoverTheObjectAndPointThroughTheirPixels) {
   const CameraView v = view();
-  const TriangleMesh cube = testing::make_cube();
+  const TriangleMesh cube = test_support::make_cube();
   ASSERT_TRUE(check_view(v, cube).in_front);
   ASSERT_TRUE(check_view(v, cube).in_frame);
   const RayGrid grid = rays_around(v, cube, 3);
@@ -52,8 +52,8 @@ TEST(CameraView, RaysCoverTheObjectAndPointThroughTheirPixels) {
 
 TEST(CameraView, KnowsBehindAndBeside) {
   const CameraView v = view();
-  EXPECT_FALSE(check_view(v, testing::make_box({-10, -230, 0}, {10, -210, 20})).in_front);
-  EXPECT_FALSE(check_view(v, testing::make_box({200, -10, 0}, {220, 10, 20})).in_frame);
+  EXPECT_FALSE(check_view(v, test_support::make_box({-10, -230, 0}, {10, -210, 20})).in_front);
+  EXPECT_FALSE(check_view(v, test_support::make_box({200, -10, 0}, {220, 10, 20})).in_frame);
 }
 
 }  // namespace

@@ -29,12 +29,12 @@ using Triple = std::array<double, 3>;
 
 constexpr const char* kNasty = "<script>--> \"POM\" \\ & 'ö'\n]]>";
 
-const MadeMaterials kTruth = {{"POM", {{1.4, 1.6, 1.75}, {0.002, 0.004, 0.008}}},
-                              {kNasty, {{0.5, 0.62, 0.7}, {0.003, 0.0002, 0.4}}}};
+const MadeMaterials kExported = {{"POM", {{1.4, 1.6, 1.75}, {0.002, 0.004, 0.008}}},
+                                 {kNasty, {{0.5, 0.62, 0.7}, {0.003, 0.0002, 0.4}}}};
 
 class Exported {
  public:
-  explicit Exported(const nlohmann::json& json = made_result(kTruth)) {
+  explicit Exported(const nlohmann::json& json = made_result(kExported)) {
     write_file(result(), json.dump());
   }
   std::string result() const { return folder_ / "result.json"; }
@@ -66,7 +66,7 @@ Triple triple(std::string text) {
 
 // The materials stand in the file in the order of the result.
 const MadeMaterial& truth_at(std::size_t i) {
-  return std::next(kTruth.begin(), static_cast<long>(i))->second;
+  return std::next(kExported.begin(), static_cast<long>(i))->second;
 }
 
 void expect_medium(std::size_t i, const Triple& sigma_s, const Triple& sigma_a, double mm_per_unit,
@@ -124,7 +124,7 @@ TEST(Export, MitsubaTellsTheMedium) {
         EXPECT_EQ(named(phase, "g").attribute("value").as_double(), u.g);
       }
     }
-    EXPECT_EQ(i, kTruth.size());
+    EXPECT_EQ(i, kExported.size());
     const pugi::xml_node surface = document.child("scene").child("bsdf");
     EXPECT_EQ(named(surface, "int_ior").attribute("value").as_double(), 1.4);
   }
@@ -195,8 +195,8 @@ TEST(Export, PbrtTellsTheMedium) {
       EXPECT_EQ(std::stod(s.parameters.at("float g").front()), u.g);
       expect_medium(seen[kind]++, sigma_s, sigma_a, u.mm_per_unit, u.g, 1e-14);
     }
-    EXPECT_EQ(seen["MakeNamedMedium\"homogeneous"], kTruth.size());
-    EXPECT_EQ(seen["MakeNamedMaterial\"subsurface"], kTruth.size());
+    EXPECT_EQ(seen["MakeNamedMedium\"homogeneous"], kExported.size());
+    EXPECT_EQ(seen["MakeNamedMaterial\"subsurface"], kExported.size());
   }
 }
 
@@ -229,7 +229,7 @@ TEST(Export, OpenPbrTellsTheMedium) {
       EXPECT_EQ(value("subsurface_weight").as_double(), 1.0);
       ++i;
     }
-    EXPECT_EQ(i, kTruth.size());
+    EXPECT_EQ(i, kExported.size());
     // The name as given, apart from what no XML attribute can hold.
     std::vector<std::string> names;
     for (const pugi::xml_node& m : root.children("surfacematerial")) {
@@ -255,7 +255,7 @@ TEST(Export, MaterialXTellsTheMediumPerMetre) {
       expect_medium(i++, triple(value("scattering")), triple(value("absorption")),
                     u.options.empty() ? 1000.0 : u.mm_per_unit, u.g, 1e-14);
     }
-    EXPECT_EQ(i, kTruth.size());
+    EXPECT_EQ(i, kExported.size());
     // Each connection leads somewhere.
     for (const auto& input : document.select_nodes("//input[@nodename]")) {
       const char* node = input.node().attribute("nodename").value();
@@ -318,9 +318,9 @@ TEST(Export, BlendersScriptMakesTheMedium) {
     ::close(descriptor);
     ASSERT_EQ(child.status, 0) << child.errors;
     const nlohmann::json made = nlohmann::json::parse(slurp(out));
-    ASSERT_EQ(made.size(), kTruth.size());
+    ASSERT_EQ(made.size(), kExported.size());
     for (std::size_t i = 0; i < made.size(); ++i) {
-      EXPECT_EQ(made[i]["name"], std::next(kTruth.begin(), static_cast<long>(i))->first);
+      EXPECT_EQ(made[i]["name"], std::next(kExported.begin(), static_cast<long>(i))->first);
       EXPECT_EQ(made[i]["method"], "RANDOM_WALK");
       EXPECT_EQ(made[i]["IOR"], 1.4);
       Triple sigma_s{}, sigma_a{};
@@ -341,7 +341,7 @@ TEST(Export, BlendersScriptMakesTheMedium) {
 }
 
 TEST(Export, CsvHoldsValuesAndUncertainties) {
-  const std::string text = Exported(made_result({{"P,O\"M", kTruth.at("POM")}})).text("csv");
+  const std::string text = Exported(made_result({{"P,O\"M", kExported.at("POM")}})).text("csv");
   EXPECT_THAT(text, HasSubstr("material,channel,verdict,model,eta,sigma_s_prime_per_mm,"
                               "sigma_s_prime_per_mm_std,sigma_s_prime_per_mm_low95,"
                               "sigma_s_prime_per_mm_high95,sigma_a_per_mm,"));
@@ -362,7 +362,7 @@ TEST(Export, EveryFileStatesUnitScaleAndUncertainty) {
 }
 
 TEST(Export, RefusedIsNotWritten) {
-  nlohmann::json json = made_result(kTruth);
+  nlohmann::json json = made_result(kExported);
   for (nlohmann::json& entry : json["results"]) {
     if (entry["material"] != "POM" || entry["channel"] != "B") continue;
     entry["verdict"] = "refused";
@@ -389,7 +389,7 @@ TEST(Export, RefusedIsNotWritten) {
 
 TEST(Export, NamesWhatIsWrongInAResult) {
   const auto error = [](const std::function<void(nlohmann::json&)>& spoil) {
-    nlohmann::json json = made_result(kTruth);
+    nlohmann::json json = made_result(kExported);
     spoil(json);
     const Answer answer = Exported(json).run_format("csv");
     EXPECT_EQ(answer.status, 2);

@@ -20,7 +20,7 @@ constexpr int kRays = 1 << 14;
 
 // Two spheres, so that the scene is not convex and every ray counts.
 TriangleMesh two_spheres() {
-  TriangleMesh mesh = testing::make_sphere(10.0, 5);
+  TriangleMesh mesh = test_support::make_sphere(10.0, 5);
   const auto first = static_cast<int>(mesh.vertices_mm.size());
   const TriangleMesh other = mesh;
   for (const Eigen::Vector3d& v : other.vertices_mm) {

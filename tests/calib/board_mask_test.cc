@@ -55,7 +55,7 @@ class BoardMask : public ::testing::Test {
 };
 
 TEST_F(BoardMask, PaperIsMaskedInkIsNot) {
-  const RayScene body(scattermeter::testing::make_box({24, 20, 0}, {36, 30, 12}));
+  const RayScene body(scattermeter::test_support::make_box({24, 20, 0}, {36, 30, 12}));
   mask_paper(board_, body, camera_, pose_, 2, samples_);
   const CharucoPattern pattern(board_);
   int paper = 0, ink = 0;
@@ -90,12 +90,13 @@ TEST_F(BoardMask, PaperIsMaskedInkIsNot) {
 
 TEST_F(BoardMask, FromBehindThereIsNone) {
   board_.world_from_board.rotation = Eigen::Quaterniond(0, 1, 0, 0);  // the print faces down
-  mask_paper(board_, RayScene(scattermeter::testing::make_box({24, 20, 0}, {36, 30, 12})), camera_,
-             pose_, 2, samples_);
+  mask_paper(board_, RayScene(scattermeter::test_support::make_box({24, 20, 0}, {36, 30, 12})),
+             camera_, pose_, 2, samples_);
   for (const std::uint8_t c : samples_.clipped) ASSERT_EQ(c, 0);
-  EXPECT_THROW(mask_paper(board_, RayScene(scattermeter::testing::make_box({0, 0, 0}, {1, 1, 1})),
-                          camera_, pose_, -1, samples_),
-               std::invalid_argument);
+  EXPECT_THROW(
+      mask_paper(board_, RayScene(scattermeter::test_support::make_box({0, 0, 0}, {1, 1, 1})),
+                 camera_, pose_, -1, samples_),
+      std::invalid_argument);
 }
 
 }  // namespace

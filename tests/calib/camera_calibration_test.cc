@@ -119,7 +119,7 @@ TEST(CameraCalibration, ShiftPerParameterIsTheDerivative) {
   };
   Eigen::VectorXd p(5);
   p << 700, 325, 236, -0.2, 0.1;
-  testing::expect_derivatives(image, p, image_shift_per_parameter(k, names, pixel));
+  test_support::expect_derivatives(image, p, image_shift_per_parameter(k, names, pixel));
 }
 
 TEST(CameraCalibration, PreconditionsAreNamed) {

@@ -29,7 +29,7 @@ TEST(Distortion, JacobianMatchesCentralDifferences) {
     const Eigen::Vector2d x(0.31, -0.22);
     Eigen::Matrix2d jacobian;
     distortion.apply(x, &jacobian);
-    testing::expect_derivatives(
+    test_support::expect_derivatives(
         [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return distortion.apply(v.head<2>()); },
         x, jacobian, 1e-8);
   }

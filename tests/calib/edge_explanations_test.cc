@@ -16,7 +16,8 @@ namespace {
 class EdgeExplanations : public ::testing::Test {
  protected:
   EdgeExplanations()
-      : cube_(testing::make_cube()), pedestal_(testing::make_box({-14, -9, 0}, {12, 9, 7})) {
+      : cube_(test_support::make_cube()),
+        pedestal_(test_support::make_box({-14, -9, 0}, {12, 9, 7})) {
     pose_.camera_from_world = cube_view();
     pose_.covariance.setZero();
     pose_.covariance.diagonal().head<3>().setConstant(std::pow(4e-4, 2));

@@ -20,7 +20,7 @@ EdgeFitOptions pose_only(const std::vector<EdgePoint>& points) {
 
 // Lines whose ends are off and pieces with noise: the answer scatters as it says, without bias.
 TEST(EdgeFit, PredictedIsSampled) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   const CameraIntrinsics lens = small_lens();
   const Rigid3d pose = cube_view();
   constexpr int kSeeds = 400;
@@ -53,7 +53,7 @@ TEST(EdgeFit, PredictedIsSampled) {
 // Each parameter is found again, with the sign that the header gives it.
 TEST(EdgeFit, FindsWhatChanged) {
   using namespace edge_parameter;
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   std::mt19937_64 random(1);
   const Rigid3d pose = cube_view();
   const auto found = [&](const std::vector<int>& free, const CameraIntrinsics& lens,
@@ -80,7 +80,7 @@ TEST(EdgeFit, FindsWhatChanged) {
 
 // A prior whose pivots come in an order that is not its own inverse, and lines that say nothing.
 TEST(EdgeFit, KeepsThePriorsCovariance) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   std::mt19937_64 random(3);
   const auto points = outline(scene, small_lens(), cube_view(), 0, 0, 0.05, 1, &random);
   EdgeFitOptions options = pose_only(points);

@@ -12,7 +12,7 @@ namespace {
 
 // Of a picture by the same pose they are where they are predicted.
 TEST(EdgePoints, LieWhereTheMeshSays) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   std::mt19937_64 random(1);
   const Rigid3d pose = cube_view();
   const std::vector<EdgeShot> shots = {

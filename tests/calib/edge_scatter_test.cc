@@ -10,7 +10,7 @@ namespace scattermeter::calib {
 namespace {
 
 TEST(EdgeScatter, IsFoundAgain) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   std::mt19937_64 random(3);
   double line = 0, piece = 0;
   constexpr int kSeeds = 100;

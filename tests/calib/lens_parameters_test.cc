@@ -19,7 +19,7 @@ TEST(LensParameters, ShiftIsTheDerivativeOfTheLens) {
     const auto pixel = [&](const Eigen::VectorXd& p) -> Eigen::VectorXd {
       return Lens(intrinsics_of(p, 640, 480)).project({ray.x(), ray.y(), 1});
     };
-    testing::expect_derivatives(pixel, lens, shift_per_lens_parameter(lens, ray));
+    test_support::expect_derivatives(pixel, lens, shift_per_lens_parameter(lens, ray));
   }
 }
 

@@ -68,7 +68,7 @@ TEST(LensReaction, PoseOfPointsByDifferences) {
 // A pose that is far better known than the silhouette reacts as if alone; one far worse leaves it
 // to the silhouette, which a focal length df longer puts df / f of the distance farther away.
 TEST(LensReaction, SilhouetteAndPointsByTheirWeight) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   std::mt19937_64 random(2);
   const EdgeShot shot{&scene, 0, picture(scene, small_lens(), cube_view(), 1000, &random)};
   const Silhouette s = find_silhouette({shot}, small_lens(), cube_view());

@@ -16,7 +16,7 @@ TEST(Lens, JacobianMatchesCentralDifferences) {
     const Eigen::Vector3d x(-31, 22, 140);
     Eigen::Matrix<double, 2, 3> jacobian;
     lens.project(x, &jacobian);
-    testing::expect_derivatives(
+    test_support::expect_derivatives(
         [&](const Eigen::VectorXd& v) -> Eigen::VectorXd { return lens.project(v.head<3>()); }, x,
         jacobian, 1e-8);
   }

@@ -10,16 +10,16 @@
 namespace scattermeter::calib {
 namespace {
 
-const LensModel kModel{true, DistortionTerms::kK1K2};
+const LensModel kRefined{true, DistortionTerms::kK1K2};
 
 LensUncertainty uncertainty_of(const std::vector<BoardView>& views, const CameraBundle& start,
                                double board_std_mm = 0, CameraBundle* fitted = nullptr) {
-  const CameraBundle fit = adjust_bundle(views, kModel, 640, 480, start);
+  const CameraBundle fit = adjust_bundle(views, kRefined, 640, 480, start);
   if (fitted != nullptr) *fitted = fit;
   std::vector<ViewEquations> equations;
   for (std::size_t i = 0; i < views.size(); ++i) {
     equations.push_back(view_equations(views[i], fit.camera_from_board[i],
-                                       intrinsics_of(fit.lens, 640, 480), kModel));
+                                       intrinsics_of(fit.lens, 640, 480), kRefined));
   }
   return lens_uncertainty(views, equations, board_std_mm);
 }
@@ -98,7 +98,7 @@ TEST(LensUncertainty, PrintErrorsAreStated) {
         c.world_mm += errors[i];
       }
     }
-    const CameraBundle fit = adjust_bundle(views, kModel, 640, 480, start);
+    const CameraBundle fit = adjust_bundle(views, kRefined, 640, 480, start);
     sampled += (fit.lens[0] - 700) * (fit.lens[0] - 700) / kSeeds;
   }
   EXPECT_NEAR(std::sqrt(stated.covariance(0, 0) / sampled), 1, 0.2);

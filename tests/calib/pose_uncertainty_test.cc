@@ -12,7 +12,7 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr int kSeeds = 400;
+constexpr int kPoseSeeds = 400;
 
 struct Scene {
   std::string name;
@@ -49,7 +49,7 @@ TEST_P(PoseUncertainty, PredictedIsSampled) {
   double mahalanobis = 0;
   double residual_squares = 0;
   const double freedom = 2.0 * static_cast<double>(scene.points.size()) - 6;
-  for (int seed = 0; seed < kSeeds; ++seed) {
+  for (int seed = 0; seed < kPoseSeeds; ++seed) {
     std::mt19937_64 random(static_cast<std::uint64_t>(seed) + 1);
     const PoseResult result = estimate_pose(
         scene.camera, shot(scene.camera, scene.pose, scene.points, scene.noise_px, &random),
@@ -69,23 +69,23 @@ TEST_P(PoseUncertainty, PredictedIsSampled) {
   // w, dt, camera centre: the sampled standard deviation of 400 has one of 3.5 % itself, so 20 %
   // is passed by chance once in 10^7.
   for (int i = 0; i < 9; ++i) {
-    const double mean = sum[i] / kSeeds;
-    const double sampled = std::sqrt((squares[i] - kSeeds * mean * mean) / (kSeeds - 1));
-    const double predicted = std::sqrt(variance[i] / kSeeds);
+    const double mean = sum[i] / kPoseSeeds;
+    const double sampled = std::sqrt((squares[i] - kPoseSeeds * mean * mean) / (kPoseSeeds - 1));
+    const double predicted = std::sqrt(variance[i] / kPoseSeeds);
     EXPECT_NEAR(predicted / sampled, 1, 0.2) << "component " << i;
     // Unbiased: |z| < 4.5 for 36 means in all, level 3e-4 together.
-    EXPECT_LT(std::abs(mean), 4.5 * sampled / std::sqrt(kSeeds)) << "component " << i;
+    EXPECT_LT(std::abs(mean), 4.5 * sampled / std::sqrt(kPoseSeeds)) << "component " << i;
   }
   // The noise is found again: within 10 % (the estimate's own standard deviation is below 1 %).
-  EXPECT_NEAR(std::sqrt(residual_squares / (kSeeds * freedom)), scene.noise_px,
+  EXPECT_NEAR(std::sqrt(residual_squares / (kPoseSeeds * freedom)), scene.noise_px,
               0.1 * scene.noise_px);
   // Error^T C^-1 Error / 6 follows F(6, freedom), as the noise is estimated too: mean
   // m / (m - 2), variance 2 m^2 (m + 4) / (6 (m - 2)^2 (m - 4)). The mean of 400 within 4.5
   // standard deviations, level 7e-6 each.
   const double m = freedom;
   const double expected = 6 * m / (m - 2);
-  const double spread = 6 * m / (m - 2) * std::sqrt(2 * (m + 4) / (6 * (m - 4)) / kSeeds);
-  EXPECT_NEAR(mahalanobis / kSeeds, expected, 4.5 * spread);
+  const double spread = 6 * m / (m - 2) * std::sqrt(2 * (m + 4) / (6 * (m - 4)) / kPoseSeeds);
+  EXPECT_NEAR(mahalanobis / kPoseSeeds, expected, 4.5 * spread);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PoseUncertainty, ::testing::Range(0, 4));

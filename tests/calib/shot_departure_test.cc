@@ -14,11 +14,11 @@ constexpr Eigen::Index kRows = 150;  // of a shot
 constexpr int kShots = 4;
 
 // Images l = a falling exponential whose length and level are the medium's, plus a nuisance.
-struct Scene {
+struct DepartureScene {
   DenseSystem system;
   LinearModel model;
 
-  Scene() {
+  DepartureScene() {
     const Eigen::Index n = kRows * kShots;
     system.weights.resize(n, 0);
     system.l.resize(n);
@@ -49,7 +49,7 @@ struct Scene {
 };
 
 TEST(ShotDepartures, FindsPowerEvenLightAndNuisance) {
-  Scene s;
+  DepartureScene s;
   s.system.l.segment(kRows, kRows) *= 1.08;
   s.system.l.segment(3 * kRows, kRows).array() += 0.05;
   s.system.l += 0.02 * s.system.nuisance_columns.col(0);
@@ -75,7 +75,7 @@ TEST(ShotDepartures, DeviationsAreThoseOfTheNoise) {
   double even_std = 0.0;
   constexpr int kSeeds = 200;
   for (int seed = 0; seed < kSeeds; ++seed) {
-    Scene s;
+    DepartureScene s;
     s.add_noise(static_cast<std::uint64_t>(seed) + 1);
     const ShotDepartures d = shot_departures(s.system, s.model);
     sum += d.power_relative[2].value;
@@ -93,7 +93,7 @@ TEST(ShotDepartures, DeviationsAreThoseOfTheNoise) {
 
 // What all shots do alike is the scale's, also where that is free.
 TEST(ShotDepartures, AFreeScaleTakesWhatIsCommon) {
-  Scene s;
+  DepartureScene s;
   s.model.scale_relative_std = std::numeric_limits<double>::infinity();
   s.system.l *= 1.3;
   const ShotDepartures d = shot_departures(s.system, s.model);
@@ -101,7 +101,7 @@ TEST(ShotDepartures, AFreeScaleTakesWhatIsCommon) {
 }
 
 TEST(ShotDepartures, OfOneShotThePowerIsUnknown) {
-  Scene s;
+  DepartureScene s;
   const DenseSystem one = shot_of(s.system, 0);
   LinearModel model = s.model;
   model.predicted = s.model.predicted.head(kRows);

@@ -13,7 +13,7 @@ namespace {
 
 class SilhouetteTest : public ::testing::Test {
  protected:
-  SilhouetteTest() : scene_(testing::make_cube()) {}
+  SilhouetteTest() : scene_(test_support::make_cube()) {}
 
   std::vector<EdgeShot> shot(const Rigid3d& pose, double counts, std::uint64_t seed) const {
     std::mt19937_64 random(seed);

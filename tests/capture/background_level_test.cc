@@ -9,7 +9,7 @@ namespace scattermeter::capture {
 namespace {
 
 // Noise about black + level, the same everywhere but for a bright object.
-RawFrame frame_of(double level_counts, std::uint64_t seed) {
+RawFrame level_frame(double level_counts, std::uint64_t seed) {
   RawFrame f;
   f.width_px = 320;
   f.height_px = 240;
@@ -28,7 +28,7 @@ RawFrame frame_of(double level_counts, std::uint64_t seed) {
 }
 
 TEST(BackgroundLevel, SeesBlackBesideTheObject) {
-  const BackgroundLevel b = background_level(frame_of(0.0, 1), 100, 80, 100, 80);
+  const BackgroundLevel b = background_level(level_frame(0.0, 1), 100, 80, 100, 80);
   // 20 x 15 blocks of 16; columns 6 to 12 and rows 5 to 9 touch the object.
   EXPECT_EQ(b.block_px, 16);
   EXPECT_EQ(b.blocks, 20U * 15U - 7U * 5U);
@@ -41,13 +41,13 @@ TEST(BackgroundLevel, SeesBlackBesideTheObject) {
 }
 
 TEST(BackgroundLevel, SeesVeilingLight) {
-  const BackgroundLevel b = background_level(frame_of(3.0, 2), 100, 80, 100, 80);
+  const BackgroundLevel b = background_level(level_frame(3.0, 2), 100, 80, 100, 80);
   for (std::size_t c = 0; c < kChannels; ++c) EXPECT_NEAR(b.darkest_counts[c], 2.8, 0.15);
 }
 
 TEST(BackgroundLevel, NothingBesideTheObject) {
-  EXPECT_EQ(background_level(frame_of(0.0, 3), 0, 0, 320, 240).blocks, 0U);
-  RawFrame empty = frame_of(0.0, 4);
+  EXPECT_EQ(background_level(level_frame(0.0, 3), 0, 0, 320, 240).blocks, 0U);
+  RawFrame empty = level_frame(0.0, 4);
   empty.samples.pop_back();
   EXPECT_THROW(background_level(empty, 0, 0, 1, 1), std::invalid_argument);
 }

@@ -10,7 +10,7 @@
 namespace scattermeter::capture {
 namespace {
 
-constexpr int kWidth = 60, kHeight = 40;
+constexpr int kSamplesWidth = 60, kSamplesHeight = 40;
 
 // A frame of a sensor with every fault that the correction knows, without noise: light of `counts`
 // in the upper half, none below.
@@ -19,8 +19,8 @@ struct FaultyCamera {
   RawFrame frame;
 
   explicit FaultyCamera(double counts) {
-    correction.width_px = frame.width_px = kWidth;
-    correction.height_px = frame.height_px = kHeight;
+    correction.width_px = frame.width_px = kSamplesWidth;
+    correction.height_px = frame.height_px = kSamplesHeight;
     correction.iso = frame.iso = 100;
     correction.f_number = frame.f_number = 8;
     frame.exposure_s = 0.5;
@@ -31,28 +31,29 @@ struct FaultyCamera {
     correction.noise.fill({6.0, 1.2});
     correction.black_std_counts = 0.25;
     correction.response.fill(ResponseCurve({2000, 4000}, {0.004, 0.012}));
-    correction.vignetting = vignetting_of_frame(kWidth, kHeight);
+    correction.vignetting = vignetting_of_frame(kSamplesWidth, kSamplesHeight);
     correction.vignetting.radial = {std::vector<double>{-0.2}, {-0.3}, {-0.4}};
     const double glare = 0.05;
     correction.glare_share.fill(glare / (1 + glare));
     correction.shutter = {{0.5, 1.04, 0.002}};
-    correction.defect_pixels = {7, 7 + kWidth};
+    correction.defect_pixels = {7, 7 + kSamplesWidth};
     // Light -> vignetting -> glare -> departure -> black.
-    std::vector<double> light(kWidth * kHeight);
+    std::vector<double> light(kSamplesWidth * kSamplesHeight);
     std::array<double, 3> sum{}, n{};
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kSamplesHeight; ++y) {
+      for (int x = 0; x < kSamplesWidth; ++x) {
         const auto c = static_cast<std::size_t>(frame.cfa.at(x, y));
-        const double l = y < kHeight / 2 ? counts * correction.vignetting.share(x, y, c) : 0.0;
-        light[static_cast<std::size_t>(y * kWidth + x)] = l;
+        const double l =
+            y < kSamplesHeight / 2 ? counts * correction.vignetting.share(x, y, c) : 0.0;
+        light[static_cast<std::size_t>(y * kSamplesWidth + x)] = l;
         sum[c] += l;
         n[c] += 1.0;
       }
     }
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kSamplesHeight; ++y) {
+      for (int x = 0; x < kSamplesWidth; ++x) {
         const auto c = static_cast<std::size_t>(frame.cfa.at(x, y));
-        const auto i = static_cast<std::size_t>(y * kWidth + x);
+        const auto i = static_cast<std::size_t>(y * kSamplesWidth + x);
         const double l = light[i] + glare * sum[c] / n[c];
         double recorded = l;
         for (int k = 0; k < 60; ++k) {
@@ -70,34 +71,34 @@ struct FaultyCamera {
 TEST(CorrectedSamples, UndoesEveryFaultInItsOrder) {
   const FaultyCamera camera(3000);
   const CorrectedSamples out =
-      corrected_samples(camera.frame, camera.correction, 0, 0, kWidth, kHeight);
+      corrected_samples(camera.frame, camera.correction, 0, 0, kSamplesWidth, kSamplesHeight);
   EXPECT_NEAR(out.samples.exposure_s, 0.52, 1e-12);
   EXPECT_EQ(out.exposure_relative_std, 0.002);
   EXPECT_EQ(out.black_std_counts, 0.25);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const auto i = static_cast<std::size_t>(y * kWidth + x);
+  for (int y = 0; y < kSamplesHeight; ++y) {
+    for (int x = 0; x < kSamplesWidth; ++x) {
+      const auto i = static_cast<std::size_t>(y * kSamplesWidth + x);
       if (out.samples.clipped[i] == kSampleDefect) continue;
       ASSERT_EQ(out.samples.clipped[i], 0);
       // Rounding to a count, over a share of at least 0.6.
-      ASSERT_NEAR(out.samples.signal_counts[i], y < kHeight / 2 ? 3000.0 : 0.0, 1.0)
+      ASSERT_NEAR(out.samples.signal_counts[i], y < kSamplesHeight / 2 ? 3000.0 : 0.0, 1.0)
           << x << ", " << y;
     }
   }
   EXPECT_EQ(out.samples.clipped[7], kSampleDefect);
-  EXPECT_EQ(out.samples.clipped[7 + kWidth], kSampleDefect);
+  EXPECT_EQ(out.samples.clipped[7 + kSamplesWidth], kSampleDefect);
 }
 
 TEST(CorrectedSamples, ARectangleIsAPartOfTheFrame) {
   const FaultyCamera camera(2000);
   const CorrectedSamples whole =
-      corrected_samples(camera.frame, camera.correction, 0, 0, kWidth, kHeight);
+      corrected_samples(camera.frame, camera.correction, 0, 0, kSamplesWidth, kSamplesHeight);
   const CorrectedSamples part = corrected_samples(camera.frame, camera.correction, 5, 3, 20, 10);
   EXPECT_EQ(part.frame_mean_counts, whole.frame_mean_counts);
   for (int y = 0; y < 10; ++y) {
     for (int x = 0; x < 20; ++x) {
       const auto i = static_cast<std::size_t>(y * 20 + x);
-      const auto k = static_cast<std::size_t>((y + 3) * kWidth + x + 5);
+      const auto k = static_cast<std::size_t>((y + 3) * kSamplesWidth + x + 5);
       EXPECT_EQ(part.samples.signal_counts[i], whole.samples.signal_counts[k]);
       EXPECT_EQ(part.samples.clipped[i], whole.samples.clipped[k]);
     }
@@ -108,11 +109,11 @@ TEST(CorrectedSamples, ARectangleIsAPartOfTheFrame) {
 TEST(CorrectedSamples, OfAFaultlessCameraAreTheLinearOnes) {
   const FaultyCamera camera(2000);
   RadianceCorrection none;
-  none.width_px = kWidth;
-  none.height_px = kHeight;
+  none.width_px = kSamplesWidth;
+  none.height_px = kSamplesHeight;
   none.black_counts = {50, 50, 50, 50};
   none.noise.fill({6.0, 1.2});
-  none.vignetting = vignetting_of_frame(kWidth, kHeight);
+  none.vignetting = vignetting_of_frame(kSamplesWidth, kSamplesHeight);
   const CfaSamples plain = linear_samples(camera.frame, {6.0, 1.2}, 0.5, 2, 2, 20, 10);
   const CfaSamples same = corrected_samples(camera.frame, none, 2, 2, 20, 10).samples;
   EXPECT_EQ(same.signal_counts, plain.signal_counts);

@@ -22,7 +22,7 @@ ProbeImage ramp(int width, int height) {
   return image;
 }
 
-std::string refusal(const std::string& bytes, const ProbeLimits& limits = {}) {
+std::string exr_refusal(const std::string& bytes, const ProbeLimits& limits = {}) {
   try {
     decode_exr("p.exr", bytes, limits);
   } catch (const InputError& e) {
@@ -61,21 +61,22 @@ TEST(ExrFile, WritesWhatItReads) {
 TEST(ExrFile, RefusesTruncationAnywhere) {
   const std::string bytes = exr_bytes(ramp(23, 40), ExrType::kHalf);
   for (std::size_t n = 4; n < bytes.size(); n += 7) {
-    const std::string said = refusal(bytes.substr(0, n));
+    const std::string said = exr_refusal(bytes.substr(0, n));
     EXPECT_THAT(said, AllOf(HasSubstr("p.exr: "), HasSubstr("cut short"))) << n;
     EXPECT_EQ(said.find('\n'), std::string::npos);
   }
 }
 
 TEST(ExrFile, RefusesOtherChannels) {
-  EXPECT_THAT(refusal(exr_bytes(ramp(4, 4), ExrType::kHalf, "RG")), HasSubstr("no channel B"));
-  EXPECT_THAT(refusal(exr_bytes(ramp(4, 4), ExrType::kHalf, "Y")), HasSubstr("no channel R"));
-  EXPECT_THAT(refusal(exr_bytes(ramp(4, 4), ExrType::kUint)), HasSubstr("channel R must be half"));
-  EXPECT_EQ(refusal(exr_bytes(ramp(4, 4), ExrType::kHalf, "RGBA")), "");
+  EXPECT_THAT(exr_refusal(exr_bytes(ramp(4, 4), ExrType::kHalf, "RG")), HasSubstr("no channel B"));
+  EXPECT_THAT(exr_refusal(exr_bytes(ramp(4, 4), ExrType::kHalf, "Y")), HasSubstr("no channel R"));
+  EXPECT_THAT(exr_refusal(exr_bytes(ramp(4, 4), ExrType::kUint)),
+              HasSubstr("channel R must be half"));
+  EXPECT_EQ(exr_refusal(exr_bytes(ramp(4, 4), ExrType::kHalf, "RGBA")), "");
 }
 
 TEST(ExrFile, RefusesTooManyPixels) {
-  EXPECT_THAT(refusal(exr_bytes(ramp(20, 10), ExrType::kHalf), {199}),
+  EXPECT_THAT(exr_refusal(exr_bytes(ramp(20, 10), ExrType::kHalf), {199}),
               AllOf(HasSubstr("20 x 10"), HasSubstr("at most 199")));
 }
 

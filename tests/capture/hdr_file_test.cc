@@ -25,7 +25,7 @@ ProbeImage random_probe(int width, int height) {
   return image;
 }
 
-std::string refusal(const std::string& bytes, const ProbeLimits& limits = {}) {
+std::string hdr_refusal(const std::string& bytes, const ProbeLimits& limits = {}) {
   try {
     decode_hdr("p.hdr", bytes, limits);
   } catch (const InputError& e) {
@@ -57,9 +57,9 @@ TEST(HdrFile, RefusesEveryTruncation) {
   for (const bool run_length : {true, false}) {
     const std::string bytes = hdr_bytes(random_probe(21, 5), run_length);
     for (std::size_t n = 11; n < bytes.size(); ++n) {
-      EXPECT_THAT(refusal(bytes.substr(0, n)), AllOf(HasSubstr("p.hdr: "))) << n;
+      EXPECT_THAT(hdr_refusal(bytes.substr(0, n)), AllOf(HasSubstr("p.hdr: "))) << n;
     }
-    EXPECT_EQ(refusal(bytes), "");
+    EXPECT_EQ(hdr_refusal(bytes), "");
   }
 }
 
@@ -71,14 +71,14 @@ TEST(HdrFile, ValuesAreTheFormats) {
   const float largest = 1.7014118e38F;  // 2^127
   EXPECT_EQ(read.radiance, (std::vector<float>{1.0F, 0.5F, 1 / 128.0F, 0, 0, 0,
                                                255.0F / 256 * largest, 0, 0.5F * largest}));
-  EXPECT_THAT(refusal("#?RADIANCE\n\n-Y 1 +X 3\n" + pixels), HasSubstr("names no FORMAT"));
+  EXPECT_THAT(hdr_refusal("#?RADIANCE\n\n-Y 1 +X 3\n" + pixels), HasSubstr("names no FORMAT"));
 }
 
 TEST(HdrFile, RefusesDamagedRuns) {
   std::string bytes = hdr_bytes(random_probe(21, 5));
   const std::size_t first_row = bytes.find("+X 21\n") + 6;
   bytes[first_row + 4] = static_cast<char>(128 + 100);  // a run past the end of the row
-  EXPECT_THAT(refusal(bytes), HasSubstr("cut short or damaged"));
+  EXPECT_THAT(hdr_refusal(bytes), HasSubstr("cut short or damaged"));
 }
 
 TEST(HdrFile, RefusesWhatItCannotRead) {
@@ -87,11 +87,11 @@ TEST(HdrFile, RefusesWhatItCannotRead) {
     std::string changed = bytes;
     return changed.replace(changed.find(from), from.size(), to);
   };
-  EXPECT_THAT(refusal(with("rle_rgbe", "rle_xyze")), HasSubstr("32-bit_rle_xyze is not read"));
-  EXPECT_THAT(refusal(with("-Y 5 +X", "+Y 5 +X")), HasSubstr("\"+Y 5 +X 21\""));
-  EXPECT_THAT(refusal(with("-Y 5 +X", "-Y 0 +X")), HasSubstr("\"-Y 0 +X 21\""));
-  EXPECT_THAT(refusal(with("-Y 5 +X 21", "-Y 90000 +X 90000")), HasSubstr("90000 x 90000"));
-  EXPECT_THAT(refusal(bytes, {100}), AllOf(HasSubstr("21 x 5"), HasSubstr("at most 100")));
+  EXPECT_THAT(hdr_refusal(with("rle_rgbe", "rle_xyze")), HasSubstr("32-bit_rle_xyze is not read"));
+  EXPECT_THAT(hdr_refusal(with("-Y 5 +X", "+Y 5 +X")), HasSubstr("\"+Y 5 +X 21\""));
+  EXPECT_THAT(hdr_refusal(with("-Y 5 +X", "-Y 0 +X")), HasSubstr("\"-Y 0 +X 21\""));
+  EXPECT_THAT(hdr_refusal(with("-Y 5 +X 21", "-Y 90000 +X 90000")), HasSubstr("90000 x 90000"));
+  EXPECT_THAT(hdr_refusal(bytes, {100}), AllOf(HasSubstr("21 x 5"), HasSubstr("at most 100")));
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ ProbeTree tree_of(const ProbeImage& image) {
 
 // A notch in a block: some facets are shaded.
 std::array<IncidentLight, 3> light_of(const ProbeImage& image) {
-  TriangleMesh mesh = testing::make_box({-5, -5, -1}, {5, 5, 0});
-  const TriangleMesh tower = testing::make_box({-1, -1, 1}, {1, 1, 6});
+  TriangleMesh mesh = test_support::make_box({-5, -5, -1}, {5, 5, 0});
+  const TriangleMesh tower = test_support::make_box({-1, -1, 1}, {1, 1, 6});
   for (auto t : tower.triangles) {
     for (int& i : t) i += static_cast<int>(mesh.vertices_mm.size());
     mesh.triangles.push_back(t);

@@ -16,8 +16,8 @@ namespace {
 using testing::Each;
 using testing::ElementsAre;
 
-constexpr int kWidth = 400;
-constexpr int kHeight = 300;
+constexpr int kFrameWidth = 400;
+constexpr int kFrameHeight = 300;
 
 using Scene = float (*)(int x, int y);
 
@@ -31,20 +31,20 @@ struct Shot {
 
 RawFrame frame_of(const Shot& shot) {
   std::vector<float> signal;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) signal.push_back(shot.scene(x, y));
+  for (int y = 0; y < kFrameHeight; ++y) {
+    for (int x = 0; x < kFrameWidth; ++x) signal.push_back(shot.scene(x, y));
   }
   RawFrame frame;
-  frame.width_px = kWidth;
-  frame.height_px = kHeight;
+  frame.width_px = kFrameWidth;
+  frame.height_px = kFrameHeight;
   frame.black_counts = {64, 64, 64, 64};
   frame.white_counts = 4095;
   frame.curve_levels = shot.sensor.tone_curve;
-  frame.samples = expose(signal, kWidth, kHeight, shot.sensor, shot.seed);
+  frame.samples = expose(signal, kFrameWidth, kFrameHeight, shot.sensor, shot.seed);
   for (std::size_t i = 0; i < frame.samples.size(); ++i) {
     std::uint16_t& sample = frame.samples[i];
     if (!frame.curve_levels.empty()) sample = frame.curve_levels[sample];
-    const int phase = static_cast<int>(2 * (i / kWidth % 2) + i % kWidth % 2);
+    const int phase = static_cast<int>(2 * (i / kFrameWidth % 2) + i % kFrameWidth % 2);
     if (shot.ceiling_phase >= 0 && shot.ceiling_phase != phase) continue;
     sample = static_cast<std::uint16_t>(std::min<int>(sample, shot.ceiling_counts));
   }
@@ -58,7 +58,7 @@ SensorModel without_noise() {
 }
 
 float flat(int /*x*/, int /*y*/) { return 3000.0F; }
-float ramp(int x, int /*y*/) { return 9.0F * static_cast<float>(x); }
+float wedge(int x, int /*y*/) { return 9.0F * static_cast<float>(x); }
 float dome(int x, int y) {
   const double r2 = std::pow(x - 200, 2) + std::pow(y - 150, 2);
   return static_cast<float>(3500 * std::exp(-r2 / 8000));
@@ -77,7 +77,7 @@ float facets(int x, int y) {
 // A uniform face above a slope of half a count per sample of a phase: every second difference is 1.
 float slope(int x, int y) { return y < 100 ? 3200.0F : 3000.0F + 0.25F * static_cast<float>(x); }
 
-constexpr Scene kScenes[] = {flat, ramp, dome, chart, face, facets, slope};
+constexpr Scene kScenes[] = {flat, wedge, dome, chart, face, facets, slope};
 
 TEST(ClipLevels, WhiteLevelOfTheFile) {
   RawFrame frame;
@@ -95,7 +95,7 @@ TEST(ClipLevels, TopOfTheCurveBelowTheWhiteLevel) {
 }
 
 TEST(ClipLevels, PileBelowTheWhiteLevel) {
-  Shot shot{ramp};
+  Shot shot{wedge};
   shot.ceiling_counts = 3100;
   EXPECT_THAT(clip_levels(frame_of(shot)), Each(3100));
   shot.scene = dome;
@@ -105,14 +105,14 @@ TEST(ClipLevels, PileBelowTheWhiteLevel) {
 }
 
 TEST(ClipLevels, PileOfOnePhaseOnly) {
-  Shot shot{ramp};
+  Shot shot{wedge};
   shot.ceiling_counts = 3100;
   shot.ceiling_phase = 2;
   EXPECT_THAT(clip_levels(frame_of(shot)), ElementsAre(4095, 4095, 3100, 4095));
 }
 
 TEST(ClipLevels, PileUnderALossyCurve) {
-  Shot shot{ramp};
+  Shot shot{wedge};
   shot.sensor.tone_curve = nef_lossy_curve();
   const auto level = shot.sensor.tone_curve[620];
   shot.ceiling_counts = level;
@@ -120,7 +120,7 @@ TEST(ClipLevels, PileUnderALossyCurve) {
 }
 
 TEST(ClipLevels, PileOfATwelveBitBodyInAFourteenBitFile) {
-  Shot shot{ramp};
+  Shot shot{wedge};
   shot.ceiling_counts = 3100;
   RawFrame frame = frame_of(shot);
   for (std::uint16_t& sample : frame.samples) sample = static_cast<std::uint16_t>(4 * sample);
@@ -167,7 +167,7 @@ TEST(ClipLevels, FrameComputedWithoutNoiseIsNoPile) {
 }
 
 TEST(ClipLevels, PileBelowHalfOfWhiteIsAScene) {
-  Shot shot{ramp};
+  Shot shot{wedge};
   shot.ceiling_counts = 2047;
   EXPECT_THAT(clip_levels(frame_of(shot)), Each(4095));
   shot.ceiling_counts = 2048;
@@ -175,7 +175,7 @@ TEST(ClipLevels, PileBelowHalfOfWhiteIsAScene) {
 }
 
 TEST(ClipLevels, FewerThan32SamplesAreNoPile) {
-  RawFrame frame = frame_of({ramp, {}, 3000});
+  RawFrame frame = frame_of({wedge, {}, 3000});
   // Only `pile` samples of phase 0 stay at 3500, all others lie below 3000.
   const auto with_pile = [&](std::size_t pile) {
     RawFrame changed = frame;

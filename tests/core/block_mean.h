@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 struct BlockMean {
   double sum = 0, squares = 0;
@@ -23,4 +23,4 @@ struct BlockMean {
 // passes once passes always.
 constexpr double kSigmas = 4.0;
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

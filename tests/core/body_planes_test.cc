@@ -10,7 +10,7 @@ namespace {
 
 TEST(BodyPlanes, ABoxHasSixHoweverManyItsTriangles) {
   for (int levels : {0, 3}) {
-    const TriangleMesh box = cut_finer(testing::make_cube(), levels);
+    const TriangleMesh box = cut_finer(test_support::make_cube(), levels);
     const BodyPlanes body = body_planes(box, 32);
     ASSERT_EQ(body.planes.size(), 6U);
     EXPECT_TRUE(body.convex);
@@ -23,9 +23,9 @@ TEST(BodyPlanes, ABoxHasSixHoweverManyItsTriangles) {
 }
 
 TEST(BodyPlanes, KnowsConvexFromConcave) {
-  EXPECT_TRUE(body_planes(testing::make_pyramid(8, 13), 32).convex);
+  EXPECT_TRUE(body_planes(test_support::make_pyramid(8, 13), 32).convex);
   // A box whose top is pushed in to a point: four planes slope inwards.
-  TriangleMesh bowl = testing::make_cube();
+  TriangleMesh bowl = test_support::make_cube();
   bowl.vertices_mm.emplace_back(0, 0, 12);
   const int tip = 8;
   bowl.triangles.erase(bowl.triangles.begin() + 2, bowl.triangles.begin() + 4);
@@ -39,7 +39,7 @@ TEST(BodyPlanes, KnowsConvexFromConcave) {
 }
 
 TEST(BodyPlanes, GivesUpOnMany) {
-  const BodyPlanes body = body_planes(testing::make_sphere(10, 2), 32);
+  const BodyPlanes body = body_planes(test_support::make_sphere(10, 2), 32);
   EXPECT_TRUE(body.planes.empty());
   EXPECT_TRUE(body.plane_of_facet.empty());
   EXPECT_FALSE(body.convex);

@@ -5,7 +5,7 @@
 
 #include "core/triangle_mesh.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 // Axis-aligned box, 12 triangles, outward normals.
 inline TriangleMesh make_box(const Eigen::Vector3d& min_mm, const Eigen::Vector3d& max_mm) {
@@ -35,4 +35,4 @@ inline TriangleMesh make_pyramid(double half_mm, double height_mm) {
   return mesh;
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

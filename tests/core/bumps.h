@@ -6,7 +6,7 @@
 
 #include "tests/core/spheres.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 // A sphere with waves of a depth on it: radius (1 + depth sin 5x sin 5y sin 5z) for a point
 // (x, y, z) of the unit sphere.
@@ -19,4 +19,4 @@ inline TriangleMesh make_bumps(double radius_mm, double depth, int levels) {
   return mesh;
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

@@ -66,7 +66,7 @@ void expect_single_scattering(const PathBoundary& boundary) {
   const auto source = beam_entry({{-10, -10, 0}, {20, 0, 0}, {0, 20, 0}, {0, 0, -1}});
   for (const Eigen::Vector3d& eye : {Eigen::Vector3d(3, -8, 10), Eigen::Vector3d(0, -800, 400)}) {
     const CameraConnection camera(boundary, eye, medium);
-    testing::BlockMean seen;
+    test_support::BlockMean seen;
     PathOptions options;
     options.paths_per_block = 2000;
     trace_blocks<FirstScatterings>(
@@ -84,13 +84,13 @@ void expect_single_scattering(const PathBoundary& boundary) {
                     400.0 / (2.0 * (1.0 + cosine)) * std::pow(8.0 / kSteps, 2);
       }
     }
-    EXPECT_LT(std::abs(seen.z(expected)), testing::kSigmas) << seen.mean() << " " << expected;
+    EXPECT_LT(std::abs(seen.z(expected)), test_support::kSigmas) << seen.mean() << " " << expected;
     EXPECT_LT(seen.std_error(), 0.015 * expected);
   }
 }
 
 TEST(CameraConnection, SeesSingleScatteringAsQuadratureDoes) {
-  const RayScene scene(testing::make_box({-12, -12, -12}, {12, 12, 0}));
+  const RayScene scene(test_support::make_box({-12, -12, -12}, {12, 12, 0}));
   const PathBoundary boundary(scene);
   expect_single_scattering(boundary);
 }
@@ -98,7 +98,7 @@ TEST(CameraConnection, SeesSingleScatteringAsQuadratureDoes) {
 // The same box with a bottom of many planes, far below: the connections go through the beams of the
 // facets of a top that is cut in 128.
 TEST(CameraConnection, SeesSingleScatteringThroughManyFacets) {
-  TriangleMesh box = cut_finer(testing::make_box({-12, -12, -12}, {12, 12, 0}), 3);
+  TriangleMesh box = cut_finer(test_support::make_box({-12, -12, -12}, {12, 12, 0}), 3);
   for (Eigen::Vector3d& v : box.vertices_mm) {
     if (v.z() == -12.0) v.z() -= 0.02 * (v.head<2>() - Eigen::Vector2d(1, 2)).squaredNorm();
   }
@@ -203,15 +203,15 @@ void expect_as_by_all_facets(const TriangleMesh& mesh, const Eigen::Vector3d& ey
 
 TEST(CameraConnection, ConnectsThroughAllFacetsThatHoldThePoint) {
   for (double eta : {1.0, 1.3}) {
-    expect_as_by_all_facets(testing::make_sphere(10, 3), {0, -100, 150}, eta, 500);
-    expect_as_by_all_facets(testing::make_sphere(10, 2), {0, 13, 4}, eta, 300);
-    expect_as_by_all_facets(testing::make_bumps(10, 0.4, 3), {30, 20, 40}, eta, 300);
+    expect_as_by_all_facets(test_support::make_sphere(10, 3), {0, -100, 150}, eta, 500);
+    expect_as_by_all_facets(test_support::make_sphere(10, 2), {0, 13, 4}, eta, 300);
+    expect_as_by_all_facets(test_support::make_bumps(10, 0.4, 3), {30, 20, 40}, eta, 300);
   }
 }
 
 // The same camera for another medium: the same digits as one built for it.
 TEST(CameraConnection, IsSharedByMedia) {
-  const RayScene scene(testing::make_sphere(10, 2));
+  const RayScene scene(test_support::make_sphere(10, 2));
   const PathBoundary boundary(scene);
   const CameraConnection camera(boundary, {0, 0, 50}, {1.0, 0.1, 0.0, 1.3});
   const ScatteringMedium other{0.3, 0.2, 0.6, 1.3};

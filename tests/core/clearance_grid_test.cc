@@ -31,7 +31,7 @@ void expect_bound(const TriangleMesh& mesh, const Distance& distance_mm) {
 }
 
 TEST(ClearanceGrid, BoundsTheDistanceInABox) {
-  expect_bound(testing::make_cube(), [](const Eigen::Vector3d& x) {
+  expect_bound(test_support::make_cube(), [](const Eigen::Vector3d& x) {
     return std::min({10.0 - std::abs(x.x()), 10.0 - std::abs(x.y()), x.z(), 20.0 - x.z()});
   });
 }
@@ -39,21 +39,21 @@ TEST(ClearanceGrid, BoundsTheDistanceInABox) {
 // Slanted facets, large and small.
 TEST(ClearanceGrid, BoundsTheDistanceInPyramidAndSphere) {
   const double slope = std::atan2(13.0, 8.0);
-  expect_bound(testing::make_pyramid(8, 13), [&](const Eigen::Vector3d& x) {
+  expect_bound(test_support::make_pyramid(8, 13), [&](const Eigen::Vector3d& x) {
     const double side = std::max(std::abs(x.x()), std::abs(x.y()));
     return std::min(x.z(), (8.0 - side) * std::sin(slope) - x.z() * std::cos(slope));
   });
   // The facets lie up to 0.004 mm inside the sphere.
-  expect_bound(testing::make_sphere(10, 5), [](const Eigen::Vector3d& x) {
+  expect_bound(test_support::make_sphere(10, 5), [](const Eigen::Vector3d& x) {
     return x.norm() < 9.9 ? 10.0 - x.norm() - 0.005 : -1.0;
   });
 }
 
 TEST(ClearanceGrid, IsNegativeBeyond) {
-  const ClearanceGrid grid(testing::make_cube(), 10);
+  const ClearanceGrid grid(test_support::make_cube(), 10);
   EXPECT_LT(grid.at({0, 0, 25}), 0.0);
   EXPECT_LT(grid.at({-15, 0, 5}), 0.0);
-  EXPECT_THROW(ClearanceGrid(testing::make_cube(), 0), std::invalid_argument);
+  EXPECT_THROW(ClearanceGrid(test_support::make_cube(), 0), std::invalid_argument);
 }
 
 }  // namespace

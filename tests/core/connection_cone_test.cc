@@ -69,7 +69,7 @@ Eigen::Vector3d drawn_from(const Cone& cone, RandomStream& random) {
 // What escapes and what is seen, by bins.
 template <std::size_t kBins>
 struct Bins {
-  std::array<testing::BlockMean, kBins> escaped, seen;
+  std::array<test_support::BlockMean, kBins> escaped, seen;
   void add(const std::array<double, kBins>& out, const std::array<double, kBins>& in) {
     for (std::size_t i = 0; i < kBins; ++i) {
       escaped[i].add(out[i]);
@@ -80,7 +80,7 @@ struct Bins {
   void expect_alike(double first_error, double other_error) const {
     for (std::size_t i = 0; i < kBins; ++i) {
       const double error = std::hypot(escaped[i].std_error(), seen[i].std_error());
-      EXPECT_LT(std::abs(seen[i].mean() - escaped[i].mean()), testing::kSigmas * error)
+      EXPECT_LT(std::abs(seen[i].mean() - escaped[i].mean()), test_support::kSigmas * error)
           << "bin " << i << ": " << seen[i].mean() << " seen, " << escaped[i].mean() << " escaped";
       EXPECT_LT(error, (i == 0 ? first_error : other_error) * seen[i].mean()) << "bin " << i;
     }
@@ -88,7 +88,7 @@ struct Bins {
 };
 
 TEST(CameraConnectionCone, SeesWhatEscapes) {
-  const RayScene scene(testing::make_box({0, 0, 0}, {4, 4, 3}));
+  const RayScene scene(test_support::make_box({0, 0, 0}, {4, 4, 3}));
   const PathBoundary boundary(scene);
   const ScatteringMedium medium{1.0, 0.05, 0.3, 1.3};
   const auto source = beam_entry({{0.5, 0.5, 3}, {3, 0, 0}, {0, 3, 0}, {0, 0, -1}});
@@ -139,7 +139,7 @@ struct ConePower {
 };
 
 struct Rest {
-  testing::BlockMean all, escaped, seen;
+  test_support::BlockMean all, escaped, seen;
 };
 Rest expect_power_that_escapes(const TriangleMesh& mesh, const ScatteringMedium& medium,
                                int blocks) {
@@ -172,7 +172,7 @@ Rest expect_power_that_escapes(const TriangleMesh& mesh, const ScatteringMedium&
 
 TEST(CameraConnectionCone, SeesWhatEscapesFromASphere) {
   const Rest rest =
-      expect_power_that_escapes(testing::make_sphere(10, 4), {1.0, 0.01, 0.3, 1.3}, 300);
+      expect_power_that_escapes(test_support::make_sphere(10, 4), {1.0, 0.01, 0.3, 1.3}, 300);
   EXPECT_LT(rest.escaped.mean(), 0.001 * rest.all.mean());
 }
 
@@ -180,11 +180,11 @@ TEST(CameraConnectionCone, SeesWhatEscapesFromASphere) {
 // own around each camera.
 TEST(CameraConnectionCone, SeesWhatEscapesFromBumps) {
   const Rest rest =
-      expect_power_that_escapes(testing::make_bumps(10, 0.4, 4), {1.0, 0.01, 0.3, 1.3}, 300);
+      expect_power_that_escapes(test_support::make_bumps(10, 0.4, 4), {1.0, 0.01, 0.3, 1.3}, 300);
   EXPECT_GT(rest.escaped.mean(), 0.003 * rest.all.mean());
   const double error = std::hypot(rest.escaped.std_error(), rest.seen.std_error());
   EXPECT_LT(std::abs(rest.seen.mean() - rest.escaped.mean()),
-            testing::kSigmas * error + 0.1 * rest.escaped.mean());
+            test_support::kSigmas * error + 0.1 * rest.escaped.mean());
   EXPECT_LT(error, 0.1 * rest.escaped.mean());
 }
 
@@ -201,7 +201,7 @@ struct Reflected {
 };
 
 TEST(CameraConnectionCone, SeesReflectionsByEscapes) {
-  const TriangleMesh box = testing::make_box({0, 0, 0}, {8, 8, 6});
+  const TriangleMesh box = test_support::make_box({0, 0, 0}, {8, 8, 6});
   TriangleMesh cut = cut_finer(box, 3);
   for (Eigen::Vector3d& v : cut.vertices_mm) {
     if (v.z() != 0.0) continue;
@@ -215,7 +215,7 @@ TEST(CameraConnectionCone, SeesReflectionsByEscapes) {
   const auto source = beam_entry({{0.5, 0.5, 6}, {7, 0, 0}, {0, 7, 0}, {0, 0, -1}});
   const auto reflected = [&](const PathBoundary& boundary) {
     const CameraConnection camera(boundary, eye, medium);
-    testing::BlockMean mean;
+    test_support::BlockMean mean;
     double all = 0.0;
     trace_blocks<Reflected>(
         {boundary, medium, *source, &camera}, {}, 0, 250, [] { return Reflected(); },
@@ -226,11 +226,11 @@ TEST(CameraConnectionCone, SeesReflectionsByEscapes) {
     EXPECT_NEAR(mean.sum / all, 0.02, 0.005);
     return mean;
   };
-  const testing::BlockMean by_images = reflected(few);
-  const testing::BlockMean by_cone = reflected(many);
+  const test_support::BlockMean by_images = reflected(few);
+  const test_support::BlockMean by_cone = reflected(many);
   const double error = std::hypot(by_images.std_error(), by_cone.std_error());
   EXPECT_LT(std::abs(by_cone.mean() - by_images.mean()),
-            testing::kSigmas * error + 0.1 * by_images.mean());
+            test_support::kSigmas * error + 0.1 * by_images.mean());
   EXPECT_LT(error, 0.06 * by_images.mean());
 }
 

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 // f: parameters -> values; jacobian: values x parameters at x. Steps are relative to each parameter
 // (or absolute where it is 0). Prints both matrices where they differ by more than `tolerance` of
@@ -32,4 +32,4 @@ inline void expect_derivatives(const std::function<Eigen::VectorXd(const Eigen::
   }
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

@@ -22,7 +22,7 @@ TEST(DipoleCurve, DerivativesMeetDifferences) {
     const DipoleCurve c = dipole_curve(knots, u, q, 1.3);
     Eigen::MatrixXd jacobian(knots.size(), 2);
     jacobian << c.d_u, c.d_q;
-    testing::expect_derivatives(
+    test_support::expect_derivatives(
         [&](const Eigen::VectorXd& x) { return dipole_curve(knots, x[0], x[1], 1.3).r; },
         Eigen::Vector2d(u, q), jacobian, 1e-5);
   }

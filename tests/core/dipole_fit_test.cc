@@ -1,21 +1,20 @@
 #include "core/dipole_fit.h"
 
 #include <cmath>
-#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/core/free_scale.h"
 #include "tests/core/half_lit_plate.h"
 
 namespace scattermeter {
 namespace {
 
-using testing::HalfLitPlate;
+using test_support::HalfLitPlate;
+using test_support::kFree;
+using test_support::noisy_system;
 using ::testing::HasSubstr;
-using testing::noisy_system;
-
-const double kFree = std::numeric_limits<double>::infinity();
 
 // Truth by quadrature, noise-free, exact scale; the patch is up to 2.2 mean free paths long.
 TEST(DipoleFit, RecoversTheTruthWhateverThePatch) {

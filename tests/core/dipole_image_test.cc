@@ -16,13 +16,13 @@ namespace {
 TEST(DipoleImage, FieldMeetsQuadrature) {
   const std::array<Medium, 3> media = {Medium{2.19, 0.002, 1.3}, Medium{0.9, 0.02, 1.3},
                                        Medium{1.5, 0.0, 1.3}};
-  const testing::HalfLitPlate rows(1.0);   // where the image is wanted
-  const testing::HalfLitPlate fine(0.45);  // patches of the rendering
+  const test_support::HalfLitPlate rows(1.0);   // where the image is wanted
+  const test_support::HalfLitPlate fine(0.45);  // patches of the rendering
   std::vector<bool> needed(static_cast<std::size_t>(fine.patches().size()), true);
   SurfaceField field(fine.patches(), needed);
   field.add(dipole_radiosity(field.nodes_mm(), fine.light(), {0, 0, -5}, 44.0, media,
                              Eigen::Array3d(1.0, 2.0, 3.0)));
-  const RayScene scene(testing::make_box({-15, -15, -10}, {15, 15, 0}));
+  const RayScene scene(test_support::make_box({-15, -15, -10}, {15, 15, 0}));
   for (int c = 0; c < 3; ++c) {
     const Dipole dipole(media[static_cast<std::size_t>(c)]);
     const Eigen::VectorXd truth = (c + 1.0) * rows.image(dipole);
@@ -50,7 +50,7 @@ TEST(DipoleImage, FieldMeetsQuadrature) {
 }
 
 TEST(DipoleImage, UnneededPatchesStayUndefined) {
-  const PatchMesh patches(testing::make_cube(), 5.0);
+  const PatchMesh patches(test_support::make_cube(), 5.0);
   std::vector<bool> needed(static_cast<std::size_t>(patches.size()), false);
   needed[0] = true;
   const SurfaceField field(patches, needed);

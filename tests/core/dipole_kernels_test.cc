@@ -12,7 +12,7 @@
 namespace scattermeter {
 namespace {
 
-constexpr Medium kMedium{1.7, 0.01, 1.4};
+constexpr Medium kKernelMedium{1.7, 0.01, 1.4};
 
 KernelDipole kernel_dipole(const Medium& medium) {
   const Dipole d(medium);
@@ -31,7 +31,7 @@ TEST(DipoleKernels, EveryInstructionSetGivesTheSame) {
   const std::vector<float> x = {0.5F, -1.0F, 0.0F}, y = {0.0F, 0.25F, 2.0F}, z = {0.0F, 0.0F, 1.0F},
                            c = {1.0F, 0.5F, 0.25F};
   const KernelPoints points{{101.0, -50.5, 7.25}, x.data(), y.data(), z.data(), c.data(), 3};
-  const std::vector<Medium> media = {kMedium, {0.3, 0.1, 1.5}};
+  const std::vector<Medium> media = {kKernelMedium, {0.3, 0.1, 1.5}};
   std::vector<KernelDipole> kernels;
   for (const Medium& m : media) kernels.push_back(kernel_dipole(m));
   int sets = 0;

@@ -13,8 +13,8 @@
 namespace scattermeter {
 namespace {
 
-using testing::noisy_system;
-using testing::plate;
+using test_support::noisy_system;
+using test_support::plate;
 
 DipoleMisfit misfit(const DenseSystem& system, const ScalePrior& scale) {
   DipoleFitOptions fit_options;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/dipole_curve.h"
+#include "tests/core/free_scale.h"
 #include "tests/core/plate_system.h"
 
 namespace scattermeter {
@@ -14,11 +15,10 @@ namespace {
 
 using Coefficient = DipoleSolver::Coefficient;
 using Point = DipoleSolver::Point;
-using testing::kEta;
-using testing::noisy_system;
-using testing::plate;
-
-const double kFree = std::numeric_limits<double>::infinity();
+using test_support::kEta;
+using test_support::kFree;
+using test_support::noisy_system;
+using test_support::plate;
 
 DenseSystem drawn_system(const Medium& truth, double noise, unsigned seed, bool with_nuisance) {
   DenseSystem system = noisy_system(plate().w, plate().image(truth), noise, seed);

@@ -14,14 +14,14 @@ namespace {
 
 // For images without noise one of the starts is in reach: the mean free path to a factor of two.
 TEST(DipoleStarts, AreNearEveryMaterial) {
-  const testing::LitPlate plate(1.0, {0, 15, -15, 15});
+  const test_support::LitPlate plate(1.0, {0, 15, -15, 15});
   const DistanceKnots knots = plate.knots();
   const WeightMatrix w = plate.weights(knots);
   for (double sigma_t : {0.1, 0.5, 2.0, 5.0}) {
     for (double q : {0.0, 1e-3, 0.05, 0.2, 0.6}) {
       const Eigen::VectorXd l = w * dipole_curve(knots, std::log(sigma_t), q, 1.3).r;
       const RecoveredReflectance recovered =
-          recover_reflectance(testing::noisy_system(w, l, 1e-3, 1));
+          recover_reflectance(test_support::noisy_system(w, l, 1e-3, 1));
       for (double scale_std : {0.0, 0.02, std::numeric_limits<double>::infinity()}) {
         const auto starts = dipole_starts(recovered, knots, 1.3, {scale_std});
         ASSERT_FALSE(starts.empty());

@@ -2,7 +2,6 @@
 // answer that may be trusted, and no wrong answer under it.
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -10,34 +9,35 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/core/free_scale.h"
 #include "tests/core/lit_plate.h"
 #include "tests/core/noisy_system.h"
 
 namespace scattermeter {
 namespace {
 
-using testing::fit_with_numerics;
-using testing::is_wrong;
-using testing::LitPlate;
-using testing::noisy_system;
-using testing::Rectangle;
+using test_support::fit_with_numerics;
+using test_support::is_wrong;
+using test_support::kFree;
+using test_support::LitPlate;
+using test_support::noisy_system;
+using test_support::Rectangle;
 
-const double kFree = std::numeric_limits<double>::infinity();
-const Medium kMedium{1.2, 0.004, 1.3};
+const Medium kStressMedium{1.2, 0.004, 1.3};
 
-struct Plate {
+struct WeighedPlate {
   LitPlate plate;
   DistanceKnots knots = plate.knots();
   WeightMatrix w = plate.weights(knots);
 };
 
-const Plate& half_lit() {
-  static const Plate p{LitPlate(1.0, {0, 15, -15, 15})};
+const WeighedPlate& half_lit() {
+  static const WeighedPlate p{LitPlate(1.0, {0, 15, -15, 15})};
   return p;
 }
 
-const Plate& evenly_lit() {
-  static const Plate p{LitPlate(1.0)};
+const WeighedPlate& evenly_lit() {
+  static const WeighedPlate p{LitPlate(1.0)};
   return p;
 }
 
@@ -83,7 +83,7 @@ class EveryMaterial : public ::testing::TestWithParam<std::tuple<bool, double>> 
 
 TEST_P(EveryMaterial, IsRightOrRefused) {
   const auto [is_half_lit, mfp_mm] = GetParam();
-  const Plate& plate = is_half_lit ? half_lit() : evenly_lit();
+  const WeighedPlate& plate = is_half_lit ? half_lit() : evenly_lit();
   int trusted = 0, cases = 0;
   for (double albedo : {0.3, 0.5, 0.8, 0.95, 0.999, 0.99999, 1.0}) {
     const Medium truth{albedo / mfp_mm, (1.0 - albedo) / mfp_mm, 1.3};
@@ -133,13 +133,13 @@ TEST(DipoleStress, LightThatDiesWithinAPatchIsRefused) {
 
 // A scale that is stated as exact and is off. Half lit, the image knows better.
 TEST(DipoleStress, WrongExactScaleIsNotTrusted) {
-  const Eigen::VectorXd l = half_lit().plate.image(kMedium);
+  const Eigen::VectorXd l = half_lit().plate.image(kStressMedium);
   int refused_right = 0;
   for (double off : {0.0, 0.003, -0.003, 0.01, -0.01, 0.03, -0.03, 0.1, -0.1}) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
       const Estimate e =
           fitted(noisy_system(half_lit().w, (1.0 + off) * l, 1e-3, seed), half_lit().knots, 0.0);
-      EXPECT_FALSE(is_wrong(e, kMedium)) << "off by " << off << ": " << text(e);
+      EXPECT_FALSE(is_wrong(e, kStressMedium)) << "off by " << off << ": " << text(e);
       EXPECT_TRUE(std::abs(off) < 0.03 || !e.reasons.empty()) << off;
       if (off == 0.0 && !e.reasons.empty()) ++refused_right;
     }
@@ -152,10 +152,10 @@ TEST(DipoleStress, WrongEtaOrEdgeIsNotTrusted) {
     for (double eta : {1.25, 1.35}) {
       const Eigen::VectorXd l = half_lit().plate.image({1.2, 0.004, eta});
       EXPECT_FALSE(is_wrong(
-          fitted(noisy_system(half_lit().w, l, 1e-3, seed), half_lit().knots, 0.0), kMedium));
+          fitted(noisy_system(half_lit().w, l, 1e-3, seed), half_lit().knots, 0.0), kStressMedium));
     }
     for (double shift_mm : {-0.3, 0.3}) {
-      const Eigen::VectorXd l = half_lit().plate.image(kMedium, shift_mm);
+      const Eigen::VectorXd l = half_lit().plate.image(kStressMedium, shift_mm);
       for (double noise : {1e-3, 1e-2}) {
         EXPECT_FALSE(fitted(noisy_system(half_lit().w, l, noise, seed), half_lit().knots, 0.0)
                          .reasons.empty());
@@ -166,7 +166,7 @@ TEST(DipoleStress, WrongEtaOrEdgeIsNotTrusted) {
 
 // A wrong unit of light: six orders of magnitude.
 TEST(DipoleStress, ScaleOffByAMillion) {
-  const Eigen::VectorXd l = half_lit().plate.image(kMedium);
+  const Eigen::VectorXd l = half_lit().plate.image(kStressMedium);
   for (double factor : {1e-6, 1e6}) {
     for (double scale_std : {0.0, 0.02}) {
       EXPECT_FALSE(
@@ -176,7 +176,7 @@ TEST(DipoleStress, ScaleOffByAMillion) {
     const Estimate e =
         fitted(noisy_system(half_lit().w, factor * l, 1e-3, 1), half_lit().knots, kFree);
     EXPECT_TRUE(e.reasons.empty());
-    EXPECT_FALSE(is_wrong(e, kMedium)) << text(e);
+    EXPECT_FALSE(is_wrong(e, kStressMedium)) << text(e);
     EXPECT_NEAR(e.scale.value / factor, 1.0, 0.01);
   }
 }
@@ -184,15 +184,16 @@ TEST(DipoleStress, ScaleOffByAMillion) {
 // Two squares of the patches' grid. Rows beside them are 1 % off by the patches' own size, which
 // shows, and is refused, where noise is less.
 TEST(DipoleStress, ASingleLitSpot) {
-  const Plate plate{LitPlate(1.0, {0, 1.875, -1.875, 1.875})};
+  const WeighedPlate plate{LitPlate(1.0, {0, 1.875, -1.875, 1.875})};
   double lit_mm2 = 0.0;
   for (const LitTriangle& t : plate.plate.light().lit) lit_mm2 += power_sr(t);
   ASSERT_NEAR(lit_mm2, 2 * 1.875 * 1.875, 1e-9);
-  const Eigen::VectorXd l = plate.plate.image(kMedium);
+  const Eigen::VectorXd l = plate.plate.image(kStressMedium);
   for (double scale_std : {0.0, 0.02, kFree}) {
     for (double noise : {1e-4, 1e-3, 1e-2, 0.1}) {
       const Estimate e = fitted(noisy_system(plate.w, l, noise, 1), plate.knots, scale_std);
-      EXPECT_FALSE(is_wrong(e, kMedium)) << noise << ", scale " << scale_std << ": " << text(e);
+      EXPECT_FALSE(is_wrong(e, kStressMedium))
+          << noise << ", scale " << scale_std << ": " << text(e);
       EXPECT_TRUE(noise != 1e-2 || e.reasons.empty()) << e.reasons.front();
     }
   }
@@ -201,7 +202,7 @@ TEST(DipoleStress, ASingleLitSpot) {
 // Rows twice: no row more is told, but rows whose noise is the same are not known to be. Sources
 // twice: the light is.
 TEST(DipoleStress, Duplicates) {
-  const Eigen::VectorXd l = half_lit().plate.image(kMedium);
+  const Eigen::VectorXd l = half_lit().plate.image(kStressMedium);
   const DenseSystem one = noisy_system(half_lit().w, l, 1e-2, 1);
   DenseSystem two = one;
   two.weights.resize(2 * one.l.size(), one.weights.cols());
@@ -223,7 +224,7 @@ TEST(DipoleStress, Duplicates) {
   const WeightMatrix doubled = smooth_weights(
       half_lit().plate.sites(), SourceCloud(light, {0, 0, 0}), half_lit().knots, pairs);
   const Estimate c = fitted(noisy_system(doubled, 2.0 * l, 1e-2, 1), half_lit().knots, 0.0);
-  EXPECT_FALSE(is_wrong(c, kMedium)) << text(c);
+  EXPECT_FALSE(is_wrong(c, kStressMedium)) << text(c);
   EXPECT_TRUE(c.reasons.empty());
 }
 
@@ -232,7 +233,7 @@ TEST(DipoleStress, FarFromTheOriginAndRounded) {
   const Eigen::Vector3d far(1e6, -5e5, 2e5);
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
-  const Eigen::VectorXd l = half_lit().plate.image(kMedium);
+  const Eigen::VectorXd l = half_lit().plate.image(kStressMedium);
   for (double jitter : {0.0, 1e-7}) {
     IncidentLight light = half_lit().plate.light();
     const auto moved_point = [&](const Eigen::Vector3d& p) {
@@ -252,13 +253,13 @@ TEST(DipoleStress, FarFromTheOriginAndRounded) {
     EXPECT_LT(((w - half_lit().w) * r).cwiseAbs().maxCoeff(), 1e-5 * l.maxCoeff());
     const Estimate e = fitted(noisy_system(w, l, 1e-3, 1), half_lit().knots, 0.0);
     EXPECT_TRUE(e.reasons.empty());
-    EXPECT_FALSE(is_wrong(e, kMedium)) << text(e);
+    EXPECT_FALSE(is_wrong(e, kStressMedium)) << text(e);
   }
 }
 
 // From the fewest rows to many.
 TEST(DipoleStress, TwentyRows) {
-  const Eigen::VectorXd l = half_lit().plate.image(kMedium);
+  const Eigen::VectorXd l = half_lit().plate.image(kStressMedium);
   const Eigen::Index step = l.size() / 20;
   WeightMatrix w(20, half_lit().w.cols());
   Eigen::VectorXd few(20);
@@ -270,14 +271,14 @@ TEST(DipoleStress, TwentyRows) {
     for (double scale_std : {0.0, 0.02, kFree}) {
       for (unsigned seed = 1; seed <= 5; ++seed) {
         const Estimate e = fitted(noisy_system(w, few, noise, seed), half_lit().knots, scale_std);
-        EXPECT_FALSE(is_wrong(e, kMedium)) << noise << ' ' << scale_std << ": " << text(e);
+        EXPECT_FALSE(is_wrong(e, kStressMedium)) << noise << ' ' << scale_std << ": " << text(e);
       }
     }
   }
 }
 
 TEST(DipoleStress, AHundredThousandRows) {
-  const Eigen::VectorXd l = half_lit().plate.image(kMedium);
+  const Eigen::VectorXd l = half_lit().plate.image(kStressMedium);
   const Eigen::Index n = half_lit().w.rows();
   const Eigen::Index times = 100'000 / n + 1;
   DenseSystem s{WeightMatrix(times * n, half_lit().w.cols()), Eigen::VectorXd(times * n),
@@ -290,12 +291,12 @@ TEST(DipoleStress, AHundredThousandRows) {
   }
   const Estimate e = fitted(s, half_lit().knots, 0.02);
   EXPECT_TRUE(e.reasons.empty()) << e.reasons.front();
-  EXPECT_FALSE(is_wrong(e, kMedium)) << text(e);
+  EXPECT_FALSE(is_wrong(e, kStressMedium)) << text(e);
 }
 
 // Images that no light makes.
 TEST(DipoleStress, AbsurdImagesAreRefused) {
-  const Eigen::VectorXd l = half_lit().plate.image(kMedium);
+  const Eigen::VectorXd l = half_lit().plate.image(kStressMedium);
   const std::map<std::string, Eigen::VectorXd> images = {
       {"zero", 0.0 * l},
       {"negative", -l},
@@ -313,7 +314,7 @@ TEST(DipoleStress, AbsurdImagesAreRefused) {
       // With a free scale, light of any power is as good.
       const bool may_be_right = (name == "huge" || name == "tiny") && scale_std == kFree;
       EXPECT_TRUE(may_be_right || !e.reasons.empty()) << name << ", scale " << scale_std;
-      EXPECT_FALSE(may_be_right && is_wrong(e, kMedium)) << name << ": " << text(e);
+      EXPECT_FALSE(may_be_right && is_wrong(e, kStressMedium)) << name << ": " << text(e);
     }
   }
 }

@@ -18,7 +18,7 @@ struct Work {
   double pairs, exact_pairs, series, coefficients, tests, repeated_blocks;
 };
 
-struct Case {
+struct SumsCase {
   const char* body;
   std::size_t patches, rows, media;
   double tolerance;
@@ -27,7 +27,7 @@ struct Case {
 
 // The figures, in one place. None may grow by more than 5 %: a change that is worth it states the
 // new ones (the test prints them) and says why. One that does much better states them as well.
-const Case kCases[] = {
+const SumsCase kCases[] = {
     {"cube", 20000, 4000, 1, 1e-4, {277.7, 0, 99.75, 7186.8, 18.84, 0}},
     {"sphere", 20000, 4000, 1, 1e-4, {271.9, 0, 83.51, 17648, 16.26, 0}},
     {"cube", 20000, 4000, 3, 1e-2, {192, 0, 69.42, 3633.2, 12.4, 0.0005}},
@@ -47,7 +47,7 @@ Eigen::Vector3d surface_point(const std::string& body, std::mt19937& random) {
 
 TEST(DipoleSumsWork, DoesNotGrow) {
   const std::vector<Medium> media = {{2.19, 0.002, 1.3}, {0.5, 0.01, 1.49}, {1.2, 0.005, 1.4}};
-  for (const Case& c : kCases) {
+  for (const SumsCase& c : kCases) {
     std::mt19937 random(5);
     std::vector<Eigen::Vector3d> points, rows;
     std::vector<double> weights;

@@ -12,12 +12,12 @@
 namespace scattermeter {
 namespace {
 
-const Medium kMedia[] = {{2.19, 0.002, 1.3}, {0.74, 0.032, 1.3},  {2.62, 0.0041, 1.5},
-                         {0.15, 0.015, 1.3}, {7.38, 0.0002, 1.3}, {2.19, 0.0, 1.3}};
+const Medium kDipoleMedia[] = {{2.19, 0.002, 1.3}, {0.74, 0.032, 1.3},  {2.62, 0.0041, 1.5},
+                               {0.15, 0.015, 1.3}, {7.38, 0.0002, 1.3}, {2.19, 0.0, 1.3}};
 
 // The plane's integral of R is a closed form (Jensen et al. 2001, total diffuse reflectance).
 TEST(Dipole, IntegralOverThePlaneIsTheTotal) {
-  for (const Medium& m : kMedia) {
+  for (const Medium& m : kDipoleMedia) {
     if (m.sigma_a_per_mm == 0.0) continue;
     const Dipole dipole(m);
     const int n = 200'000;
@@ -41,13 +41,13 @@ TEST(Dipole, TotalMeetsThePublishedTable) {
 }
 
 TEST(Dipole, DerivativesMeetDifferences) {
-  for (const Medium& m : kMedia) {
+  for (const Medium& m : kDipoleMedia) {
     if (m.sigma_a_per_mm == 0.0) continue;  // one-sided there, below
     for (double d : {0.0, 0.1, 0.5, 2.0, 9.0, 30.0}) {
       const Dipole::Value v = Dipole(m).with_derivatives(d);
       Eigen::MatrixXd jacobian(1, 2);
       jacobian << v.d_sigma_s_prime, v.d_sigma_a;
-      testing::expect_derivatives(
+      test_support::expect_derivatives(
           [&](const Eigen::VectorXd& x) {
             return Eigen::VectorXd::Constant(
                 1, Dipole({x[0], x[1], m.eta_int_over_ext}).reflectance_per_mm2(d));

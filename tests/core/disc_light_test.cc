@@ -44,7 +44,7 @@ double brute_force(const Led& led, const RayScene& scene, const Eigen::Vector3d&
 }
 
 TEST(DiscLight, OpenEqualsBruteForce) {
-  const TriangleMesh mesh = testing::make_box({-10, -10, -1}, {10, 10, 0});
+  const TriangleMesh mesh = test_support::make_box({-10, -10, -1}, {10, 10, 0});
   const RayScene scene(mesh);
   for (const double radius_mm : {1.0, 8.0, 19.0}) {
     const DiscLight disc(disc_led(radius_mm), scene, 1.4);
@@ -58,7 +58,7 @@ TEST(DiscLight, OpenEqualsBruteForce) {
 
 // The surface's plane cuts the disc.
 TEST(DiscLight, HalfOfTheDiscBelowTheHorizon) {
-  const TriangleMesh mesh = testing::make_box({-10, -10, -1}, {10, 10, 0});
+  const TriangleMesh mesh = test_support::make_box({-10, -10, -1}, {10, 10, 0});
   const RayScene scene(mesh);
   Led led = disc_led(6.0);
   led.position_mm = {-40, 0, 1.5};
@@ -69,7 +69,7 @@ TEST(DiscLight, HalfOfTheDiscBelowTheHorizon) {
 }
 
 TEST(DiscLight, ConcentricMapKeepsAreasAndFillsTheDisc) {
-  const TriangleMesh mesh = testing::make_cube();
+  const TriangleMesh mesh = test_support::make_cube();
   const RayScene scene(mesh);
   Led led = disc_led(2.0);
   const DiscLight disc(led, scene, 1.0);
@@ -93,8 +93,8 @@ TEST(DiscLight, ConcentricMapKeepsAreasAndFillsTheDisc) {
 
 // A plate with a block on it that stands between the plate and the LED.
 TriangleMesh plate_and_block() {
-  TriangleMesh mesh = testing::make_box({-20, -20, -1}, {20, 20, 0});
-  const TriangleMesh block = testing::make_box({-4, -20, 10}, {0, 20, 14});
+  TriangleMesh mesh = test_support::make_box({-20, -20, -1}, {20, 20, 0});
+  const TriangleMesh block = test_support::make_box({-4, -20, 10}, {0, 20, 14});
   for (auto t : block.triangles) {
     for (int& i : t) i += static_cast<int>(mesh.vertices_mm.size());
     mesh.triangles.push_back(t);
@@ -178,7 +178,7 @@ TEST(DiscLight, PatchPowersHoldTheHalfShadow) {
 }
 
 TEST(DiscLight, RefusesAPoint) {
-  const TriangleMesh mesh = testing::make_cube();
+  const TriangleMesh mesh = test_support::make_cube();
   const RayScene scene(mesh);
   EXPECT_THROW(DiscLight(disc_led(0.0), scene, 1.3), std::invalid_argument);
 }

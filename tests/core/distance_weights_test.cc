@@ -52,7 +52,7 @@ IncidentLight lit_top(const PatchMesh& patches) {
 
 // Images without W between: rows and columns of any number.
 TEST(DistanceWeights, ImagesAreThoseOfW) {
-  const PatchMesh patches(testing::make_cube(), 1.0);
+  const PatchMesh patches(test_support::make_cube(), 1.0);
   const SourceCloud sources(lit_top(patches), {0, 0, 10});
   std::vector<ExitSite> sites;
   for (int k = 0; k < patches.size(); k += 11) sites.push_back(exit_patch(patches, k));
@@ -71,7 +71,7 @@ TEST(DistanceWeights, ImagesAreThoseOfW) {
 // R itself where the width is far below its scale.
 TEST(DistanceWeights, UniformAndSmoothAgree) {
   const Dipole dipole({0.8, 0.01, 1.3});
-  const PatchMesh patches(testing::make_cube(), 1.0);
+  const PatchMesh patches(test_support::make_cube(), 1.0);
   const SourceCloud sources(lit_top(patches), {0, 0, 10});
   std::vector<ExitSite> sites;
   for (int k = 0; k < patches.size(); k += 7) sites.push_back(exit_patch(patches, k));
@@ -91,7 +91,7 @@ TEST(DistanceWeights, UniformAndSmoothAgree) {
 }
 
 TEST(DistanceWeights, SameDigitsForAnyNumberOfThreads) {
-  const PatchMesh patches(testing::make_cube(), 1.5);
+  const PatchMesh patches(test_support::make_cube(), 1.5);
   const SourceCloud sources(lit_top(patches), {0, 0, 10});
   std::vector<ExitSite> sites;
   for (int k = 0; k < patches.size(); ++k) sites.push_back(exit_patch(patches, k));

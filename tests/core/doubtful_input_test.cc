@@ -12,20 +12,20 @@
 namespace scattermeter {
 namespace {
 
-using testing::LitPlate;
-using testing::noisy_system;
+using test_support::LitPlate;
+using test_support::noisy_system;
 
-const Medium kMedium{1.2, 0.004, 1.3};
+const Medium kDoubtMedium{1.2, 0.004, 1.3};
 
-struct Plate {
+struct DoubtPlate {
   LitPlate plate{1.0, {0, 15, -15, 15}};
   DistanceKnots knots = plate.knots();
   WeightMatrix w = plate.weights(knots);
-  Eigen::VectorXd l = plate.image(kMedium);
+  Eigen::VectorXd l = plate.image(kDoubtMedium);
 };
 
-const Plate& plate() {
-  static const Plate p;
+const DoubtPlate& doubt_plate() {
+  static const DoubtPlate p;
   return p;
 }
 
@@ -33,9 +33,9 @@ Doubts doubts(const DenseSystem& system, double scale_std, double eta = 1.3) {
   DipoleFitOptions options;
   options.eta_int_over_ext = eta;
   options.scale.relative_std = scale_std;
-  const DipoleFit fit = fit_dipole(system, plate().knots, options);
-  return doubtful_inputs(recover_reflectance(system), system.nuisances, plate().knots, fit.optimum,
-                         eta, options.scale, 1.0);
+  const DipoleFit fit = fit_dipole(system, doubt_plate().knots, options);
+  return doubtful_inputs(recover_reflectance(system), system.nuisances, doubt_plate().knots,
+                         fit.optimum, eta, options.scale, 1.0);
 }
 
 // Where all is as stated p-values are even: a mean of 200 is known to 0.020, a share of 5 % to
@@ -48,7 +48,8 @@ TEST(DoubtfulInput, FalseAlarmsAreAsStated) {
     std::normal_distribution<double> normal;
     for (unsigned seed = 1; seed <= 200; ++seed) {
       const double scale = std::exp(scale_std * normal(random));
-      const Doubts d = doubts(noisy_system(plate().w, scale * plate().l, 0.01, seed), scale_std);
+      const Doubts d =
+          doubts(noisy_system(doubt_plate().w, scale * doubt_plate().l, 0.01, seed), scale_std);
       scale_mean += d.scale.p_value / 200.0;
       eta_mean += d.eta.p_value / 200.0;
       scale_low += d.scale.p_value < 0.05 ? 1 : 0;
@@ -64,16 +65,18 @@ TEST(DoubtfulInput, FalseAlarmsAreAsStated) {
 }
 
 TEST(DoubtfulInput, MeasuresWhatIsOff) {
-  const Doubts scale = doubts(noisy_system(plate().w, 1.03 * plate().l, 0.002, 1), 0.0);
+  const Doubts scale = doubts(noisy_system(doubt_plate().w, 1.03 * doubt_plate().l, 0.002, 1), 0.0);
   EXPECT_LT(scale.scale.p_value, 1e-6);
   EXPECT_NEAR(scale.scale.offset, std::log(1.03), 0.006);
   EXPECT_NEAR(scale.scale.image_relative, std::abs(scale.scale.offset), 1e-3);
-  const Doubts eta = doubts(noisy_system(plate().w, plate().l, 0.002, 1), 0.0, 1.27);
+  const Doubts eta = doubts(noisy_system(doubt_plate().w, doubt_plate().l, 0.002, 1), 0.0, 1.27);
   EXPECT_LT(eta.eta.p_value, 1e-6);
   EXPECT_NEAR(eta.eta.offset, 0.03, 0.006);
   // 3 % are nothing where the prior allows 5 %, and a free scale cannot be off.
-  EXPECT_GT(doubts(noisy_system(plate().w, 1.03 * plate().l, 0.002, 1), 0.05).scale.p_value, 0.1);
-  EXPECT_EQ(doubts(noisy_system(plate().w, 1.03 * plate().l, 0.002, 1),
+  EXPECT_GT(
+      doubts(noisy_system(doubt_plate().w, 1.03 * doubt_plate().l, 0.002, 1), 0.05).scale.p_value,
+      0.1);
+  EXPECT_EQ(doubts(noisy_system(doubt_plate().w, 1.03 * doubt_plate().l, 0.002, 1),
                    std::numeric_limits<double>::infinity())
                 .scale.p_value,
             1.0);
@@ -81,9 +84,9 @@ TEST(DoubtfulInput, MeasuresWhatIsOff) {
 
 // A declared error of the method that looks like the scale is no reason to doubt the scale.
 TEST(DoubtfulInput, ForgivesWhatANuisanceExplains) {
-  DenseSystem system = noisy_system(plate().w, 1.03 * plate().l, 0.002, 1);
+  DenseSystem system = noisy_system(doubt_plate().w, 1.03 * doubt_plate().l, 0.002, 1);
   system.nuisances = {{"method", 0.03, false}};
-  system.nuisance_columns = plate().l;
+  system.nuisance_columns = doubt_plate().l;
   EXPECT_GT(doubts(system, 0.0).scale.p_value, 0.05);
 }
 

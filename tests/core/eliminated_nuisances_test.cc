@@ -9,15 +9,15 @@
 namespace scattermeter {
 namespace {
 
-struct Case {
+struct NuisanceCase {
   RecoveredReflectance recovered;
   std::vector<Nuisance> nuisances = {
       {"pose", 0.3, true}, {"eta", 1e3, true}, {"method", 0.7, false}};
   Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(5, 2.0, -1.0);
 };
 
-Case random_case() {
-  Case c;
+NuisanceCase random_case() {
+  NuisanceCase c;
   std::mt19937 random(8);
   std::normal_distribution<double> normal;
   c.recovered.sqrt_information.resize(7, 8);
@@ -30,7 +30,7 @@ Case random_case() {
 // Integrating over nuisances is adding their covariance to the noise's: chi-square
 // e^T (1 + C diag(std^2) C^T)^-1 e.
 TEST(EliminatedNuisances, AreAddedNoise) {
-  const Case c = random_case();
+  const NuisanceCase c = random_case();
   for (const auto& [use, n] : {std::pair{NuisanceUse::kFitted, 2}, {NuisanceUse::kAll, 3}}) {
     Eigen::MatrixXd noise = Eigen::MatrixXd::Identity(7, 7);
     for (int i = 0; i < n; ++i) {
@@ -46,7 +46,7 @@ TEST(EliminatedNuisances, AreAddedNoise) {
 }
 
 TEST(EliminatedNuisances, OfNoWidthDoNotMove) {
-  Case c = random_case();
+  NuisanceCase c = random_case();
   for (Nuisance& v : c.nuisances) v.std = 0.0;
   const EliminatedNuisances image =
       eliminate_nuisances(c.recovered, c.nuisances, 5, NuisanceUse::kAll);

@@ -14,8 +14,8 @@ namespace {
 
 // Two boxes, the smaller one in the larger one's light.
 TriangleMesh two_boxes() {
-  TriangleMesh mesh = testing::make_box({-10, -10, 0}, {10, 10, 8});
-  const TriangleMesh other = testing::make_box({4, -8, 9}, {9, -3, 15});
+  TriangleMesh mesh = test_support::make_box({-10, -10, 0}, {10, 10, 8});
+  const TriangleMesh other = test_support::make_box({4, -8, 9}, {9, -3, 15});
   for (const auto& t : other.triangles) mesh.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
   mesh.vertices_mm.insert(mesh.vertices_mm.end(), other.vertices_mm.begin(),
                           other.vertices_mm.end());
@@ -34,8 +34,8 @@ void expect_power(const RayScene& scene, const EntrySource& source, const PatchM
   for (std::size_t f = 0; f < expected.size(); ++f) {
     normal.push_back(area_vector_mm2(scene.mesh(), static_cast<int>(f)).normalized());
   }
-  testing::BlockMean total;
-  std::vector<testing::BlockMean> by_facet(expected.size());
+  test_support::BlockMean total;
+  std::vector<test_support::BlockMean> by_facet(expected.size());
   constexpr int kSamples = 500;
   for (int b = 0; b < blocks; ++b) {
     RandomStream random(5, static_cast<std::uint64_t>(b));
@@ -70,13 +70,13 @@ void expect_power(const RayScene& scene, const EntrySource& source, const PatchM
     total.add(all);
     for (std::size_t f = 0; f < sum.size(); ++f) by_facet[f].add(sum[f]);
   }
-  EXPECT_LT(std::abs(total.z(testing::total(light))), testing::kSigmas);
+  EXPECT_LT(std::abs(total.z(test_support::total(light))), test_support::kSigmas);
   EXPECT_LT(total.std_error(), 0.01 * total.mean());
   for (std::size_t f = 0; f < expected.size(); ++f) {
     if (expected[f] == 0.0) {
       EXPECT_EQ(by_facet[f].mean(), 0.0);
-    } else if (expected[f] > 1e-3 * testing::total(light)) {
-      EXPECT_LT(std::abs(by_facet[f].z(expected[f])), testing::kSigmas) << "facet " << f;
+    } else if (expected[f] > 1e-3 * test_support::total(light)) {
+      EXPECT_LT(std::abs(by_facet[f].z(expected[f])), test_support::kSigmas) << "facet " << f;
     }
   }
 }
@@ -109,7 +109,7 @@ TEST(EntrySource, EnvironmentGivesWhatEnvironmentLightSays) {
 TEST(EntrySource, BeamIsEven) {
   const auto source = beam_entry({{1, 2, 3}, {4, 0, 0}, {0, 2, 0}, {0, 0, -1}});
   RandomStream random(6, 0);
-  testing::BlockMean x, y;
+  test_support::BlockMean x, y;
   for (int i = 0; i < 1000; ++i) {
     const auto entry = source->sample(random.uniform(), random);
     ASSERT_TRUE(entry.has_value());
@@ -118,8 +118,8 @@ TEST(EntrySource, BeamIsEven) {
     x.add(entry->position_mm.x());
     y.add(entry->position_mm.y());
   }
-  EXPECT_LT(std::abs(x.z(3.0)), testing::kSigmas);
-  EXPECT_LT(std::abs(y.z(3.0)), testing::kSigmas);
+  EXPECT_LT(std::abs(x.z(3.0)), test_support::kSigmas);
+  EXPECT_LT(std::abs(y.z(3.0)), test_support::kSigmas);
 }
 
 }  // namespace

@@ -15,24 +15,24 @@
 namespace scattermeter {
 namespace {
 
-using testing::total;
+using test_support::total;
 
 // A convex body sees the whole probe from every facet: surface times the closed form, no ray.
 TEST(EnvironmentLight, ConvexBodyInAnEvenProbe) {
-  const TriangleMesh mesh = testing::make_cube();
+  const TriangleMesh mesh = test_support::make_cube();
   const RayScene scene(mesh);
   const PatchMesh patches(mesh, 2.0);
   const ProbeTree probe(
-      testing::even_probe(ProbeProjection::kEquirectangular, 64, 32, {1.0F, 0.5F, 0.0F}));
+      test_support::even_probe(ProbeProjection::kEquirectangular, 64, 32, {1.0F, 0.5F, 0.0F}));
   const auto light = illuminate(patches, scene, probe, 1.4);
-  const double expected = 6.0 * 400.0 * testing::even_irradiance(1.4);
+  const double expected = 6.0 * 400.0 * test_support::even_irradiance(1.4);
   EXPECT_NEAR(total(light[0]), expected, 1e-4 * expected);
   EXPECT_NEAR(total(light[1]), 0.5 * expected, 1e-4 * expected);
   EXPECT_TRUE(light[2].lit.empty());
   EXPECT_EQ(light[0].shadow_rays, 0U);
   EXPECT_EQ(light[0].lit.size(), static_cast<std::size_t>(patches.size()));
   const Eigen::Array3d open = open_irradiance(probe, {1, 0, 0}, 1.4);
-  EXPECT_NEAR(open[0], testing::even_irradiance(1.4), 3e-4);
+  EXPECT_NEAR(open[0], test_support::even_irradiance(1.4), 3e-4);
 }
 
 // An L: a floor and a wall so high and wide that it takes half of the sky from the floor's foot.
@@ -67,7 +67,7 @@ TEST(EnvironmentLight, WallTakesItsPartOfTheSky) {
   const RayScene scene(mesh);
   const PatchMesh patches(mesh, 4.0);
   const ProbeTree probe(
-      testing::even_probe(ProbeProjection::kEquirectangular, 512, 256, {1, 1, 1}));
+      test_support::even_probe(ProbeProjection::kEquirectangular, 512, 256, {1, 1, 1}));
   const auto light = illuminate(patches, scene, probe, 1.0);
   double worst = 0.0;
   double sum = 0.0;

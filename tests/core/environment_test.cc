@@ -23,7 +23,7 @@ TEST(Environment, ForwardAndUpTurnTheProbe) {
 }
 
 TEST(Environment, RadianceTowardIsThatOfThePixel) {
-  Environment probe = testing::even_probe(ProbeProjection::kEquirectangular, 8, 4, {1, 2, 3});
+  Environment probe = test_support::even_probe(ProbeProjection::kEquirectangular, 8, 4, {1, 2, 3});
   probe.radiance[3 * (1 * 8 + 6) + 1] = 7.0F;  // row 1 (above the horizon), right of the centre
   const Eigen::Vector3d d = ProbeMap(ProbeProjection::kEquirectangular, 8, 4).direction(6.5, 1.5);
   EXPECT_EQ(probe.radiance_toward(d)[1], 7.0F);

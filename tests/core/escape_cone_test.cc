@@ -30,7 +30,7 @@ TEST(EscapeCone, IsTheMeanOverDirections) {
     const EscapeCone cone(eta);
     for (double cos_axis : {0.0, 0.11, 0.43, 0.9}) {
       const double sin_axis = std::sqrt(1.0 - cos_axis * cos_axis);
-      testing::BlockMean sr;
+      test_support::BlockMean sr;
       for (int i = 0; i < 400'000; ++i) {
         const double z = random.uniform();
         const double x =
@@ -39,7 +39,7 @@ TEST(EscapeCone, IsTheMeanOverDirections) {
         sr.add(in ? 2.0 * std::numbers::pi * z * fresnel_transmittance(eta, z) : 0.0);
       }
       const double c = cone.transmitting_sr(cos_axis);
-      EXPECT_NEAR(c, sr.mean(), testing::kSigmas * sr.std_error() + 1e-3 * c);
+      EXPECT_NEAR(c, sr.mean(), test_support::kSigmas * sr.std_error() + 1e-3 * c);
     }
   }
 }

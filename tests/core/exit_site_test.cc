@@ -12,7 +12,7 @@ namespace {
 // The points stand for the samples: mean and covariance are theirs, on slanted patches too, and a
 // patch that is sampled evenly keeps its own points.
 TEST(ExitSite, SamplesKeepTheirMoments) {
-  const PatchMesh patches(testing::make_cube(), 3.0);
+  const PatchMesh patches(test_support::make_cube(), 3.0);
   std::mt19937 random(12);
   std::uniform_real_distribution<double> uniform;
   for (int k = 0; k < patches.size(); k += 7) {

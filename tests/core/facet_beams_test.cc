@@ -13,20 +13,20 @@
 namespace scattermeter {
 namespace {
 
-struct Case {
+struct BeamCase {
   TriangleMesh mesh;
   Eigen::Vector3d camera;
   double eta;
 };
 
-std::vector<Case> cases() {
-  TriangleMesh slivers = testing::make_bumps(10, 0.3, 3);
+std::vector<BeamCase> cases() {
+  TriangleMesh slivers = test_support::make_bumps(10, 0.3, 3);
   for (Eigen::Vector3d& v : slivers.vertices_mm) v.z() *= 0.02;
-  const TriangleMesh bumps = testing::make_bumps(10, 0.4, 4);
-  std::vector<Case> all;
+  const TriangleMesh bumps = test_support::make_bumps(10, 0.4, 4);
+  std::vector<BeamCase> all;
   for (double eta : {1.0, 1.3, 1.8}) {
-    all.push_back({testing::make_sphere(10, 3), {0, -100, 150}, eta});
-    all.push_back({testing::make_cube(), {15, -30, 25}, eta});
+    all.push_back({test_support::make_sphere(10, 3), {0, -100, 150}, eta});
+    all.push_back({test_support::make_cube(), {15, -30, 25}, eta});
     all.push_back({bumps, {11, 11, 9}, eta});
     all.push_back({bumps, {0, 3e4, 1e5}, eta});
     all.push_back({slivers, {12, -8, 2}, eta});
@@ -39,7 +39,7 @@ std::vector<Case> cases() {
 // not as the tree bounds it.
 TEST(FacetBeams, HoldWhatIsPutInto) {
   RandomStream random(2, 0);
-  for (const Case& c : cases()) {
+  for (const BeamCase& c : cases()) {
     const FacetBeams beams(c.mesh, c.camera, c.eta);
     ASSERT_GT(beams.facets().size(), 0U);
     for (int i = 0; i < 20'000; ++i) {
@@ -68,7 +68,7 @@ TEST(FacetBeams, HoldWhatIsPutInto) {
 
 // Few candidates are false, and none comes twice.
 TEST(FacetBeams, GiveFewCandidates) {
-  const TriangleMesh mesh = testing::make_sphere(10, 5);
+  const TriangleMesh mesh = test_support::make_sphere(10, 5);
   const FacetBeams beams(mesh, {0, -100, 150}, 1.3);
   RandomStream random(3, 0);
   int candidates = 0;
@@ -90,7 +90,7 @@ TEST(FacetBeams, GiveFewCandidates) {
 }
 
 TEST(FacetBeams, RefuseASparserInside) {
-  EXPECT_THROW(FacetBeams(testing::make_cube(), {0, 0, 50}, 0.9), std::invalid_argument);
+  EXPECT_THROW(FacetBeams(test_support::make_cube(), {0, 0, 50}, 0.9), std::invalid_argument);
 }
 
 }  // namespace

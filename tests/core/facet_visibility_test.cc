@@ -46,13 +46,13 @@ void expect_seen(const TriangleMesh& mesh, const Eigen::Vector3d& camera, double
 }
 
 TEST(FacetVisibility, NothingHidesAConvexBodysFacets) {
-  expect_seen(testing::make_sphere(10, 4), {0, -100, 150}, 0.85);
-  expect_seen(testing::make_sphere(10, 4), {1e4, 0, 0}, 0.85);
-  expect_seen(cut_finer(testing::make_cube(), 3), {0, -100, 150}, 0.5);
+  expect_seen(test_support::make_sphere(10, 4), {0, -100, 150}, 0.85);
+  expect_seen(test_support::make_sphere(10, 4), {1e4, 0, 0}, 0.85);
+  expect_seen(cut_finer(test_support::make_cube(), 3), {0, -100, 150}, 0.5);
 }
 
 TEST(FacetVisibility, NeverCallsAHiddenFacetSeen) {
-  const TriangleMesh bumps = testing::make_bumps(10, 0.4, 5);
+  const TriangleMesh bumps = test_support::make_bumps(10, 0.4, 5);
   for (const Eigen::Vector3d& camera :
        {Eigen::Vector3d(0, -100, 150), Eigen::Vector3d(25, 0, 5), Eigen::Vector3d(-3, 4000, 0)}) {
     expect_seen(bumps, camera, 0.3);
@@ -60,7 +60,7 @@ TEST(FacetVisibility, NeverCallsAHiddenFacetSeen) {
 }
 
 TEST(FacetVisibility, LeavesAllToRaysFromNearby) {
-  const std::vector<bool> seen = surely_seen(testing::make_sphere(10, 3), {0, 0, 10.5});
+  const std::vector<bool> seen = surely_seen(test_support::make_sphere(10, 3), {0, 0, 10.5});
   EXPECT_EQ(std::count(seen.begin(), seen.end(), true), 0);
 }
 

@@ -18,7 +18,7 @@ class TiltedLight : public ::testing::Test {
  protected:
   DenseSystem system(unsigned seed, double tilt_x, double tilt_y) {
     const Eigen::VectorXd clean = l_ + tilt_x * columns_.col(0) + tilt_y * columns_.col(1);
-    DenseSystem s = testing::noisy_system(weights_, clean, 0.01, seed);
+    DenseSystem s = test_support::noisy_system(weights_, clean, 0.01, seed);
     s.nuisances = {{"tilt x", 0.05, true}, {"tilt y", 0.05, true}};
     s.nuisance_columns = columns_;
     return s;
@@ -31,7 +31,7 @@ class TiltedLight : public ::testing::Test {
           l_[static_cast<Eigen::Index>(j)] * Eigen::RowVector2d(c.x() / 15.0, c.y() / 3.0);
     }
   }
-  testing::HalfLitPlate plate_{1.0};
+  test_support::HalfLitPlate plate_{1.0};
   DistanceKnots knots_ = plate_.knots();
   WeightMatrix weights_ = plate_.weights(knots_);
   Eigen::VectorXd l_ = plate_.image(Dipole({1.2, 0.004, 1.3}));

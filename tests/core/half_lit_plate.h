@@ -12,7 +12,7 @@
 #include "tests/core/boxes.h"
 #include "tests/core/noisy_system.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 // The top of a 30 x 30 x 10 mm plate lit evenly where x > 0 (1 W/mm^2 behind the surface). l at a
 // point of the top is the integral over the lit rectangle x 0..15, y -15..15 in polar coordinates
@@ -122,4 +122,4 @@ class HalfLitPlate {
   std::vector<int> rows_;
 };
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

@@ -32,7 +32,7 @@ TEST(HenyeyGreenstein, SamplesWhatItSays) {
     const HenyeyGreenstein phase(g);
     RandomStream random(4, 0);
     const Eigen::Vector3d before = Eigen::Vector3d(0.3, -0.5, -0.8).normalized();
-    testing::BlockMean p1, p2, across;
+    test_support::BlockMean p1, p2, across;
     for (int i = 0; i < 50'000; ++i) {
       const Eigen::Vector3d after = phase.sample(before, random);
       ASSERT_NEAR(after.norm(), 1.0, 1e-14);
@@ -41,9 +41,9 @@ TEST(HenyeyGreenstein, SamplesWhatItSays) {
       p2.add(1.5 * c * c - 0.5);
       across.add(after.dot(before.unitOrthogonal()));
     }
-    EXPECT_LT(std::abs(p1.z(g)), testing::kSigmas) << g;
-    EXPECT_LT(std::abs(p2.z(g * g)), testing::kSigmas) << g;
-    EXPECT_LT(std::abs(across.z(0.0)), testing::kSigmas) << g;
+    EXPECT_LT(std::abs(p1.z(g)), test_support::kSigmas) << g;
+    EXPECT_LT(std::abs(p2.z(g * g)), test_support::kSigmas) << g;
+    EXPECT_LT(std::abs(across.z(0.0)), test_support::kSigmas) << g;
   }
 }
 

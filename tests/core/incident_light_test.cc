@@ -12,7 +12,7 @@
 namespace scattermeter {
 namespace {
 
-using testing::total;
+using test_support::total;
 
 // Without a boundary (eta 1) the power that enters a convex body is the intensity times the solid
 // angle it fills. A square of half-width a at distance h on the axis fills 4 asin(a^2 / (a^2 +
@@ -22,7 +22,7 @@ TEST(IncidentLight, PowerIsIntensityTimesSolidAngle) {
   led.position_mm = {0, 0, 60};
   led.axis = {0, 0, -1};
   led.exponent = 0;
-  const TriangleMesh plate = testing::make_box({-10, -10, -1}, {10, 10, 0});
+  const TriangleMesh plate = test_support::make_box({-10, -10, -1}, {10, 10, 0});
   const RayScene scene(plate);
   const IncidentLight light = illuminate(PatchMesh(plate, 0.5), scene, led, 1.0);
   const double solid_angle = 4.0 * std::asin(100.0 / (100.0 + 3600.0));
@@ -32,10 +32,10 @@ TEST(IncidentLight, PowerIsIntensityTimesSolidAngle) {
 
 // A convex body throws no shadow on itself: no rays, and the light that rays would give.
 TEST(IncidentLight, CastsNoRaysOnAConvexBody) {
-  const TriangleMesh cube = testing::make_cube();
+  const TriangleMesh cube = test_support::make_cube();
   // With a crumb far behind, the scene is two bodies and not convex.
   TriangleMesh with_crumb = cube;
-  const TriangleMesh crumb = testing::make_box({0, 0, -100}, {0.1, 0.1, -99.9});
+  const TriangleMesh crumb = test_support::make_box({0, 0, -100}, {0.1, 0.1, -99.9});
   const auto first = static_cast<int>(cube.vertices_mm.size());
   for (const Eigen::Vector3d& v : crumb.vertices_mm) with_crumb.vertices_mm.push_back(v);
   for (const auto& t : crumb.triangles) {
@@ -56,7 +56,7 @@ TEST(IncidentLight, CastsNoRaysOnAConvexBody) {
   EXPECT_EQ(b.shadow_rays_skipped, 0U);
   EXPECT_EQ(a.patch_power_sr, b.patch_power_sr);
   // A convex body beside the patches' own is no reason to skip: it may stand in the light.
-  const RayScene other(testing::make_box({5, -40, 15}, {25, -20, 60}));
+  const RayScene other(test_support::make_box({5, -40, 15}, {25, -20, 60}));
   EXPECT_TRUE(other.convex());
   const IncidentLight shaded = illuminate(patches, other, led, 1.4);
   EXPECT_EQ(shaded.shadow_rays_skipped, 0U);
@@ -69,7 +69,7 @@ TEST(IncidentLight, DoesNotDependOnThePatchSize) {
   led.position_mm = {30, -60, 80};
   led.axis = Eigen::Vector3d(-30, 60, -70).normalized();
   led.exponent = 1.5;
-  const TriangleMesh mesh = testing::make_cube();
+  const TriangleMesh mesh = test_support::make_cube();
   const RayScene scene(mesh);
   const double coarse = total(illuminate(PatchMesh(mesh, 0.8), scene, led, 1.4));
   const double fine = total(illuminate(PatchMesh(mesh, 0.2), scene, led, 1.4));
@@ -130,7 +130,7 @@ TEST(IncidentLight, ShadowEdgeCutsPatchesAtTheRightPlace) {
 TEST(IncidentLight, NothingOnTheFarSide) {
   Led led;
   led.position_mm = {0, 0, 100};
-  const TriangleMesh mesh = testing::make_cube();
+  const TriangleMesh mesh = test_support::make_cube();
   const PatchMesh patches(mesh, 1.0);
   const IncidentLight light = illuminate(patches, RayScene(mesh), led, 1.3);
   for (int k = 0; k < patches.size(); ++k) {

@@ -9,6 +9,8 @@
 namespace scattermeter {
 namespace {
 
+using L = long double;
+
 // n-th Taylor coefficient along a line that meets the direction to the pole at cos, times
 // rho^(n + 2c + 1) exp(y): psi_(c+q) (x tau - tau^2/2)^q / q!, the psi by their recurrence.
 double derivative_along(int c, int n, double y, double cosine) {
@@ -101,7 +103,6 @@ long double psi(int c, long double kappa, long double rho) {
 // What the series of a single point leaves out, in every direction and at every distance that a
 // reach covers, is below what the tables say, of every degree: against the function itself.
 TEST(KernelBounds, RestsAreBelowTheirBound) {
-  using L = long double;
   constexpr double kKappa = 0.3, kPoles[] = {0.4, 1.5};
   const std::vector<KernelDipole> media = {{kPoles[0], kPoles[1], kKappa}};
   const KernelBounds bounds(media);

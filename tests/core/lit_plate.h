@@ -16,7 +16,7 @@
 #include "core/numerics.h"
 #include "tests/core/boxes.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 struct Rectangle {
   double x0 = -15, x1 = 15, y0 = -15, y1 = 15;  // mm
@@ -195,4 +195,4 @@ inline bool is_wrong(const Estimate& e, const Medium& truth) {
           is_wrong(e.sigma_a_per_mm, truth.sigma_a_per_mm, 0.05 * truth.sigma_a_per_mm + 1e-5));
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

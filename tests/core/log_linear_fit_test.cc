@@ -7,15 +7,15 @@
 namespace scattermeter {
 namespace {
 
-struct Case {
+struct CurveCase {
   Eigen::MatrixXd kernel, basis;
   Eigen::VectorXd data;
   LogLinearProblem problem() const { return {kernel, data, basis, Eigen::MatrixXd(0, 3)}; }
 };
 
 // log r = theta_0 - theta_1 x - theta_2 x^2 on x = 0 .. 1, seen through a random positive kernel.
-Case seen(const Eigen::Vector3d& truth) {
-  Case c;
+CurveCase seen(const Eigen::Vector3d& truth) {
+  CurveCase c;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform;
   c.kernel.resize(30, 20);
@@ -29,7 +29,7 @@ Case seen(const Eigen::Vector3d& truth) {
 
 TEST(LogLinearFit, FindsTheTruthFromAfar) {
   const Eigen::Vector3d truth(1.0, 3.0, 0.5);
-  const Case c = seen(truth);
+  const CurveCase c = seen(truth);
   const LogLinearFit fit = fit_log_linear(c.problem(), Eigen::Vector3d(-4.0, 0.1, 6.0));
   EXPECT_TRUE(fit.converged);
   EXPECT_LT(fit.chi2, 1e-5);
@@ -38,7 +38,7 @@ TEST(LogLinearFit, FindsTheTruthFromAfar) {
 
 // The best within the bounds: on the bound the gradient points outwards, elsewhere it vanishes.
 TEST(LogLinearFit, StopsAtTheBound) {
-  const Case c = seen({1.0, 3.0, -1.0});
+  const CurveCase c = seen({1.0, 3.0, -1.0});
   const LogLinearFit fit = fit_log_linear(c.problem(), Eigen::Vector3d(0.0, 1.0, 1.0));
   EXPECT_TRUE(fit.converged);
   EXPECT_EQ(fit.theta[2], 0.0);
@@ -51,7 +51,7 @@ TEST(LogLinearFit, StopsAtTheBound) {
 
 // What nothing tells stays finite.
 TEST(LogLinearFit, SurvivesAKernelThatSaysNothing) {
-  Case c = seen({1.0, 3.0, 0.5});
+  CurveCase c = seen({1.0, 3.0, 0.5});
   c.kernel.setZero();
   const LogLinearFit fit = fit_log_linear(c.problem(), Eigen::Vector3d(1.0, 1.0, 1.0));
   EXPECT_TRUE(fit.theta.allFinite());

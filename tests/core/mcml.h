@@ -11,7 +11,7 @@
 
 #include "core/scattering_medium.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 struct McmlCase {
   const char* name;
@@ -42,4 +42,4 @@ inline std::vector<double> mcml_ring_power(const McmlCase& c, std::string& path)
   return power;
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

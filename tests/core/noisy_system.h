@@ -6,7 +6,7 @@
 
 #include "core/linear_shot.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 // A system of one shot with independent normal noise of relative size `noise` of each l (and a
 // floor of noise times a hundredth of the largest).
@@ -22,4 +22,4 @@ inline DenseSystem noisy_system(const WeightMatrix& weights, const Eigen::Vector
   return system;
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

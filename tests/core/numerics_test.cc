@@ -7,7 +7,7 @@
 namespace scattermeter {
 namespace {
 
-using testing::plate;
+using test_support::plate;
 
 TEST(Numerics, RowsErrFromTheirPatchAgainstTheMeanFreePath) {
   EXPECT_DOUBLE_EQ(row_numerics(0.4, 0.4), 1e-4);

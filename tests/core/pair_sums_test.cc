@@ -49,22 +49,22 @@ double half_plane(const Dipole& dipole, double x, double rho_max) {
   return sum;
 }
 
-struct Case {
+struct PairCase {
   double patch_mm;
   double z_r_mm;
 };
 
-class PairSums : public ::testing::TestWithParam<Case> {};
+class PairSums : public ::testing::TestWithParam<PairCase> {};
 
 // A plate, lit on one side of a straight edge; sites across the edge. The truth is a quadrature
 // that shares nothing with the patches. z_r from a fifth of the patch to five patches.
 TEST_P(PairSums, AgreeWithPolarQuadratureAcrossAShadowEdge) {
-  const Case c = GetParam();
+  const PairCase c = GetParam();
   const double sigma_t = 1.0 / c.z_r_mm;
   // sigma_tr = 10 per 20 mm: the plate's far border holds less than exp(-10) of the light.
   const double sigma_a = 0.25 / (3.0 * sigma_t);
   const Dipole dipole({sigma_t - sigma_a, sigma_a, 1.3});
-  const PatchMesh patches(testing::make_box({-24, -24, -2}, {24, 24, 0}), c.patch_mm);
+  const PatchMesh patches(test_support::make_box({-24, -24, -2}, {24, 24, 0}), c.patch_mm);
   const SourceCloud sources(half_lit_top(patches, 0.0), {0, 0, 0});
   const DistanceKnots knots(c.z_r_mm, 70.0);
   std::vector<ExitSite> sites;
@@ -91,8 +91,9 @@ TEST_P(PairSums, AgreeWithPolarQuadratureAcrossAShadowEdge) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, PairSums,
-                         ::testing::Values(Case{0.5, 0.1}, Case{0.5, 0.46}, Case{0.5, 2.0},
-                                           Case{0.25, 0.46}, Case{1.0, 0.46}));
+                         ::testing::Values(PairCase{0.5, 0.1}, PairCase{0.5, 0.46},
+                                           PairCase{0.5, 2.0}, PairCase{0.25, 0.46},
+                                           PairCase{1.0, 0.46}));
 
 // ∫ R E dA over a lit triangle from a point, E straight from the LED: cut to an eighth of the
 // distance, seven-point rule of degree 5 at the leaves.
@@ -125,12 +126,12 @@ double adaptive(const std::array<Eigen::Vector3d, 3>& t, const Eigen::Vector3d& 
 // The whole forward model of a cube under an LED against quadrature that shares no discretisation
 // with it: mean error (what biases an estimate) and rms.
 TEST(PairSumsForward, CubeUnderAnLedMeetsAdaptiveQuadrature) {
-  const TriangleMesh mesh = testing::make_cube();
+  const TriangleMesh mesh = test_support::make_cube();
   const RayScene scene(mesh);
   Led led;
   led.position_mm = {30, -60, 80};
   led.axis = Eigen::Vector3d(-30, 60, -70).normalized();
-  for (const Case c : {Case{0.5, 0.46}, Case{1.0, 1.6}}) {
+  for (const PairCase c : {PairCase{0.5, 0.46}, PairCase{1.0, 1.6}}) {
     const Dipole dipole({1.0 / c.z_r_mm - 0.002, 0.002, 1.49});
     const PatchMesh patches(mesh, c.patch_mm);
     const SourceCloud sources(illuminate(patches, scene, led, 1.49), {0, 0, 10});
@@ -171,7 +172,7 @@ TEST(PairSumsForward, CubeUnderAnLedMeetsAdaptiveQuadrature) {
 // A patch as site is the mean of point sites spread evenly over it.
 TEST(PairSumsSite, PatchIsTheMeanOfItsPoints) {
   const Dipole dipole({2.0, 0.01, 1.3});
-  const PatchMesh patches(testing::make_cube(), 0.7);
+  const PatchMesh patches(test_support::make_cube(), 0.7);
   const SourceCloud sources(half_lit_top(patches, 0.0), {0, 0, 10});
   const DistanceKnots knots(0.05, 40.0);
   PairSumOptions options;
@@ -206,7 +207,7 @@ TEST(PairSumsSite, PatchIsTheMeanOfItsPoints) {
 
 // The power binned is the power that entered, whatever the distances and the bins.
 TEST(PairSumsSite, ConservesPower) {
-  const PatchMesh patches(testing::make_cube(), 1.0);
+  const PatchMesh patches(test_support::make_cube(), 1.0);
   const IncidentLight light = half_lit_top(patches, 3.0);
   double power = 0.0;
   for (const LitTriangle& t : light.lit) power += patches.area_mm2(t.patch_idx);

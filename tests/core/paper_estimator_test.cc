@@ -17,7 +17,7 @@ namespace {
 // A system that is exactly W r for r on the grid: the pseudo-inverse gives r back and the grid its
 // point.
 TEST(PaperEstimator, FindsTheGridPointOfItsOwnImage) {
-  const testing::HalfLitPlate plate(1.0);
+  const test_support::HalfLitPlate plate(1.0);
   const double width = 1.5;  // wide enough for W to be well conditioned
   const UniformBins bins(width, 43.0);
   DenseSystem system;
@@ -52,7 +52,7 @@ TEST(PaperEstimator, PseudoInverseIsTheMinimumNormSolution) {
 // is the paper's instability (here 1.33 or so at 0.2 mm for a truth of 2.19) and is not held to
 // anything.
 TEST(PaperEstimator, RecoveredReflectanceExplainsAnImageFromOutside) {
-  const testing::HalfLitPlate plate(0.5);
+  const test_support::HalfLitPlate plate(0.5);
   const Eigen::VectorXd l = plate.image(Dipole({2.19, 0.002, 1.3}));
   std::vector<PaperAnswer> answers;
   for (double width : {0.2, 0.5}) {
@@ -61,7 +61,7 @@ TEST(PaperEstimator, RecoveredReflectanceExplainsAnImageFromOutside) {
     options.floor_mm = 0.05;
     const WeightMatrix w =
         uniform_weights(plate.sites(), SourceCloud(plate.light(), {0, 0, 0}), bins, options);
-    answers.push_back(solve_paper(testing::noisy_system(w, l, 0.0, 1), width, 1.3));
+    answers.push_back(solve_paper(test_support::noisy_system(w, l, 0.0, 1), width, 1.3));
     EXPECT_LT((w * answers.back().r - l).norm(), 0.02 * width * l.norm());
     EXPECT_LE(answers.back().sigma_s_prime_per_mm, 3.0 + 1e-9);
     EXPECT_LE(answers.back().sigma_a_per_mm, 0.010 + 1e-9);

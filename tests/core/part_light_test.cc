@@ -9,26 +9,26 @@
 namespace scattermeter {
 namespace {
 
-constexpr Eigen::Index kRows = 512;
+constexpr Eigen::Index kLightRows = 512;
 
 ShotParts parts_of(const Eigen::VectorXd& l) {
   std::vector<Eigen::Vector3d> center;
   std::vector<double> area;
-  for (Eigen::Index j = 0; j < kRows; ++j) {
+  for (Eigen::Index j = 0; j < kLightRows; ++j) {
     center.emplace_back(static_cast<double>(j), 0.0, 0.0);
     area.push_back(1.0 + 0.5 * static_cast<double>(j % 3));
   }
-  return ShotParts({kRows}, center, area, l);
+  return ShotParts({kLightRows}, center, area, l);
 }
 
 // Light and derivatives of its logarithm that run smoothly along x.
 ScatteringImage image(double slope, double s, double a) {
   ScatteringImage m;
-  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(kRows, 0.0, 1.0);
+  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(kLightRows, 0.0, 1.0);
   m.l = (-slope * x).exp();
   m.per_log_sigma_s = m.l.array() * s * (1.0 + x);
   m.per_sigma_a = -m.l.array() * a * (2.0 - x);
-  m.variance = Eigen::VectorXd::Zero(kRows);
+  m.variance = Eigen::VectorXd::Zero(kLightRows);
   return m;
 }
 
@@ -88,9 +88,9 @@ TEST(PartLight, CellsErrTogether) {
   const Eigen::MatrixXd alike = correlated_rows(parts, truth.l, many.cells_alike(parts));
   const Eigen::MatrixXd rows = alike * alike.transpose();
   EXPECT_NEAR(rows(0, 0), truth.l[0] * truth.l[0] * many.cells_alike(parts)(0, 0), 1e-9);
-  EXPECT_NEAR(rows(0, kRows - 1),
-              truth.l[0] * truth.l[kRows - 1] *
-                  many.cells_alike(parts)(parts.cell_of_row(0), parts.cell_of_row(kRows - 1)),
+  EXPECT_NEAR(rows(0, kLightRows - 1),
+              truth.l[0] * truth.l[kLightRows - 1] *
+                  many.cells_alike(parts)(parts.cell_of_row(0), parts.cell_of_row(kLightRows - 1)),
               1e-9);
   many.forget();
   EXPECT_EQ(many.blocks(), 0.0);

@@ -14,7 +14,7 @@ namespace {
 
 TEST(PatchMesh, KeepsAreaAndBounds) {
   for (double size : {0.3, 0.77, 5.0, 100.0}) {
-    const TriangleMesh mesh = testing::make_pyramid(8, 13);
+    const TriangleMesh mesh = test_support::make_pyramid(8, 13);
     const PatchMesh patches(mesh, size);
     double area = 0.0, expected = 0.0;
     for (int k = 0; k < patches.size(); ++k) {
@@ -29,7 +29,7 @@ TEST(PatchMesh, KeepsAreaAndBounds) {
 
 // Needles keep to the limits and do not explode: bisection leaves about 3^n of them for n halvings.
 TEST(PatchMesh, CutsNeedlesWithinBounds) {
-  const PatchMesh patches(testing::make_box({0, 0, 0}, {100, 0.5, 0.5}), 0.5);
+  const PatchMesh patches(test_support::make_box({0, 0, 0}, {100, 0.5, 0.5}), 0.5);
   for (int k = 0; k < patches.size(); ++k)
     EXPECT_LE(longest_edge_mm(patches.corners_mm(k)), 1.25 + 1e-12);
   EXPECT_LT(patches.size(), 20'000);
@@ -37,7 +37,7 @@ TEST(PatchMesh, CutsNeedlesWithinBounds) {
 
 // The patch found for a point holds it, and the barycentric weights give the point back.
 TEST(PatchMesh, LocatesPoints) {
-  const TriangleMesh mesh = testing::make_cube();
+  const TriangleMesh mesh = test_support::make_cube();
   const PatchMesh patches(mesh, 0.6);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform;
@@ -63,7 +63,7 @@ TEST(PatchMesh, LocatesPoints) {
 }
 
 TEST(PatchMesh, PatchesKeepTheFacetsNormal) {
-  const PatchMesh patches(testing::make_cube(), 1.0);
+  const PatchMesh patches(test_support::make_cube(), 1.0);
   for (int k = 0; k < patches.size(); ++k) {
     const auto c = patches.corners_mm(k);
     const Eigen::Vector3d n = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
@@ -72,9 +72,9 @@ TEST(PatchMesh, PatchesKeepTheFacetsNormal) {
 }
 
 TEST(PatchMesh, RefusesSizesThatMakeNoSense) {
-  EXPECT_THROW(PatchMesh(testing::make_cube(), 0.0), std::invalid_argument);
-  EXPECT_THROW(PatchMesh(testing::make_cube(), -1.0), std::invalid_argument);
-  EXPECT_THROW(PatchMesh(testing::make_cube(), 0.1, 1000), std::length_error);
+  EXPECT_THROW(PatchMesh(test_support::make_cube(), 0.0), std::invalid_argument);
+  EXPECT_THROW(PatchMesh(test_support::make_cube(), -1.0), std::invalid_argument);
+  EXPECT_THROW(PatchMesh(test_support::make_cube(), 0.1, 1000), std::length_error);
 }
 
 }  // namespace

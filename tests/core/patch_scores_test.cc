@@ -11,7 +11,7 @@ namespace scattermeter {
 namespace {
 
 struct World {
-  RayScene scene{testing::make_cube()};
+  RayScene scene{test_support::make_cube()};
   PathBoundary boundary{scene};
   ScatteringMedium medium{1.0, 0.02, 0.0, 1.3};
   std::unique_ptr<EntrySource> source =
@@ -45,7 +45,7 @@ TEST(PatchScores, StatesItsCovariance) {
   const PatchScores a = world.run(0, 40), b = world.run(40, 80);
   EXPECT_EQ(a.blocks, 40);
   EXPECT_NEAR(a.audit.entered, 1.0, 1e-9);
-  testing::BlockMean chi2;
+  test_support::BlockMean chi2;
   for (std::size_t k = 0; k < a.mean.size(); ++k) {
     if (!(a.mean[k][0] > 0.0)) continue;
     for (int i = 0; i < 3; ++i) {

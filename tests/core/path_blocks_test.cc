@@ -101,7 +101,7 @@ struct Sums {
 
 // The same digits for any number of threads, and of peers.
 TEST(PathBlocks, DigitsDoNotDependOnThreadsOrPeers) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   const PathBoundary boundary(scene);
   const ScatteringMedium medium{1.0, 0.02, 0.2, 1.3};
   Led led;

@@ -44,19 +44,19 @@ void expect_tight(const TriangleMesh& mesh, PathBoundary::Method method,
 
 TEST(PathBoundary, IsTight) {
   using Method = PathBoundary::Method;
-  const TriangleMesh cube = testing::make_cube();
+  const TriangleMesh cube = test_support::make_cube();
   expect_tight(cube, Method::kAuto, {1, 2, 10});
   expect_tight(cube, Method::kRays, {1, 2, 10});
   expect_tight(cut_finer(cube, 4), Method::kRays, {1, 2, 10});
-  expect_tight(testing::make_sphere(10, 4), Method::kAuto, {1, 2, 3});
-  expect_tight(testing::make_pyramid(8, 13), Method::kRays, {0.1, 0.2, 1});
+  expect_tight(test_support::make_sphere(10, 4), Method::kAuto, {1, 2, 3});
+  expect_tight(test_support::make_pyramid(8, 13), Method::kRays, {0.1, 0.2, 1});
 }
 
 // From places within a float's rounding of edges and corners, in all directions: as after a
 // reflection there.
 TEST(PathBoundary, IsTightBesideEdges) {
   for (const auto method : {PathBoundary::Method::kAuto, PathBoundary::Method::kRays}) {
-    const RayScene scene(cut_finer(testing::make_cube(), 2));
+    const RayScene scene(cut_finer(test_support::make_cube(), 2));
     const PathBoundary boundary(scene, method);
     RandomStream random(8, 0);
     for (int i = 0; i < 100'000; ++i) {
@@ -91,7 +91,7 @@ TEST(PathBoundary, IsTightBesideEdges) {
 // Steps inside, and what they leave of the clearance.
 TEST(PathBoundary, KeepsABoundOfTheDistance) {
   for (const auto method : {PathBoundary::Method::kAuto, PathBoundary::Method::kRays}) {
-    const RayScene scene(testing::make_cube());
+    const RayScene scene(test_support::make_cube());
     const PathBoundary boundary(scene, method);
     RandomStream random(9, 0);
     Eigen::Vector3d x(0, 0, 10);
@@ -116,7 +116,7 @@ TEST(PathBoundary, KeepsABoundOfTheDistance) {
 // A box with a cross-shaped pit is not convex: what leaves through one wall of the pit comes in by
 // the other.
 TEST(PathBoundary, FindsWhereLightEntersAgain) {
-  TriangleMesh bowl = testing::make_cube();
+  TriangleMesh bowl = test_support::make_cube();
   bowl.vertices_mm.emplace_back(0, 0, 12);
   bowl.triangles.erase(bowl.triangles.begin() + 2, bowl.triangles.begin() + 4);
   for (const auto& [a, b] : {std::pair{4, 5}, {5, 7}, {7, 6}, {6, 4}}) {

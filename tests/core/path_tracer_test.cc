@@ -22,7 +22,7 @@ struct Escapes {
 
 struct Result {
   PathAudit audit;
-  testing::BlockMean up, perturbed;
+  test_support::BlockMean up, perturbed;
 };
 
 Result run(const TriangleMesh& mesh, const ScatteringMedium& medium, const EntrySource& source,
@@ -50,9 +50,9 @@ Result run(const TriangleMesh& mesh, const ScatteringMedium& medium, const Entry
 // Van de Hulst: slab of n 1, mu_a 10/cm, mu_s 90/cm, g 0.75, 0.02 cm: R 0.09739, T 0.66096.
 TEST(PathTracer, MeetsVanDeHulst) {
   const auto source = beam_entry({});
-  const Result r = run(testing::make_box({-10, -10, -0.2}, {10, 10, 0}), {9.0, 1.0, 0.75, 1.0},
+  const Result r = run(test_support::make_box({-10, -10, -0.2}, {10, 10, 0}), {9.0, 1.0, 0.75, 1.0},
                        *source, 100, 2000);
-  EXPECT_LT(std::abs(r.up.z(0.09739)), testing::kSigmas) << r.up.mean();
+  EXPECT_LT(std::abs(r.up.z(0.09739)), test_support::kSigmas) << r.up.mean();
   EXPECT_LT(r.up.std_error(), 6e-4);
 }
 
@@ -60,12 +60,12 @@ TEST(PathTracer, MeetsVanDeHulst) {
 // with 0.0400 of it specular. Chandrasekhar's H-function: n 1, albedo 0.9 and 0.99.
 TEST(PathTracer, MeetsHalfSpaces) {
   const auto source = beam_entry({});
-  const TriangleMesh box = testing::make_box({-200, -200, -200}, {200, 200, 0});
+  const TriangleMesh box = test_support::make_box({-200, -200, -200}, {200, 200, 0});
   const Result giovanelli = run(box, {0.9, 0.1, 0.0, 1.5}, *source, 100, 1000);
-  EXPECT_LT(std::abs(giovanelli.up.z((0.2600 - 0.0400) / 0.96)), testing::kSigmas);
+  EXPECT_LT(std::abs(giovanelli.up.z((0.2600 - 0.0400) / 0.96)), test_support::kSigmas);
   EXPECT_LT(giovanelli.up.std_error(), 1.5e-3);
   const Result h90 = run(box, {0.9, 0.1, 0.0, 1.0}, *source, 100, 1000);
-  EXPECT_LT(std::abs(h90.up.z(0.414947)), testing::kSigmas);
+  EXPECT_LT(std::abs(h90.up.z(0.414947)), test_support::kSigmas);
   EXPECT_LT(h90.up.std_error(), 1.5e-3);
 }
 
@@ -74,7 +74,7 @@ TEST(PathTracer, MeetsHalfSpaces) {
 TEST(PathTracer, FineTrianglesChangeNothing) {
   const auto source = beam_entry({{-9, -9, 20}, {18, 0, 0}, {0, 18, 0}, {0, 0, -1}});
   const ScatteringMedium medium{0.8, 0.004, 0.3, 1.3};
-  const TriangleMesh cube = testing::make_cube();
+  const TriangleMesh cube = test_support::make_cube();
   const Result coarse = run(cube, medium, *source, 20, 200);
   const Result fine =
       run(cut_finer(cube, 6), medium, *source, 20, 200, PathBoundary::Method::kRays);
@@ -87,7 +87,7 @@ TEST(PathTracer, FineTrianglesChangeNothing) {
 
 // Without absorption all that enters leaves, also from a body that is entered again.
 TEST(PathTracer, LosesNothing) {
-  TriangleMesh bowl = testing::make_cube();
+  TriangleMesh bowl = test_support::make_cube();
   bowl.vertices_mm.emplace_back(0, 0, 3);
   bowl.triangles.erase(bowl.triangles.begin() + 2, bowl.triangles.begin() + 4);
   for (const auto& [a, b] : {std::pair{4, 5}, {5, 7}, {7, 6}, {6, 4}}) {
@@ -103,11 +103,11 @@ TEST(PathTracer, LosesNothing) {
 // sigma_a 5 % of sigma_s up, against paths of that material.
 TEST(PathTracer, TellsWhatPerturbationNeeds) {
   const auto source = beam_entry({{-9, -9, 20}, {18, 0, 0}, {0, 18, 0}, {0, 0, -1}});
-  const Result base = run(testing::make_cube(), {1.0, 0.02, 0.5, 1.3}, *source, 60, 500);
-  const Result there = run(testing::make_cube(), {1.1, 0.07, 0.5, 1.3}, *source, 60, 500);
+  const Result base = run(test_support::make_cube(), {1.0, 0.02, 0.5, 1.3}, *source, 60, 500);
+  const Result there = run(test_support::make_cube(), {1.1, 0.07, 0.5, 1.3}, *source, 60, 500);
   const double there_mean = there.audit.escaped / 60;
   const double error = std::hypot(base.perturbed.std_error(), there.up.std_error());
-  EXPECT_LT(std::abs(base.perturbed.mean() - there_mean), testing::kSigmas * error);
+  EXPECT_LT(std::abs(base.perturbed.mean() - there_mean), test_support::kSigmas * error);
   EXPECT_LT(error, 0.03 * there_mean);
 }
 

@@ -6,7 +6,7 @@
 
 #include "core/sample_map.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 // width x height pixels of focal length f_px from `from` towards `at`, world z up in the picture.
 inline RayGrid pinhole_rays(const Eigen::Vector3d& from, const Eigen::Vector3d& at, double f_px,
@@ -28,4 +28,4 @@ inline RayGrid pinhole_rays(const Eigen::Vector3d& from, const Eigen::Vector3d& 
   return grid;
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

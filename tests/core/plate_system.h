@@ -7,7 +7,7 @@
 #include "core/medium.h"
 #include "tests/core/half_lit_plate.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 inline constexpr double kEta = 1.3;  // of image()
 
@@ -28,4 +28,4 @@ inline const PlateSystem& plate() {
   return p;
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

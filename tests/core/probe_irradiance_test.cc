@@ -33,11 +33,11 @@ TEST(ProbeIrradiance, EvenProbeHasAClosedForm) {
        {ProbeProjection::kEquirectangular, ProbeProjection::kAngularMap,
         ProbeProjection::kMirrorBall}) {
     for (const auto& [w, h] : {std::pair{64, 32}, {45, 45}, {300, 200}}) {
-      Environment probe = testing::even_probe(projection, w, h, {1, 2, 0});
+      Environment probe = test_support::even_probe(projection, w, h, {1, 2, 0});
       probe.world_from_probe = world_from_probe(random_direction(random), random_direction(random));
       const ProbeTree tree(probe);
       for (const double eta : {1.0, 1.3, 1.5}) {
-        const double expected = testing::even_irradiance(eta);
+        const double expected = test_support::even_irradiance(eta);
         if (eta == 1.0) {
           EXPECT_NEAR(expected, std::numbers::pi, 1e-6);
         }
@@ -115,7 +115,7 @@ TEST(ProbeIrradiance, RotationConserves) {
 // At random points before a pyramid, seen from a tilted facet as well.
 TEST(ProbeIrradiance, BehindAnOccluderEqualsBruteForce) {
   const ProbeTree tree(make_sky_probe());
-  const TriangleMesh mesh = testing::make_pyramid(5.0, 12.0);
+  const TriangleMesh mesh = test_support::make_pyramid(5.0, 12.0);
   const RayScene scene(mesh);
   const TransmittedCosine transmitted(1.45);
   ProbeIrradiance irradiance(tree, &scene, transmitted, 1e-4);

@@ -17,7 +17,7 @@ TEST(ProbeTree, FluxIsConserved) {
   for (const ProbeProjection projection :
        {ProbeProjection::kEquirectangular, ProbeProjection::kAngularMap,
         ProbeProjection::kMirrorBall}) {
-    const ProbeTree tree(testing::even_probe(projection, 50, 37, {1, 2, 0}));
+    const ProbeTree tree(test_support::even_probe(projection, 50, 37, {1, 2, 0}));
     EXPECT_TRUE(tree.bright().empty());
     EXPECT_NEAR(tree.sky_flux()[0], 4.0 * std::numbers::pi, 1e-5);
     EXPECT_NEAR(tree.sky_flux()[1], 8.0 * std::numbers::pi, 1e-5);
@@ -47,7 +47,7 @@ TEST(ProbeTree, SetsTheSunApart) {
 }
 
 TEST(ProbeTree, PartsOfAPixelMakeThePixel) {
-  const ProbeTree tree(testing::even_probe(ProbeProjection::kAngularMap, 100, 100, {1, 1, 1}));
+  const ProbeTree tree(test_support::even_probe(ProbeProjection::kAngularMap, 100, 100, {1, 1, 1}));
   const ProbeCell pixel{0, 64, 37};
   ProbeLight sum;
   for (const ProbeCell& child : children(pixel)) sum += tree.sky(child);
@@ -56,7 +56,7 @@ TEST(ProbeTree, PartsOfAPixelMakeThePixel) {
 }
 
 TEST(ProbeTree, RefusesWhatIsNoProbe) {
-  Environment probe = testing::even_probe(ProbeProjection::kEquirectangular, 4, 2, {1, 1, 1});
+  Environment probe = test_support::even_probe(ProbeProjection::kEquirectangular, 4, 2, {1, 1, 1});
   probe.radiance[5] = -1.0F;
   EXPECT_THROW(ProbeTree{probe}, std::invalid_argument);
 }

@@ -7,7 +7,7 @@
 #include "core/environment.h"
 #include "core/fresnel.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 // The same radiance everywhere.
 inline Environment even_probe(ProbeProjection projection, int width, int height,
@@ -34,4 +34,4 @@ inline double even_irradiance(double eta) {
   return 2.0 * std::numbers::pi * sum / kSteps;
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

@@ -14,9 +14,9 @@ namespace scattermeter {
 namespace {
 
 using Coefficient = DipoleSolver::Coefficient;
-using testing::kEta;
-using testing::noisy_system;
-using testing::plate;
+using test_support::kEta;
+using test_support::noisy_system;
+using test_support::plate;
 
 constexpr double kRise95 = 3.841;
 

@@ -12,8 +12,8 @@
 namespace scattermeter {
 namespace {
 
-using testing::HalfLitPlate;
-using testing::noisy_system;
+using test_support::HalfLitPlate;
+using test_support::noisy_system;
 
 WeightMatrix on_uniform_knots(const HalfLitPlate& plate, double width_mm) {
   PairSumOptions options;

@@ -26,7 +26,7 @@ TEST(RandomStream, SeedAndStreamDecideTheNumbers) {
 // Squared radius even over (0, 1), not correlated with the angle.
 TEST(RandomStream, DiscIsEven) {
   RandomStream random(3, 0);
-  testing::BlockMean r2, r4, x, xr2;
+  test_support::BlockMean r2, r4, x, xr2;
   for (int i = 0; i < 100'000; ++i) {
     const RandomStream::DiscPoint p = random.disc();
     r2.add(p.r2);
@@ -34,10 +34,10 @@ TEST(RandomStream, DiscIsEven) {
     x.add(p.x);
     xr2.add(p.x * p.r2);
   }
-  EXPECT_LT(std::abs(r2.z(0.5)), testing::kSigmas);
-  EXPECT_LT(std::abs(r4.z(1.0 / 3.0)), testing::kSigmas);
-  EXPECT_LT(std::abs(x.z(0.0)), testing::kSigmas);
-  EXPECT_LT(std::abs(xr2.z(0.0)), testing::kSigmas);
+  EXPECT_LT(std::abs(r2.z(0.5)), test_support::kSigmas);
+  EXPECT_LT(std::abs(r4.z(1.0 / 3.0)), test_support::kSigmas);
+  EXPECT_LT(std::abs(x.z(0.0)), test_support::kSigmas);
+  EXPECT_LT(std::abs(xr2.z(0.0)), test_support::kSigmas);
 }
 
 }  // namespace

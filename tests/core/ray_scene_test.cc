@@ -16,7 +16,7 @@ namespace {
 TEST(RayScene, HitsTheBoxWhereTheSlabTestSays) {
   for (const Eigen::Vector3d& offset :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1e6, -2e5, 3e5)}) {
-    TriangleMesh cube = testing::make_cube();
+    TriangleMesh cube = test_support::make_cube();
     for (auto& v : cube.vertices_mm) v += offset;
     const RayScene scene(cube);
     std::mt19937 random(5);
@@ -46,7 +46,7 @@ TEST(RayScene, HitsTheBoxWhereTheSlabTestSays) {
 
 // Rays aimed exactly at edges and corners find no gap.
 TEST(RayScene, HasNoGapsAtEdges) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   std::mt19937 random(6);
   std::uniform_real_distribution<double> t(-10.0, 10.0);
   for (int i = 0; i < 2000; ++i) {
@@ -61,7 +61,7 @@ TEST(RayScene, HasNoGapsAtEdges) {
 
 // Side by side rays meet what each meets by itself, also those through edges and beside the object.
 TEST(RayScene, ManyRaysAreTheSame) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   const Eigen::Vector3d from(33, -170, 90);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> x(-12.0, 12.0);
@@ -93,7 +93,7 @@ TEST(RayScene, ManyRaysAreTheSame) {
 }
 
 TEST(RayScene, MissesWhatIsBeside) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   EXPECT_EQ(scene.first_hit({0, 0, 100}, {0, 0, 1}).facet_idx, -1);
   EXPECT_EQ(scene.first_hit({10.01, 0, 100}, {0, 0, -1}).facet_idx, -1);
 }
@@ -102,7 +102,7 @@ TEST(RayScene, ShadowOfAPyramidOnItsPedestal) {
   // A wall beside a floor in one body: an L from two boxes' outline is not needed, a pyramid's own
   // far side is dark, its near side lit, and a convex body never shadows a facet that faces the
   // light.
-  const TriangleMesh mesh = testing::make_pyramid(8, 13);
+  const TriangleMesh mesh = test_support::make_pyramid(8, 13);
   const RayScene scene(mesh);
   const Eigen::Vector3d led(40, 0, 30);
   for (int f = 0; f < 6; ++f) {
@@ -117,7 +117,7 @@ TEST(RayScene, ShadowOfAPyramidOnItsPedestal) {
 }
 
 TEST(RayScene, KnowsInsideFromOutside) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   EXPECT_TRUE(scene.contains({0, 0, 10}));
   EXPECT_TRUE(scene.contains({9.99, 9.99, 0.01}));
   EXPECT_FALSE(scene.contains({10.01, 0, 10}));

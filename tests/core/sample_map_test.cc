@@ -15,10 +15,10 @@ namespace {
 
 class CubeView : public ::testing::Test {
  protected:
-  TriangleMesh mesh_ = testing::make_cube();
+  TriangleMesh mesh_ = test_support::make_cube();
   RayScene scene_{mesh_};
   PatchMesh patches_{mesh_, 1.0};
-  RayGrid rays_ = testing::pinhole_rays({40, -90, 120}, {0, 0, 10}, 2200.0, 520, 520);
+  RayGrid rays_ = test_support::pinhole_rays({40, -90, 120}, {0, 0, 10}, 2200.0, 520, 520);
 };
 
 // Whole patches inside a face are seen with a coverage of 1, up to the jitter of the pixel grid.
@@ -109,7 +109,7 @@ TEST_F(CubeView, GuardKeepsOffEdges) {
 }
 
 TEST_F(CubeView, SeesNothingWhereThereIsNothing) {
-  const RayGrid away = testing::pinhole_rays({40, -90, 120}, {90, -190, 230}, 2200.0, 40, 40);
+  const RayGrid away = test_support::pinhole_rays({40, -90, 120}, {90, -190, 230}, 2200.0, 40, 40);
   const SampleMap map = map_samples(away, scene_, patches_, 1.3);
   EXPECT_TRUE(map.patch_of_row.empty());
   EXPECT_EQ(map.samples_on_object, 0U);

@@ -10,22 +10,22 @@
 namespace scattermeter {
 namespace {
 
-constexpr Eigen::Index kRows = 200;
+constexpr Eigen::Index kEquationRows = 200;
 
 // A made-up image of two coefficients with exact derivatives, not linear in them.
 ScatteringImage image_of(double s, double a) {
   ScatteringImage m;
-  m.l.resize(kRows);
-  m.per_log_sigma_s.resize(kRows);
-  m.per_sigma_a.resize(kRows);
-  for (Eigen::Index j = 0; j < kRows; ++j) {
-    const double x = 0.05 + static_cast<double>(j) / kRows;
+  m.l.resize(kEquationRows);
+  m.per_log_sigma_s.resize(kEquationRows);
+  m.per_sigma_a.resize(kEquationRows);
+  for (Eigen::Index j = 0; j < kEquationRows; ++j) {
+    const double x = 0.05 + static_cast<double>(j) / kEquationRows;
     const double l = std::pow(s, 0.3 + 0.4 * x) * std::exp(-a * (3.0 + 40.0 * x * x));
     m.l[j] = l;
     m.per_log_sigma_s[j] = (0.3 + 0.4 * x) * l;
     m.per_sigma_a[j] = -(3.0 + 40.0 * x * x) * l;
   }
-  m.variance = Eigen::VectorXd::Constant(kRows, 1e-8);
+  m.variance = Eigen::VectorXd::Constant(kEquationRows, 1e-8);
   return m;
 }
 
@@ -79,7 +79,7 @@ TEST(ScatteringEquation, DeviationsAreAsStated) {
   for (int i = 0; i < kDraws; ++i) {
     DenseSystem system = system_of(truth.l, noise);
     ScatteringImage m = truth;
-    for (Eigen::Index j = 0; j < kRows; ++j) {
+    for (Eigen::Index j = 0; j < kEquationRows; ++j) {
       system.l[j] += noise * normal(random);
       m.l[j] += paths * normal(random);
     }
@@ -136,8 +136,8 @@ TEST(ScatteringEquation, Residual) {
   const ScatteringImage there = image_of(2.004, 0.01001);
   EXPECT_LT((equation.residual(truth, at, beside) - (truth.l - 1.001 * there.l)).norm(),
             0.005 * (truth.l - 1.001 * there.l).norm());
-  Eigen::VectorXd wave(kRows);
-  for (Eigen::Index j = 0; j < kRows; ++j) wave[j] = std::sin(0.1 * static_cast<double>(j));
+  Eigen::VectorXd wave(kEquationRows);
+  for (Eigen::Index j = 0; j < kEquationRows; ++j) wave[j] = std::sin(0.1 * static_cast<double>(j));
   system.nuisances = {{"wave", 1.0, true}};
   system.nuisance_columns = wave;
   const ScatteringEquation wavy(system, {0.0}, quiet, at);
@@ -151,7 +151,8 @@ TEST(ScatteringEquation, Pushes) {
   const ScatteringImage truth = image_of(2.0, 0.01);
   DenseSystem system = system_of(truth.l, 1e-3);
   system.nuisances = {{"tilt", 0.02, true}};
-  system.nuisance_columns = truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kRows, -1.0, 1.0));
+  system.nuisance_columns =
+      truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kEquationRows, -1.0, 1.0));
   const ScatteringPoint at{2.0, 0.01, 1.0};
   const ScatteringEquation equation(system, {0.02}, truth, at);
   ASSERT_EQ(equation.projection().rows(), 2);  // a scale with a prior is a nuisance
@@ -176,8 +177,9 @@ TEST(ScatteringEquation, CorrelatedErrors) {
   const ScatteringImage truth = image_of(2.0, 0.01);
   const DenseSystem system = system_of(truth.l, 1e-4);
   const ScatteringPoint at{2.0, 0.01, 1.0};
-  Eigen::MatrixXd alike(kRows, 2);
-  alike << 0.02 * truth.l, 0.02 * truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kRows, -1, 1));
+  Eigen::MatrixXd alike(kEquationRows, 2);
+  alike << 0.02 * truth.l,
+      0.02 * truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kEquationRows, -1, 1));
   const auto std_of = [&](const ScatteringEquation& e) {
     const Eigen::MatrixXd p = e.projection() * alike;
     return std::sqrt(e.step(truth, p * p.transpose(), at).covariance(1, 1));
@@ -227,13 +229,13 @@ TEST(ScatteringEquation, DoubtsAScale) {
         const double drawn = off + prior * normal(random);
         DenseSystem system = system_of(std::exp(drawn) * truth.l, kNoise);
         ScatteringImage m = truth;
-        for (Eigen::Index j = 0; j < kRows; ++j) {
+        for (Eigen::Index j = 0; j < kEquationRows; ++j) {
           system.l[j] += kNoise * normal(random);
           m.l[j] += kPaths * normal(random);
         }
         const ScatteringEquation equation(system, {prior}, pilot, at);
         const Eigen::RowVectorXd& form = equation.scale_form();
-        ASSERT_EQ(form.size(), kRows);
+        ASSERT_EQ(form.size(), kEquationRows);
         EXPECT_NEAR(form.dot(pilot.l), 1.0, 1e-9);
         EXPECT_NEAR(form.dot(pilot.per_log_sigma_s), 0.0, 1e-8);
         EXPECT_NEAR(form.dot(pilot.per_sigma_a), 0.0, 1e-6);

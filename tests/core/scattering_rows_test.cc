@@ -13,8 +13,8 @@ namespace scattermeter {
 namespace {
 
 // A small box under an LED, every patch a row.
-struct Scene {
-  TriangleMesh mesh = testing::make_box({-2, -2, 0}, {2, 2, 3});
+struct RowsScene {
+  TriangleMesh mesh = test_support::make_box({-2, -2, 0}, {2, 2, 3});
   RayScene rays{mesh};
   PathBoundary boundary{rays};
   PatchMesh patches{mesh, 1.0};
@@ -22,7 +22,7 @@ struct Scene {
   ScatteringView view;
   std::unique_ptr<EntrySource> source;
   PathOptions options;
-  Scene() {
+  RowsScene() {
     led.position_mm = {30, -60, 80};
     led.axis = Eigen::Vector3d(-0.3, 0.6, -0.7).normalized();
     source = led_entry(rays, led, 1.3);
@@ -43,7 +43,7 @@ struct Scene {
 
 // The rows' means times their areas are what the patches' scores add up to.
 TEST(ScatteringRows, AreThePatchesScores) {
-  const Scene s;
+  const RowsScene s;
   const ScatteringMedium medium{1.0, 0.05, 0.0, 1.3};
   const ScatteringImage image = s.sum(medium, 3, 20).image();
   const CameraConnection camera(s.boundary, {0, -100, 150}, medium);
@@ -67,7 +67,7 @@ TEST(ScatteringRows, AreThePatchesScores) {
 
 // Blocks traced in two calls are those of one.
 TEST(ScatteringRows, GoOn) {
-  const Scene s;
+  const RowsScene s;
   const ScatteringMedium medium{1.0, 0.05, 0.0, 1.3};
   const ScatteringSum once = s.sum(medium, 5, 12);
   ScatteringSum twice = s.sum(medium, 5, 7);
@@ -85,7 +85,7 @@ TEST(ScatteringRows, GoOn) {
 // Derivatives of the light toward the camera against differences of independent simulations, to
 // four standard errors of those.
 TEST(ScatteringRows, DerivativesAreThoseOfTheMedium) {
-  const Scene s;
+  const RowsScene s;
   constexpr int kBlocks = 150;
   const auto total = [&](const ScatteringMedium& m, std::uint64_t seed) {
     const ScatteringSum sum = s.sum(m, seed, kBlocks);

@@ -15,11 +15,11 @@ namespace {
 // Covered pixels add up to the silhouette's area, finer than whole pixels would.
 TEST(ShadeMap, CoverageIsTheSilhouettesArea) {
   // Straight from above the top face (z 20) of the cube: a square of 20 mm at 180 mm.
-  const TriangleMesh mesh = testing::make_cube();
+  const TriangleMesh mesh = test_support::make_cube();
   const RayScene scene(mesh);
   const PatchMesh patches(mesh, 2.0);
   // A little off the axis, so that only the top is seen but edges do not fall on pixel borders.
-  const RayGrid rays = testing::pinhole_rays({0.01, 0.02, 200}, {0, 0, 0}, 653.7, 120, 120);
+  const RayGrid rays = test_support::pinhole_rays({0.01, 0.02, 200}, {0, 0, 0}, 653.7, 120, 120);
   const ShadeMap map(rays, scene, patches, 1.3);
   double area_px = 0.0;
   for (int y = 0; y < 120; ++y) {
@@ -32,10 +32,10 @@ TEST(ShadeMap, CoverageIsTheSilhouettesArea) {
 // A field of 1 W/mm^2 everywhere: radiance Ft / pi inside, in proportion to the coverage at the
 // rim.
 TEST(ShadeMap, RadianceOfAnEvenField) {
-  const TriangleMesh mesh = testing::make_cube();
+  const TriangleMesh mesh = test_support::make_cube();
   const RayScene scene(mesh);
   const PatchMesh patches(mesh, 2.0);
-  const RayGrid rays = testing::pinhole_rays({40, -90, 120}, {0, 0, 10}, 400.0, 110, 110);
+  const RayGrid rays = test_support::pinhole_rays({40, -90, 120}, {0, 0, 10}, 400.0, 110, 110);
   const ShadeMap map(rays, scene, patches, 1.4);
   SurfaceField field(patches, map.needed_patches(patches.size()));
   field.add(std::vector<Eigen::Array3d>(field.nodes_mm().size(), Eigen::Array3d::Ones()));

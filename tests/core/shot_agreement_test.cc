@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -11,15 +10,15 @@
 
 #include "core/dipole_curve.h"
 #include "core/dipole_fit.h"
+#include "tests/core/free_scale.h"
 #include "tests/core/plate_system.h"
 
 namespace scattermeter {
 namespace {
 
-using testing::kEta;
-using testing::plate;
-
-const double kFree = std::numeric_limits<double>::infinity();
+using test_support::kEta;
+using test_support::kFree;
+using test_support::plate;
 
 // Shots of these media, with noise of 1 % a row, one below the other. Two nuisances move them all:
 // a tilt of the light along x that is fitted, and one in y that is not.

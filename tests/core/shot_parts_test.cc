@@ -8,12 +8,12 @@ namespace scattermeter {
 namespace {
 
 // Two shots of a 32 x 16 grid each, brighter to the right.
-struct Shots {
+struct PartShots {
   std::vector<Eigen::Index> rows = {512, 512};
   std::vector<Eigen::Vector3d> center;
   std::vector<double> area;
   Eigen::VectorXd l{1024};
-  Shots() {
+  PartShots() {
     for (int shot = 0; shot < 2; ++shot) {
       for (int i = 0; i < 32; ++i) {
         for (int j = 0; j < 16; ++j) {
@@ -27,7 +27,7 @@ struct Shots {
 };
 
 TEST(ShotParts, RelativeLight) {
-  const Shots s;
+  const PartShots s;
   const ShotParts parts(s.rows, s.center, s.area, s.l, {2, 96.0, 2, 10});
   EXPECT_EQ(parts.n_parts(), 8);
   EXPECT_EQ(parts.n_cells(), 32);
@@ -56,7 +56,7 @@ TEST(ShotParts, RelativeLight) {
 
 // No part and no cell holds rows of two shots; many shots have fewer parts each.
 TEST(ShotParts, KeepShotsApart) {
-  const Shots s;
+  const PartShots s;
   const ShotParts parts(s.rows, s.center, s.area, s.l);
   for (Eigen::Index j = 0; j < 1024; ++j) {
     EXPECT_EQ(parts.part_of_row(j) < parts.n_parts() / 2, j < 512);

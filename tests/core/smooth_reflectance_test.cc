@@ -18,8 +18,8 @@
 namespace scattermeter {
 namespace {
 
-using testing::noisy_system;
-using testing::plate;
+using test_support::noisy_system;
+using test_support::plate;
 
 // A material: a weighted sum of dipoles.
 struct Kernel {

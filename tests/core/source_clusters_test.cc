@@ -9,16 +9,16 @@
 namespace scattermeter {
 namespace {
 
-struct Points {
+struct WeightedPoints {
   std::vector<Eigen::Vector3d> at;
   std::vector<double> weight;
 };
 
 // On a tilted plane, or in space.
-Points random_points(std::size_t n, bool planar) {
+WeightedPoints random_points(std::size_t n, bool planar) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  Points p;
+  WeightedPoints p;
   for (std::size_t i = 0; i < n; ++i) {
     const double x = uniform(random), y = uniform(random), z = uniform(random);
     p.at.emplace_back(5.0 + x, y, planar ? 0.5 * x - 0.25 * y : z);
@@ -28,7 +28,7 @@ Points random_points(std::size_t n, bool planar) {
 }
 
 TEST(SourceClusters, LeavesHoldEveryPointAndClustersTheirMembers) {
-  const Points p = random_points(1000, false);
+  const WeightedPoints p = random_points(1000, false);
   const SourceClusters tree(p.at, p.weight);
   EXPECT_EQ(tree.size(), 900U);
   EXPECT_EQ(tree.left_out(), 100U);
@@ -69,7 +69,7 @@ TEST(SourceClusters, LeavesHoldEveryPointAndClustersTheirMembers) {
 // At a distance of several radii the series of degree 8 is the sum over the points.
 TEST(SourceClusters, SeriesIsTheSumOverThePoints) {
   for (const bool planar : {true, false}) {
-    const Points p = random_points(400, planar);
+    const WeightedPoints p = random_points(400, planar);
     const SourceClusters tree(p.at, p.weight);
     const KernelDipole dipole{0.4, 1.5, 0.3};
     int clusters = 0;

@@ -7,7 +7,7 @@
 
 #include "core/triangle_mesh.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 // A sphere about the origin: an octahedron cut finer, its vertices moved onto the sphere;
 // 8 * 4^levels triangles.
@@ -21,4 +21,4 @@ inline TriangleMesh make_sphere(double radius_mm, int levels) {
   return mesh;
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

@@ -3,7 +3,7 @@
 
 #include "core/incident_light.h"
 
-namespace scattermeter::testing {
+namespace scattermeter::test_support {
 
 inline double total(const IncidentLight& light) {
   double sum = 0.0;
@@ -11,4 +11,4 @@ inline double total(const IncidentLight& light) {
   return sum;
 }
 
-}  // namespace scattermeter::testing
+}  // namespace scattermeter::test_support

@@ -17,7 +17,7 @@
 namespace scattermeter {
 namespace {
 
-using testing::kMcmlBinMm;
+using test_support::kMcmlBinMm;
 
 // What leaves through the face at z = 0, by rings of a bin's width, and what perturbation needs.
 struct Rings {
@@ -39,7 +39,7 @@ struct Rings {
 class HalfSpace {
  public:
   HalfSpace()
-      : scene_(testing::make_box({-300, -300, -300}, {300, 300, 0})),
+      : scene_(test_support::make_box({-300, -300, -300}, {300, 300, 0})),
         boundary_(scene_),
         source_(beam_entry({})) {}
 
@@ -105,9 +105,9 @@ ScatteringImage dipole_rings(const ScatteringPoint& at, double eta, double enter
 // of full weight. The search starts a third off in both.
 TEST(TransportShot, FindsMcmlsMedia) {
   const HalfSpace half_space;
-  for (const testing::McmlCase& c : testing::kMcmlCases) {
+  for (const test_support::McmlCase& c : test_support::kMcmlCases) {
     std::string path;
-    const std::vector<double> power = testing::mcml_ring_power(c, path);
+    const std::vector<double> power = test_support::mcml_ring_power(c, path);
     if (power.empty()) GTEST_SKIP() << path << " is not there; set SCATTERMETER_SHARED";
     ASSERT_GT(power.size(), 50U);
     const auto bins = static_cast<Eigen::Index>(power.size());

@@ -19,11 +19,11 @@ namespace scattermeter {
 namespace {
 
 // Escapes through the face at z = 0 by distance from the z axis, and through all.
-struct Rings {
+struct EscapeRings {
   std::vector<double> edges_mm;
   std::vector<double> power;
   double up = 0, rest = 0;
-  explicit Rings(std::vector<double> edges)
+  explicit EscapeRings(std::vector<double> edges)
       : edges_mm(std::move(edges)), power(edges_mm.size() + 1, 0.0) {}
   void escape(const PathScore& s) {
     if (s.point_mm.z() < -1e-9) {
@@ -39,24 +39,25 @@ struct Rings {
 };
 
 struct RingMeans {
-  testing::BlockMean up, rest, absorbed;
-  std::vector<testing::BlockMean> power;
+  test_support::BlockMean up, rest, absorbed;
+  std::vector<test_support::BlockMean> power;
 };
 
 RingMeans pencil(const Eigen::Vector3d& size_mm, const ScatteringMedium& medium,
                  const std::vector<double>& edges_mm, int blocks, int paths_per_block) {
   const Eigen::Vector3d half = 0.5 * size_mm;
   const RayScene scene(
-      testing::make_box({-half.x(), -half.y(), -size_mm.z()}, {half.x(), half.y(), 0}));
+      test_support::make_box({-half.x(), -half.y(), -size_mm.z()}, {half.x(), half.y(), 0}));
   const PathBoundary boundary(scene);
   const auto source = beam_entry({});
   PathOptions options;
   options.paths_per_block = paths_per_block;
   RingMeans out;
   out.power.resize(edges_mm.size() + 1);
-  trace_blocks<Rings>(
-      {boundary, medium, *source, nullptr}, options, 0, blocks, [&] { return Rings(edges_mm); },
-      [&](const Rings& s, const PathAudit& audit) {
+  trace_blocks<EscapeRings>(
+      {boundary, medium, *source, nullptr}, options, 0, blocks,
+      [&] { return EscapeRings(edges_mm); },
+      [&](const EscapeRings& s, const PathAudit& audit) {
         EXPECT_EQ(audit.lost_paths, 0);
         out.up.add(s.up);
         out.rest.add(s.rest);
@@ -71,9 +72,9 @@ RingMeans pencil(const Eigen::Vector3d& size_mm, const ScatteringMedium& medium,
 TEST(TransportTruth, Slab) {
   const RingMeans r = pencil({1200, 1200, 20}, {2.19, 0.002, 0.0, 1.3}, {}, 200, 2000);
   const double entered = 1.0 - 0.01701;
-  EXPECT_LT(std::abs(r.up.z((0.87699 - 0.01701) / entered)), testing::kSigmas) << r.up.mean();
-  EXPECT_LT(std::abs(r.rest.z(0.02301 / entered)), testing::kSigmas) << r.rest.mean();
-  EXPECT_LT(std::abs(r.absorbed.z(0.10173)), testing::kSigmas) << r.absorbed.mean();
+  EXPECT_LT(std::abs(r.up.z((0.87699 - 0.01701) / entered)), test_support::kSigmas) << r.up.mean();
+  EXPECT_LT(std::abs(r.rest.z(0.02301 / entered)), test_support::kSigmas) << r.rest.mean();
+  EXPECT_LT(std::abs(r.absorbed.z(0.10173)), test_support::kSigmas) << r.absorbed.mean();
   EXPECT_LT(r.up.std_error(), 5e-4);
 }
 
@@ -81,25 +82,25 @@ TEST(TransportTruth, Slab) {
 // tests.
 TEST(TransportTruth, HalfSpaces) {
   const RingMeans h = pencil({600, 600, 300}, {0.99, 0.01, 0.0, 1.0}, {}, 200, 5000);
-  EXPECT_LT(std::abs(h.up.z(0.752721)), testing::kSigmas) << h.up.mean();
+  EXPECT_LT(std::abs(h.up.z(0.752721)), test_support::kSigmas) << h.up.mean();
   EXPECT_LT(h.up.std_error(), 4e-4);
   const RingMeans g = pencil({600, 600, 300}, {0.9, 0.1, 0.0, 1.5}, {}, 200, 5000);
   // The literature gives four digits.
-  EXPECT_LT(std::abs(g.up.mean() - 0.22 / 0.96), testing::kSigmas * g.up.std_error() + 5e-5);
+  EXPECT_LT(std::abs(g.up.mean() - 0.22 / 0.96), test_support::kSigmas * g.up.std_error() + 5e-5);
   EXPECT_LT(g.up.std_error(), 4e-4);
 }
 
 // MCML's radial profiles, added up over rings. MCML's own error: at most that of as many packets of
 // full weight.
 TEST(TransportTruth, MeetsMcml) {
-  for (const testing::McmlCase& c : testing::kMcmlCases) {
+  for (const test_support::McmlCase& c : test_support::kMcmlCases) {
     std::string path;
-    const std::vector<double> power = testing::mcml_ring_power(c, path);
+    const std::vector<double> power = test_support::mcml_ring_power(c, path);
     if (power.empty()) GTEST_SKIP() << path << " is not there; set SCATTERMETER_SHARED";
     const std::vector<double> edges = {0.2, 0.6, 1.0, 2.0, 4.0, 8.0};
     std::vector<double> expected(edges.size(), 0.0);
     for (std::size_t i = 0; i < power.size(); ++i) {
-      const double r = (static_cast<double>(i) + 0.5) * testing::kMcmlBinMm;
+      const double r = (static_cast<double>(i) + 0.5) * test_support::kMcmlBinMm;
       if (r > edges.back()) break;
       expected[static_cast<std::size_t>(std::upper_bound(edges.begin(), edges.end(), r) -
                                         edges.begin())] += power[i];
@@ -109,7 +110,7 @@ TEST(TransportTruth, MeetsMcml) {
       const double mean = (1.0 - c.specular) * m.power[i].mean();
       const double error = std::hypot((1.0 - c.specular) * m.power[i].std_error(),
                                       std::sqrt(expected[i] / c.photons));
-      EXPECT_LT(std::abs(mean - expected[i]), testing::kSigmas * error)
+      EXPECT_LT(std::abs(mean - expected[i]), test_support::kSigmas * error)
           << c.name << " to " << edges[i] << " mm: " << mean << ", MCML " << expected[i];
       EXPECT_LT(error, 0.02 * expected[i] + 1e-4);
     }
@@ -135,7 +136,7 @@ TEST(TransportTruth, MeetsTheDipoleFarAway) {
       // Measured: 0.92 0.94 0.99 (eta 1), 1.01 0.97 0.98 (eta 1.3).
       const double limit = i == 3 ? 0.03 : 0.10;
       EXPECT_LT(std::abs(m.power[i].mean() - expected),
-                limit * expected + testing::kSigmas * m.power[i].std_error())
+                limit * expected + test_support::kSigmas * m.power[i].std_error())
           << "eta " << eta << ", to " << edges[i] << " mm";
       EXPECT_LT(m.power[i].std_error(), 0.015 * expected);
     }
@@ -154,7 +155,7 @@ struct Faces {
 };
 
 TEST(TransportTruth, Cube) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   const PathBoundary boundary(scene);
   const ScatteringMedium medium{2.19, 0.002, 0.0, 1.3};
   Led led;
@@ -182,7 +183,7 @@ TEST(TransportTruth, Cube) {
   const auto source = led_entry(scene, led, 1.3);
   for (const bool walls : {false, true}) {
     const CameraConnection camera(boundary, {0, -100, 150}, medium, walls ? 2 : 0);
-    testing::BlockMean leaving, scatterings, front, top;
+    test_support::BlockMean leaving, scatterings, front, top;
     trace_blocks<Faces>(
         {boundary, medium, *source, &camera}, {}, 0, 300, [] { return Faces(); },
         [&](const Faces& s, const PathAudit& audit) {
@@ -193,9 +194,9 @@ TEST(TransportTruth, Cube) {
           front.add(s.front);
           top.add(s.top);
         });
-    EXPECT_NEAR(leaving.mean(), 0.958, 5e-4 + testing::kSigmas * leaving.std_error());
+    EXPECT_NEAR(leaving.mean(), 0.958, 5e-4 + test_support::kSigmas * leaving.std_error());
     EXPECT_NEAR(scatterings.mean(), 51.0, 1.0);
-    const auto expect_low = [&](const testing::BlockMean& face, double dipole, double low) {
+    const auto expect_low = [&](const test_support::BlockMean& face, double dipole, double low) {
       const double error = std::hypot(0.003, face.std_error() / face.mean());
       EXPECT_LT(std::abs(dipole / face.mean() - 1.0 + low), 2.0 * error) << "walls " << walls;
       EXPECT_LT(face.std_error(), 0.002 * face.mean());

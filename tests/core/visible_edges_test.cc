@@ -22,7 +22,7 @@ std::map<EdgeKind, double> lengths_mm(const std::vector<EdgePiece>& pieces) {
 // From before and above, x = 0: front and top are seen. Their outline are six edges, they share
 // one.
 TEST(VisibleEdges, OfACube) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   const Eigen::Vector3d eye(0, -100, 150);
   const auto pieces = visible_edges(scene, eye);
   const auto sum = lengths_mm(pieces);
@@ -43,8 +43,8 @@ TEST(VisibleEdges, OfACube) {
 // Coplanar triangles are one facet, and a finer mesh shows the same edges.
 TEST(VisibleEdges, DoNotDependOnTheTriangles) {
   const Eigen::Vector3d eye(40, -100, 150);
-  const auto coarse = visible_edges(RayScene(testing::make_cube()), eye);
-  const auto fine = visible_edges(RayScene(cut_finer(testing::make_cube(), 3)), eye);
+  const auto coarse = visible_edges(RayScene(test_support::make_cube()), eye);
+  const auto fine = visible_edges(RayScene(cut_finer(test_support::make_cube(), 3)), eye);
   EXPECT_NEAR(lengths_mm(coarse).at(EdgeKind::kContour), 120, 1e-9);
   EXPECT_NEAR(lengths_mm(fine).at(EdgeKind::kContour), 120, 1e-9);
   EXPECT_NEAR(lengths_mm(coarse).at(EdgeKind::kCrease), 60, 1e-9);
@@ -57,8 +57,8 @@ TEST(VisibleEdges, DoNotDependOnTheTriangles) {
 // One box before another, as one mesh: where its outline lies before the other it is a step, and
 // what it hides is not there.
 TEST(VisibleEdges, KnowWhatIsBehind) {
-  TriangleMesh mesh = testing::make_box({-20, 10, 0}, {20, 20, 40});
-  const TriangleMesh front = testing::make_box({-5, -20, 0}, {5, -10, 10});
+  TriangleMesh mesh = test_support::make_box({-20, 10, 0}, {20, 20, 40});
+  const TriangleMesh front = test_support::make_box({-5, -20, 0}, {5, -10, 10});
   const auto n = static_cast<int>(mesh.vertices_mm.size());
   mesh.vertices_mm.insert(mesh.vertices_mm.end(), front.vertices_mm.begin(),
                           front.vertices_mm.end());
@@ -73,7 +73,7 @@ TEST(VisibleEdges, KnowWhatIsBehind) {
 }
 
 TEST(VisibleEdges, ClearanceKeepsAwayFromCorners) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   VisibleEdgesOptions options;
   options.clearance_rad = 0.01;  // some 1.8 mm
   const auto sum = lengths_mm(visible_edges(scene, {0, -100, 150}, options));
@@ -83,7 +83,7 @@ TEST(VisibleEdges, ClearanceKeepsAwayFromCorners) {
 
 // The outline of a sphere has the length of its tangent circle.
 TEST(VisibleEdges, OfASmoothBody) {
-  const RayScene scene(testing::make_sphere(10, 4));
+  const RayScene scene(test_support::make_sphere(10, 4));
   const auto sum = lengths_mm(visible_edges(scene, {0, -200, 0}));
   const double circle_mm = 2 * std::numbers::pi * 10 * std::sqrt(1 - 0.05 * 0.05);
   // Edges of the mesh go to and fro about it.
@@ -93,7 +93,7 @@ TEST(VisibleEdges, OfASmoothBody) {
 }
 
 TEST(VisibleEdges, RefuseNonsense) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   EXPECT_THROW(visible_edges(scene, {0, -100, 150}, {.step_rad = 0}), std::invalid_argument);
   EXPECT_THROW(visible_edges(scene, {0, -100, 150}, {.clearance_rad = -1}), std::invalid_argument);
 }

@@ -12,19 +12,19 @@ namespace scattermeter {
 namespace {
 
 TEST(VolumeLight, PartsEndAtFolds) {
-  const TriangleMesh cube = testing::make_cube();
+  const TriangleMesh cube = test_support::make_cube();
   const std::vector<int> parts = smooth_parts(cube);
   for (std::size_t f = 0; f < parts.size(); ++f) {
     for (std::size_t g = 0; g < parts.size(); ++g) {
       EXPECT_EQ(parts[f] == parts[g], f / 2 == g / 2) << f << " " << g;
     }
   }
-  for (int part : smooth_parts(testing::make_sphere(5, 3))) EXPECT_EQ(part, 0);
+  for (int part : smooth_parts(test_support::make_sphere(5, 3))) EXPECT_EQ(part, 0);
 }
 
 // Where a face is lit evenly the field scatters about its mean as the stated error says.
 TEST(VolumeLight, ProjectsTheScores) {
-  const RayScene scene(testing::make_cube());
+  const RayScene scene(test_support::make_cube());
   const PathBoundary boundary(scene);
   const ScatteringMedium medium{2.0, 0.5, 0.0, 1.3};
   const auto source = beam_entry({{-10, -10, 20}, {20, 0, 0}, {0, 20, 0}, {0, 0, -1}});
