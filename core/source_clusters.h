@@ -1,7 +1,6 @@
 // Points with weights as a tree of clusters, each with the moments of its series.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -9,37 +8,21 @@
 
 #include <Eigen/Core>
 
+#include "core/cluster_tree.h"
 #include "core/cluster_verdicts.h"
 #include "core/dipole_kernels.h"
 
 namespace scattermeter {
 
-// A binary tree over points whose weights are > 0; others are left out. Where a plane holds many of
-// a cluster's points these are told from the others; else boxes are halved at their longest side,
-// until kLeaf points are left, or points that coincide. Clusters of more than kLeaf
-// points hold the coefficients of their series (core/dipole_kernels.h) up to the given degree; but
-// not those whose radius is over kLargestShare of the whole's, which rows on the same body are
-// hardly ever far from.
+// A binary tree (core/cluster_tree.h) over points whose weights are > 0; others are left out.
+// Clusters of more than a leaf's points hold the coefficients of their series
+// (core/dipole_kernels.h) up to the given degree; but not those whose radius is over kLargestShare
+// of the whole's, which rows on the same body are hardly ever far from.
 class SourceClusters {
  public:
-  static constexpr std::int32_t kLeaf = 8;
   static constexpr double kLargestShare = 0.4;
-  // Leaves of up to so many points are told about one centre, so that neighbours are summed at
-  // once.
-  static constexpr std::int32_t kBucket = 64;
 
-  struct Node {
-    double center_mm[3];          // centroid of the weight
-    double radius_mm;             // no point is farther from it; 0: all coincide
-    double weight;                // relative to that of all
-    std::array<float, 5> spread;  // mean of (distance / radius)^(kDegrees[i] + 1), rounded up
-    std::int32_t first, last;     // points [first, last)
-    std::int32_t left, right;     // -1: a leaf
-    std::int32_t series;          // place of frame and coefficients; -1: none
-    std::int32_t bucket;          // of leaves: the node about whose centre the points are told
-    std::int32_t plane;           // that splitting found it to lie in; -1: none
-    bool planar;
-  };
+  using Node = ClusterNode;
 
   // Domain: as many weights as points, all finite, weights >= 0 (std::invalid_argument naming the
   // first that is not); largest_degree one of kDegrees. Parallel; the same tree for any number of

@@ -43,8 +43,8 @@ TEST(SourceClusters, LeavesHoldEveryPointAndClustersTheirMembers) {
       const auto& bucket = tree.nodes()[static_cast<std::size_t>(node.bucket)];
       EXPECT_LE(bucket.first, node.first);
       EXPECT_GE(bucket.last, node.last);
-      EXPECT_LE(bucket.last - bucket.first, SourceClusters::kBucket);
-      EXPECT_LE(leaf.count, static_cast<std::size_t>(SourceClusters::kLeaf));
+      EXPECT_LE(bucket.last - bucket.first, ClusterTree::kBucket);
+      EXPECT_LE(leaf.count, static_cast<std::size_t>(ClusterTree::kLeaf));
       points += static_cast<std::int32_t>(leaf.count);
       for (std::size_t i = 0; i < leaf.count; ++i) {
         in_leaves += double(leaf.weight[i]);
