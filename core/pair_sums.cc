@@ -192,7 +192,6 @@ class SourceCloud::Sum {
   }
 
  private:
-  static constexpr int kMost = kPairsAtOnce;
   static constexpr int kClusters = 16;
   using ClusterLanes = Eigen::Array<float, kClusters, 1>;
 
@@ -201,7 +200,7 @@ class SourceCloud::Sum {
     pairs_ = 0;
   }
   void make_room(int pairs) {
-    if (pairs_ + pairs > kMost) flush();
+    if (pairs_ + pairs > kPairsAtOnce) flush();
   }
 
   // The difference of two independent points has the sum of their covariances C = L L^T. The four
@@ -292,7 +291,7 @@ class SourceCloud::Sum {
   std::array<float, ExitSite::kMaxPoints> few_weights_;
   // What waits for the bins: more room than pairs, since whole lanes are written.
   int pairs_ = 0;
-  alignas(16) std::array<float, kMost + kClusters> d2_, power_;
+  alignas(16) std::array<float, kPairsAtOnce + kClusters> d2_, power_;
   // Clusters that wait to be replaced by points.
   int clusters_ = 0;
   ClusterLanes x_ = ClusterLanes::Zero(), y_ = x_, z_ = x_, of_cluster_ = x_, xx_ = x_, xy_ = x_,

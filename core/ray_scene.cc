@@ -6,6 +6,7 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -66,6 +67,18 @@ RayScene::RayScene(const TriangleMesh& mesh)
 
 RayScene::~RayScene() = default;
 
+namespace {
+
+RayHit hit_of(unsigned facet, float u, float v, double distance) {
+  RayHit hit;
+  hit.facet_idx = static_cast<int>(facet);
+  hit.barycentric = {1.0 - double(u) - double(v), double(u), double(v)};
+  hit.distance = distance;
+  return hit;
+}
+
+}  // namespace
+
 RayScene::Start RayScene::start_of(const Eigen::Vector3d& origin_mm,
                                    const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d from_center_mm = origin_mm - center_mm_;
@@ -120,13 +133,8 @@ void RayScene::first_hits(const Eigen::Vector3d& origin_mm,
 #endif
     for (std::size_t i = 0; i < n; ++i) {
       if (valid[i] == 0 || query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      RayHit& hit = hits[first + i];
-      const double u = static_cast<double>(query.hit.u[i]);
-      const double v = static_cast<double>(query.hit.v[i]);
-      hit.facet_idx = static_cast<int>(query.hit.primID[i]);
-      hit.barycentric = {1.0 - u - v, u, v};
-      hit.distance =
-          (starts[i].skip_mm + static_cast<double>(query.ray.tfar[i])) / starts[i].length;
+      hits[first + i] = hit_of(query.hit.primID[i], query.hit.u[i], query.hit.v[i],
+                               (starts[i].skip_mm + double(query.ray.tfar[i])) / starts[i].length);
     }
   }
 }
@@ -158,14 +166,8 @@ RayHit RayScene::hit_between(const Eigen::Vector3d& start_mm, const Eigen::Vecto
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect1(embree_->scene, &context, &query);
 #endif
-  RayHit hit;
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
-  const double u = query.hit.u;
-  const double v = query.hit.v;
-  hit.facet_idx = static_cast<int>(query.hit.primID);
-  hit.barycentric = {1.0 - u - v, u, v};
-  hit.distance = static_cast<double>(query.ray.tfar);
-  return hit;
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return hit_of(query.hit.primID, query.hit.u, query.hit.v, double(query.ray.tfar));
 }
 
 bool RayScene::occluded(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,

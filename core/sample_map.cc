@@ -45,12 +45,11 @@ class Mapper {
       std::vector<RayHit> hits(directions.size());
       scene_.first_hits(rays_.origin_in_world_mm, directions, hits);
       for (std::size_t x = 0; x < hits.size(); ++x) {
-        const Eigen::Vector3d direction = directions[x].cast<double>();
-        const PixelHit hit = pixel_hit(hits[x], patches_, direction);
+        const PixelHit hit = pixel_hit(hits[x], patches_, directions[x].cast<double>());
         if (hit.facet_idx < 0) continue;
-        seen_[index(static_cast<int>(x), y)] = {
-            hit.at.patch_idx, hit.facet_idx, static_cast<float>(hit.distance_mm / direction.norm()),
-            static_cast<float>(hit.cos_theta)};
+        seen_[index(static_cast<int>(x), y)] = {hit.at.patch_idx, hit.facet_idx,
+                                                static_cast<float>(hits[x].distance),
+                                                static_cast<float>(hit.cos_theta)};
       }
     });
   }
@@ -100,7 +99,6 @@ class Mapper {
     return solid_angle * distance_mm * distance_mm / static_cast<double>(seen_[i].cos_theta);
   }
 
- public:
   // Surface point of a sample, world.
   Eigen::Vector3d point(std::size_t i) const {
     return rays_.origin_in_world_mm +

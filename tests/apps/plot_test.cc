@@ -122,8 +122,9 @@ TEST(Plot, ManyAtOnceAreTheSame) {
   const std::vector<Plot> plots = {example(), cells, text, example(), cells};
   const std::vector<std::string> svgs = plot_svgs(plots);
   ASSERT_EQ(svgs.size(), plots.size());
-  for (std::size_t i = 0; i < plots.size(); ++i)
+  for (std::size_t i = 0; i < plots.size(); ++i) {
     EXPECT_EQ(drawn(svgs[i]), drawn(plot_svg(plots[i])));
+  }
   EXPECT_THAT(svgs[2], HasSubstr("&lt;/svg>"));
   EXPECT_TRUE(plot_svgs({}).empty());
   EXPECT_THROW(plot_svgs({example(), Plot{}}), std::invalid_argument);
