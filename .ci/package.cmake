@@ -57,11 +57,9 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME scattermeter)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
-# What is linked is found out; gnuplot, which draws, is run, and OpenCV's imgcodecs opened.
+# dpkg-shlibdeps finds the linked libraries; gnuplot is run as a program to draw plots.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-get_property(imgcodecs GLOBAL PROPERTY SCATTERMETER_IMGCODECS)
-string(REGEX REPLACE "^libopencv_imgcodecs\\.so\\." "libopencv-imgcodecs" imgcodecs ${imgcodecs})
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "gnuplot-nox | gnuplot, ${imgcodecs}")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libscattermeter-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS

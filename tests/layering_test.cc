@@ -1,5 +1,6 @@
-// The table of layers and doors: which folder may include which, and where each foreign library may
-// be named. Fails when an include breaks it, or when the top level grows.
+// The table of arrows and doors: which folder may include which, and which files may name each
+// foreign library. It fails when an include breaks the table, or when a folder grows past its
+// purpose.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -17,135 +18,235 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = SCATTERMETER_SOURCE_DIR;
 
+// Data goes up, includes go down: a folder may include itself and those above it in this list,
+// except where kNever says otherwise.
+const std::vector<std::string> kFolders = {
+    "core/base",      "core/camera",     "core/material",   "core/mesh",      "core/light",
+    "core/view",      "core/sums",       "core/diffusion",  "core/transport", "core/fit",
+    "core/scene",     "core/estimation", "capture/files",   "capture/raw",    "capture/sensor",
+    "capture/shots",  "calib/board",     "calib/pose",      "calib/lens",     "calib/led",
+    "calib/radiance", "apps/rig",        "apps/instrument", "apps/results",   "apps/simulation",
+    "apps/checking",  "apps/planning",   "apps/report",     "apps/export",    "apps/commands",
+    "apps/bench",     "apps/program",
+};
+// Arrows that the order allows and the purpose of the folders forbids.
+const std::vector<std::pair<std::string, std::string>> kNever = {
+    {"apps/report", "apps/export"},
+    {"apps/checking", "apps/simulation"},
+    {"apps/program", "apps/bench"},
+};
+// Files that stand in a folder of these and may be named by nobody else.
+const std::map<std::string, std::string> kOnlyFor = {{"apps/bench/", "apps/bench"},
+                                                     {"apps/program/", "apps/program"}};
+
+struct SourceFile {
+  std::string folder;  // "core/light"
+  std::string path;    // "core/light/led.cc"
+};
+
 struct Include {
-  std::string file;  // relative to the root
+  SourceFile from;
   std::string what;
   bool quoted;
 };
 
-std::vector<Include> includes_of(const std::string& folder) {
+std::vector<SourceFile> source_files() {
+  std::vector<SourceFile> out;
+  for (const std::string library : {"core", "capture", "calib", "apps"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / library)) {
+      const std::string extension = entry.path().extension();
+      if (extension != ".h" && extension != ".cc") continue;
+      const fs::path relative = fs::relative(entry.path(), kRoot);
+      out.push_back({relative.parent_path().string(), relative.string()});
+    }
+  }
+  return out;
+}
+
+std::vector<Include> includes() {
   std::vector<Include> out;
   const std::regex pattern(R"re(^\s*#\s*include\s*([<"])([^>"]+)[>"])re");
-  for (const auto& entry : fs::directory_iterator(kRoot / folder)) {
-    const std::string extension = entry.path().extension();
-    if (extension != ".h" && extension != ".cc") continue;
-    std::ifstream in(entry.path());
+  for (const SourceFile& file : source_files()) {
+    std::ifstream in(kRoot / file.path);
     for (std::string line; std::getline(in, line);) {
       std::smatch match;
       if (std::regex_search(line, match, pattern)) {
-        out.push_back(
-            {folder + "/" + entry.path().filename().string(), match[2], match[1] == "\""});
+        out.push_back({file, match[2], match[1] == "\""});
       }
     }
   }
   return out;
 }
 
-const std::vector<std::string> kFolders = {"core", "capture", "calib", "apps"};
+// Every file and include below the four libraries is seen: raise the numbers as they grow.
+TEST(Layering, ReadsEveryFile) {
+  EXPECT_GT(source_files().size(), 550U);
+  EXPECT_GT(includes().size(), 3500U);
+}
 
 TEST(Layering, FoldersIncludeOnlyWhatIsBelowThem) {
-  const std::map<std::string, std::set<std::string>> allowed = {
-      {"core", {"core"}},
-      {"capture", {"capture", "core"}},
-      {"calib", {"calib", "core"}},
-      {"apps", {"apps", "calib", "capture", "core"}}};
-  for (const std::string& folder : kFolders) {
-    const std::vector<Include> includes = includes_of(folder);
-    EXPECT_GT(includes.size(), 10U) << folder;
-    for (const Include& i : includes) {
-      if (!i.quoted) continue;
-      const std::string target = i.what.substr(0, i.what.find('/'));
-      EXPECT_TRUE(allowed.at(folder).contains(target)) << i.file << " includes " << i.what;
+  const auto rank = [](const std::string& folder) {
+    return std::find(kFolders.begin(), kFolders.end(), folder) - kFolders.begin();
+  };
+  for (const Include& i : includes()) {
+    if (!i.quoted || i.from.folder == "apps/python") continue;
+    const std::string target = i.what.substr(0, i.what.rfind('/'));
+    ASSERT_LT(rank(i.from.folder), static_cast<std::ptrdiff_t>(kFolders.size())) << i.from.path;
+    ASSERT_LT(rank(target), static_cast<std::ptrdiff_t>(kFolders.size()))
+        << i.from.path << " includes " << i.what;
+    EXPECT_LE(rank(target), rank(i.from.folder)) << i.from.path << " includes " << i.what;
+    for (const auto& [from, to] : kNever) {
+      EXPECT_FALSE(i.from.folder == from && target == to) << i.from.path << " includes " << i.what;
     }
+    for (const auto& [prefix, folder] : kOnlyFor) {
+      EXPECT_FALSE(i.what.starts_with(prefix) && i.from.folder != folder)
+          << i.from.path << " includes " << i.what;
+    }
+    const bool calibrates = i.from.folder.starts_with("capture/");
+    EXPECT_FALSE(calibrates && target.starts_with("calib/")) << i.from.path;
   }
 }
 
 // Beginning of a foreign include -> the only files that may hold it.
 TEST(Layering, EachForeignLibraryHasItsDoor) {
-  const std::vector<std::pair<std::string, std::string>> doors = {
-      {"libraw/", "capture/raw_reader\\.cc"},
-      {"tiff", "capture/dng_writer\\.cc"},
-      {"tiny_obj_loader", "capture/obj_reader\\.cc"},
-      {"OpenEXR/", "capture/exr_file\\.cc"},
+  const std::vector<std::pair<std::string, std::set<std::string>>> doors = {
+      {"libraw/", {"capture/raw/raw_reader.cc"}},
+      {"tiff", {"capture/raw/dng_writer.cc"}},
+      {"tiny_obj_loader", {"capture/files/obj_reader.cc"}},
+      {"OpenEXR/", {"capture/files/exr_file.cc"}},
       {"opencv2/",
-       "calib/[a-z_]+\\.cc|calib/(charuco_opencv|opencv_storage|tone_picture)\\.h|"
-       "apps/(overlay_picture|picture|grey_picture)\\.cc"},
-      {"embree", "core/ray_scene\\.cc"},
-      {"hwy/", "core/(dipole_kernels|cluster_verdicts)\\.cc"},
-      {"ceres/", "core/dipole_solver\\.cc|calib/[a-z_]+\\.cc"},
-      {"yaml-cpp/", "apps/(yaml_field\\.(h|cc)|[a-z]+_calibration_file\\.cc)"},
-      {"nlohmann/", "apps/((check|plan|result)_json|decoded_shot|result_reader)\\.cc"},
-      {"CLI/", "apps/commands\\.h"},
-      {"mpi.h", "apps/ranks\\.cc"},
-      {"png.h", "apps/png\\.cc"},
-      {"openssl/", "apps/(base64|digest)\\.cc"},
-      {"fmt/", "apps/[a-z_]+\\.cc"},
-      {"pybind11/", "apps/python/models\\.cc"},
-      {"tbb/", "(apps|calib|capture|core)/[a-z0-9_]+\\.cc"},
-      {"Eigen/", ".*"},
-      {"unsupported/Eigen/", "core/chi_square\\.cc"},
+       {"calib/board/board_detection.cc", "calib/board/charuco_detection.cc",
+        "calib/board/charuco_opencv.h", "calib/board/grey_picture.cc",
+        "calib/board/opencv_quiet.cc", "calib/board/opencv_storage.h", "calib/board/tone_picture.h",
+        "calib/pose/pose_search.cc", "calib/lens/camera_start.cc", "calib/lens/view_selection.cc",
+        "apps/report/overlay_picture.cc", "apps/report/picture.cc"}},
+      {"embree", {"core/mesh/ray_scene.cc"}},
+      {"hwy/",
+       {"core/sums/cluster_verdicts.cc", "core/sums/dipole_kernels.cc",
+        "core/sums/moment_kernels.cc", "core/sums/series_kernels.cc"}},
+      {"ceres/",
+       {"core/fit/dipole_solver.cc", "calib/pose/edge_fit.cc", "calib/lens/camera_bundle.cc",
+        "calib/led/led_solver.cc"}},
+      {"yaml-cpp/",
+       {"apps/rig/yaml_field.h", "apps/rig/yaml_field.cc", "apps/rig/led_calibration_file.cc",
+        "apps/rig/radiance_file.cc"}},
+      {"nlohmann/",
+       {"capture/shots/decoded_shot.cc", "apps/results/result_json.cc",
+        "apps/results/result_reader.cc", "apps/report/check_json.cc", "apps/report/plan_json.cc"}},
+      {"CLI/", {"apps/commands/commands.h"}},
+      {"mpi.h", {"apps/program/ranks.cc"}},
+      {"png.h", {"capture/files/png.cc"}},
+      {"openssl/", {"capture/files/digest.cc", "apps/report/base64.cc"}},
+      {"pybind11/",
+       {"apps/python/binding.cc", "apps/python/bindings.h", "apps/python/estimate_arrays.cc",
+        "apps/python/models.cc", "apps/python/python_progress.cc",
+        "apps/python/python_progress.h"}},
   };
   std::set<std::string> met;
-  std::vector<std::string> folders = kFolders;
-  folders.emplace_back("apps/python");
-  for (const std::string& folder : folders) {
-    for (const Include& i : includes_of(folder)) {
-      if (i.quoted) continue;
-      // The standard library's and the system's headers have no slash and no .h, or are POSIX's.
-      static const std::regex standard(
-          "[a-z_0-9]+|unistd\\.h|dlfcn\\.h|fcntl\\.h|spawn\\.h|sys/[a-z]+\\.h");
-      if (std::regex_match(i.what, standard)) continue;
-      const auto door = std::find_if(doors.begin(), doors.end(), [&](const auto& d) {
-        return i.what.starts_with(d.first) || i.what.starts_with("oneapi/" + d.first);
-      });
-      ASSERT_NE(door, doors.end()) << i.file << " includes <" << i.what << ">, which has no door";
-      met.insert(door->first);
-      EXPECT_TRUE(std::regex_match(i.file, std::regex(door->second)))
-          << i.file << " includes <" << i.what << ">";
+  for (const Include& i : includes()) {
+    if (i.quoted) continue;
+    // The standard library's and the system's headers have no slash and no .h, or are POSIX's.
+    static const std::regex standard("[a-z_0-9]+|unistd\\.h|fcntl\\.h|spawn\\.h|sys/[a-z]+\\.h");
+    if (std::regex_match(i.what, standard)) continue;
+    // Eigen stands everywhere; fmt and TBB in any source, but in no header.
+    if (i.what.starts_with("Eigen/")) continue;
+    if (i.what == "unsupported/Eigen/SpecialFunctions") {
+      EXPECT_EQ(i.from.path, "core/base/chi_square.cc");
+      continue;
     }
+    if (i.what.starts_with("fmt/") || i.what.starts_with("oneapi/tbb/") ||
+        i.what.starts_with("tbb/")) {
+      EXPECT_TRUE(i.from.path.ends_with(".cc")) << i.from.path << " includes <" << i.what << ">";
+      continue;
+    }
+    const auto door = std::find_if(doors.begin(), doors.end(),
+                                   [&](const auto& d) { return i.what.starts_with(d.first); });
+    ASSERT_NE(door, doors.end()) << i.from.path << " includes <" << i.what
+                                 << ">, which has no door";
+    met.insert(door->first);
+    EXPECT_TRUE(door->second.contains(i.from.path))
+        << i.from.path << " includes <" << i.what << ">";
   }
   EXPECT_EQ(met.size(), doors.size()) << "a door that nobody uses";
 }
 
 TEST(Layering, CoreHeadersNeedOnlyStdAndEigen) {
-  for (const Include& i : includes_of("core")) {
-    if (!i.file.ends_with(".h") || i.quoted) continue;
+  for (const Include& i : includes()) {
+    if (!i.from.path.starts_with("core/") || !i.from.path.ends_with(".h") || i.quoted) continue;
     EXPECT_TRUE(i.what.starts_with("Eigen/") || i.what.find_first_of("/.") == std::string::npos)
-        << i.file << " includes <" << i.what << ">";
+        << i.from.path << " includes <" << i.what << ">";
   }
 }
 
+// Below a library's own folder stand only its build file and documents; no folder holds more
+// modules than a reader can keep in mind.
+TEST(Layering, FoldersHoldWhatTheyShould) {
+  std::map<std::string, std::set<std::string>> modules;
+  for (const SourceFile& file : source_files()) {
+    EXPECT_NE(file.folder.find('/'), std::string::npos) << file.path << " stands in no room";
+    modules[file.folder].insert(fs::path(file.path).stem().string());
+  }
+  for (const auto& [folder, names] : modules) EXPECT_LE(names.size(), 30U) << folder;
+}
+
 TEST(Layering, TopLevelHoldsWhatItShould) {
-  const std::set<std::string> known = {"CMakeLists.txt",
-                                       "CMakePresets.json",
-                                       "README.md",
-                                       "CHANGELOG.md",
-                                       "LICENSE",
-                                       ".clang-format",
-                                       ".clang-tidy",
-                                       ".gitignore",
-                                       ".ci",
-                                       ".git",
-                                       "capture",
-                                       "calib",
-                                       "core",
-                                       "apps",
-                                       "tests",
-                                       "samples",
-                                       "build"};
+  const std::set<std::string> known = {
+      "CMakeLists.txt", "CMakePresets.json", "README.md",   "CHANGELOG.md", "CONTRIBUTING.md",
+      "LICENSE",        ".clang-format",     ".clang-tidy", ".gitignore",   ".ci",
+      ".git",           "capture",           "calib",       "core",         "apps",
+      "tests",          "samples",           "build",
+  };
   for (const auto& entry : fs::directory_iterator(kRoot)) {
     EXPECT_TRUE(known.contains(entry.path().filename().string())) << entry.path();
   }
 }
 
-// Every source has a test of its name.
+// Sources below core, capture and calib that have no test of their name yet: tests of the whole
+// road run them. The list may only shrink. So are those of apps.
+const std::set<std::string>& tested_by_the_road() {
+  static const std::set<std::string> names = {
+      "calib/led/led_check",
+      "calib/led/led_shots",
+      "calib/pose/shot_pose",
+      "calib/radiance/radiance_dark",
+      "calib/radiance/radiance_flats",
+      "calib/radiance/radiance_scale",
+      "calib/radiance/white_pixels",
+      "capture/files/digest",
+      "capture/files/png",
+      "capture/shots/decoded_shot",
+      "capture/shots/raw_shot",
+      "capture/shots/shot_folder",
+      "capture/shots/shot_key",
+      "capture/shots/shot_samples",
+      "capture/shots/shot_source",
+      "core/estimation/channel_image",
+      "core/estimation/channel_result",
+      "core/estimation/channel_rows",
+      "core/estimation/channel_simulation",
+      "core/estimation/channel_weights",
+      "core/estimation/dipole_estimator",
+      "core/estimation/estimation",
+      "core/estimation/light_sensitivity",
+      "core/estimation/material_channel",
+      "core/estimation/paper_method",
+      "core/estimation/sensitivities",
+      "core/estimation/transport_estimator",
+      "core/estimation/transport_round",
+      "core/estimation/transport_verdict",
+      "core/mesh/bodies",
+  };
+  return names;
+}
+
+// Every other source has a test of its name, in the same folder below tests/.
 TEST(Layering, TestsMirrorTheTree) {
-  for (const std::string folder : {"core", "capture", "calib"}) {
-    for (const auto& entry : fs::directory_iterator(kRoot / folder)) {
-      if (entry.path().extension() != ".cc") continue;
-      const fs::path test = kRoot / "tests" / folder / (entry.path().stem().string() + "_test.cc");
-      EXPECT_TRUE(fs::exists(test)) << folder << "/" << entry.path().filename() << " has no test";
-    }
+  for (const SourceFile& file : source_files()) {
+    if (!file.path.ends_with(".cc") || file.path.starts_with("apps/")) continue;
+    const std::string module = file.path.substr(0, file.path.size() - 3);
+    const bool has_test = fs::exists(kRoot / "tests" / (module + "_test.cc"));
+    EXPECT_NE(has_test, tested_by_the_road().contains(module))
+        << module << (has_test ? " has a test: take it from the list" : " has no test");
   }
 }
 

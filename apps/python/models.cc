@@ -1,16 +1,17 @@
-// The forward models of core on NumPy arrays: the extension module scattermeter._models.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
-#include "core/dipole.h"
-#include "core/fresnel.h"
-#include "core/half_space_albedo.h"
+#include "apps/python/bindings.h"
+#include "core/material/dipole.h"
+#include "core/material/fresnel.h"
+#include "core/material/half_space_albedo.h"
 
 namespace py = pybind11;
 
-// Arguments are broadcast against each other; std::invalid_argument becomes ValueError.
-PYBIND11_MODULE(_models, module) {
-  module.doc() = "Forward models. Lengths in mm, coefficients in 1/mm; arguments are broadcast.";
+namespace scattermeter::python {
+
+// std::invalid_argument becomes ValueError.
+void add_models(py::module_& module) {
   module.def(
       "dipole_reflectance",
       py::vectorize(
@@ -42,3 +43,5 @@ PYBIND11_MODULE(_models, module) {
              "Share of diffuse light that an index-matched half-space of isotropic scatterers "
              "sends back\n(Chandrasekhar 1950).\n\nalbedo: sigma_s / sigma_t, 0 .. 1.");
 }
+
+}  // namespace scattermeter::python

@@ -8,8 +8,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "core/dipole_kernels.h"
-#include "core/dipole_sums.h"
+#include "core/sums/dipole_kernels.h"
+#include "core/sums/dipole_sums.h"
 
 namespace scattermeter {
 namespace {
@@ -72,7 +72,7 @@ RowLanes bench_rows() {
   return rows;
 }
 
-// Vector operations of a pair, counted in core/dipole_kernels.cc: 3 + 4 for the distance, 27 a
+// Vector operations of a pair, counted in core/sums/dipole_kernels.cc: 3 + 4 for the distance, 27 a
 // pole, 9 to add up.
 constexpr double kPairOperations = 3 + 4 + 2 * 27 + 9;
 
@@ -107,7 +107,7 @@ void bm_series(benchmark::State& state, const char* set) {
   if (!choose_kernel_instruction_set(set)) return state.SkipWithError("not on this processor");
   const auto degree = static_cast<int>(state.range(0));
   const bool planar = state.range(1) != 0;
-  const std::size_t count = coefficient_place(degree + 1, 0, planar);
+  const std::size_t count = coefficient_index(degree + 1, 0, planar);
   const std::vector<float> coefficients(count, 1e-3F);
   const float frame[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   const RowLanes rows = bench_rows();

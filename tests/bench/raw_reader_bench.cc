@@ -6,8 +6,8 @@
 #include <benchmark/benchmark.h>
 #include <libraw/libraw.h>
 
-#include "capture/dng_writer.h"
-#include "capture/raw_reader.h"
+#include "capture/raw/dng_writer.h"
+#include "capture/raw/raw_reader.h"
 
 namespace scattermeter::capture {
 namespace {

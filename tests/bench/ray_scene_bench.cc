@@ -10,8 +10,8 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include "core/ray_scene.h"
-#include "tests/core/spheres.h"
+#include "core/mesh/ray_scene.h"
+#include "tests/fixtures/core/spheres.h"
 
 namespace scattermeter {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "apps/led_calibration_file.h"
-#include "apps/radiance_file.h"
-#include "calib/camera_calibration_file.h"
+#include "apps/rig/led_calibration_file.h"
+#include "apps/rig/radiance_file.h"
+#include "calib/lens/camera_calibration_file.h"
 #include "tests/fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

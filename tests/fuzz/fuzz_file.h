@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/input_error.h"
+#include "core/base/input_error.h"
 
 namespace scattermeter {
 

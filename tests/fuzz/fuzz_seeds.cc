@@ -12,13 +12,13 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "apps/decoded_shot.h"
-#include "apps/led_calibration_file.h"
-#include "apps/radiance_file.h"
-#include "apps/rig.h"
-#include "calib/camera_calibration_file.h"
-#include "capture/dng_writer.h"
-#include "tests/apps/made_result.h"
+#include "apps/rig/led_calibration_file.h"
+#include "apps/rig/radiance_file.h"
+#include "apps/rig/rig.h"
+#include "calib/lens/camera_calibration_file.h"
+#include "capture/raw/dng_writer.h"
+#include "capture/shots/decoded_shot.h"
+#include "tests/fixtures/apps/made_result.h"
 
 namespace {
 
@@ -44,7 +44,7 @@ void raws(const fs::path& folder) {
     metadata.linearization_table.push_back(static_cast<std::uint16_t>(4 * i));
   }
   scattermeter::capture::write_dng(folder / "table.dng", kSide, kSide, codes, metadata);
-  metadata.make = "Hasselblad";  // read through a process on trial
+  metadata.make = "Hasselblad";  // refused before LibRaw reads it
   metadata.model = "Hasselblad H3D-39";
   scattermeter::capture::write_dng(folder / "hasselblad.dng", kSide, kSide, codes, metadata);
 }

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "apps/result_reader.h"
+#include "apps/results/result_reader.h"
 #include "tests/fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

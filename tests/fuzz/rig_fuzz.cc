@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/rig.h"
+#include "apps/rig/rig.h"
 #include "tests/fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

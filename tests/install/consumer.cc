@@ -2,9 +2,9 @@
 // how many rays down on a tetrahedron meet it (Embree comes along).
 #include <cstdio>
 
-#include "core/dipole.h"
-#include "core/half_space_albedo.h"
-#include "core/ray_scene.h"
+#include "core/material/dipole.h"
+#include "core/material/half_space_albedo.h"
+#include "core/mesh/ray_scene.h"
 
 int main() {
   const scattermeter::Medium medium{2.19, 0.002, 1.3};

@@ -38,7 +38,7 @@ foreach(file usr/bin/scattermeter usr/share/man/man1/scattermeter.1.gz usr/share
   expect("${out}" "\\./${file}")
 endforeach()
 run(dpkg-deb --contents ${development})
-foreach(file include/scattermeter/core/dipole.h libscattermeter_core.a scattermeter-config.cmake
+foreach(file include/scattermeter/core/material/dipole.h libscattermeter_core_material.a scattermeter-config.cmake
              doc/libscattermeter-dev/copyright)
   expect("${out}" "${file}")
 endforeach()

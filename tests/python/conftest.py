@@ -1,4 +1,4 @@
-"""Needs PYTHONPATH at the built package and SCATTERMETER_PROGRAM at the built program."""
+"""Needs PYTHONPATH at the built package."""
 
 import math
 import pathlib

@@ -26,7 +26,7 @@ def literals(text):
 def said():
     """All that the program may say."""
     return [words for folder in ("core", "capture", "calib", "apps")
-            for path in sorted((SOURCE / folder).glob("*.cc"))
+            for path in sorted((SOURCE / folder).rglob("*.cc"))
             for words in literals(path.read_text(encoding="utf-8"))]
 
 
@@ -52,7 +52,7 @@ class Page(unittest.TestCase):
 
     def test_every_reason_stands_on_the_page(self):
         quoted = "\n".join(self.quoted())
-        for path in ("core/dipole_fit.cc", "apps/transport_verdict.cc"):
+        for path in ("core/fit/dipole_fit.cc", "core/estimation/transport_verdict.cc"):
             text = (SOURCE / path).read_text(encoding="utf-8")
             reasons = re.findall(rf"reasons\.push_back\(\s*(?:sentence\(|fmt::format\()?\s*({LITERAL}(?:\s*{LITERAL})*)",
                                  text)

@@ -1,20 +1,22 @@
 """Scattering and absorption of translucent materials, from raw camera shots.
 
-Lengths are mm, coefficients 1/mm. `measure` runs the program `scattermeter`; the forward models are
-the program's own code on NumPy arrays.
+Lengths are mm, coefficients 1/mm. The functions call the instrument's library in this process: no
+program is started, Ctrl-C ends long work, and `progress` is told how far it is. Bad input raises
+InputError with a message that names file, field and value; a file or folder that is not there
+raises FileNotFoundError.
 """
 
 from __future__ import annotations
 
 import json
 import os
-import shutil
-import subprocess
-import tempfile
 from pathlib import Path
-from typing import Any, Dict, List, Optional, Union
+from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Union
 
-from ._models import (
+from . import _native
+from ._native import (
+    InputError,
+    __version__,
     dipole_reflectance,
     dipole_total_reflectance,
     fresnel_transmittance,
@@ -23,57 +25,108 @@ from ._models import (
 
 __all__ = [
     "InputError",
+    "Result",
+    "__version__",
+    "calibrate_camera",
+    "calibrate_led",
+    "calibrate_radiance",
+    "check",
     "dipole_reflectance",
     "dipole_total_reflectance",
+    "estimate",
+    "export",
     "fresnel_transmittance",
     "half_space_albedo",
     "measure",
+    "plan",
     "read_result",
-    "run",
+    "simulate",
     "values",
 ]
 
 PathLike = Union[str, "os.PathLike[str]"]
+ProgressCallback = Callable[[str, int, int], None]
 
 
-class InputError(ValueError):
-    """A file, a field or a value that cannot be used; the text names all three."""
-
-
-def run(*arguments: str, program: Optional[PathLike] = None) -> "subprocess.CompletedProcess[str]":
-    """Run the program with these arguments; its exit status is 0 or 1 (a value was refused).
-
-    program: its path; by default that of the environment variable SCATTERMETER_PROGRAM, else the
-    first `scattermeter` on PATH. Raises InputError for bad input (status 2) with the program's
-    message, FileNotFoundError where there is no program, RuntimeError for anything else.
-    """
-    chosen = program or os.environ.get("SCATTERMETER_PROGRAM") or shutil.which("scattermeter")
-    if not chosen:
-        raise FileNotFoundError("scattermeter is not on PATH; set SCATTERMETER_PROGRAM")
-    done = subprocess.run([os.fspath(chosen), *arguments], capture_output=True, text=True)
-    if done.returncode == 2:
-        raise InputError(done.stderr.strip().removeprefix("scattermeter: "))
-    if done.returncode not in (0, 1):
-        raise RuntimeError(f"scattermeter ended with status {done.returncode}: {done.stderr.strip()}")
-    return done
-
-
-def read_result(path: PathLike) -> Dict[str, Any]:
-    """The content of a result.json as plain dictionaries, lists, numbers and None (not known).
+class Result(Mapping[str, Any]):
+    """The content of a result.json: a read-only mapping of plain dictionaries, lists and numbers.
 
     `results` has one entry per material and channel; sigma_s_prime_per_mm and sigma_a_per_mm in it
-    have value, std and interval95, all in 1/mm. Raises InputError where the file is no result.
+    have value, std and interval95, all in 1/mm; None stands for what is not known.
+    """
+
+    def __init__(self, content: Dict[str, Any]) -> None:
+        self._content = content
+
+    def __getitem__(self, key: str) -> Any:
+        return self._content[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._content)
+
+    def __len__(self) -> int:
+        return len(self._content)
+
+    def __eq__(self, other: object) -> bool:
+        return dict(self) == (dict(other) if isinstance(other, Mapping) else other)
+
+    def __repr__(self) -> str:
+        lines = ["material  channel  sigma_s' /mm          sigma_a /mm            model      verdict"]
+        for e in self._content["results"]:
+            cells = []
+            for key in ("sigma_s_prime_per_mm", "sigma_a_per_mm"):
+                q = e[key]
+                known = q["value"] is not None and q["std"] is not None
+                cells.append(f"{q['value']:.5g} +- {q['std']:.2g}" if known else "-")
+            lines.append(
+                f"{e['material']:<9} {e['channel']:<8} {cells[0]:<21} {cells[1]:<22} "
+                f"{e['model']:<10} {e['verdict']}"
+            )
+        return "\n".join(lines)
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The content as plain dictionaries, as json.loads() of the file gives it."""
+        return self._content
+
+    def to_dataframe(self) -> Any:
+        """A pandas.DataFrame with one row per material and channel (needs pandas).
+
+        Columns: material, channel, model, verdict, reasons, eta; sigma_s_prime_per_mm and
+        sigma_a_per_mm with _std, _low and _high (the 95 % interval), 1/mm; correlation.
+        """
+        import pandas
+
+        rows: List[Dict[str, Any]] = []
+        for e in self._content["results"]:
+            row = {k: e.get(k) for k in ("material", "channel", "model", "verdict", "eta")}
+            row["reasons"] = "; ".join(e.get("reasons", []))
+            for key in ("sigma_s_prime_per_mm", "sigma_a_per_mm"):
+                low, high = e[key].get("interval95") or (None, None)
+                row[key] = e[key]["value"]
+                row[key + "_std"] = e[key]["std"]
+                row[key + "_low"], row[key + "_high"] = low, high
+            row["correlation"] = e.get("correlation")
+            rows.append(row)
+        return pandas.DataFrame(rows)
+
+
+def read_result(path: PathLike) -> Result:
+    """The content of a result.json.
+
+    Raises FileNotFoundError where there is no such file, InputError where it is no result.
     """
     try:
-        result = json.loads(Path(path).read_text(encoding="utf-8"))
+        content = json.loads(Path(path).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise
     except (OSError, ValueError) as error:
         raise InputError(f"{os.fspath(path)}: {error}") from error
-    if not isinstance(result, dict) or not isinstance(result.get("results"), list):
+    if not isinstance(content, dict) or not isinstance(content.get("results"), list):
         raise InputError(f"{os.fspath(path)}: results: is missing")
-    return result
+    return Result(content)
 
 
-def values(result: Dict[str, Any]) -> Dict[str, Dict[str, Dict[str, Any]]]:
+def values(result: Mapping[str, Any]) -> Dict[str, Dict[str, Dict[str, Any]]]:
     """Entries of a result by material and channel: values(result)["POM"]["R"]."""
     out: Dict[str, Dict[str, Dict[str, Any]]] = {}
     for entry in result["results"]:
@@ -88,26 +141,179 @@ def measure(
     out: Optional[PathLike] = None,
     model: str = "auto",
     patch_size_mm: Optional[float] = None,
-    time_limit_s: Optional[float] = None,
+    time_limit_s: float = 50.0,
+    materials: Sequence[str] = (),
+    channels: str = "",
+    cache: Optional[PathLike] = None,
     threads: Optional[int] = None,
-    program: Optional[PathLike] = None,
-) -> Dict[str, Any]:
-    """Measure the materials in a folder of raw shots; returns what read_result() does.
+    progress: Optional[ProgressCallback] = None,
+) -> Result:
+    """Measure the materials in a folder of raw shots.
 
-    shots: folder of the raws. rig: the rig file (YAML). out: folder for result.json and result.html
-    (default: none are kept). model: auto, dipole, transport or paper. patch_size_mm: edge of the
-    surface patches, mm. time_limit_s: of transport, s per material and channel. threads: all cores
-    by default. Raises as run() does; refused values are told by each entry's verdict and reasons.
+    shots: folder of the raws. rig: the rig file (YAML). out: folder for result.json (default: none
+    is written). model: auto, dipole, transport or paper. patch_size_mm: edge of the surface
+    patches, mm. time_limit_s: of transport, s per material and channel. materials, channels: only
+    these (letters of "RGB"). cache: folder that keeps decoded shots. threads: all cores by default.
+    progress: called with (stage, steps done, steps in all). A refused value is stated by its
+    entry's verdict and reasons.
     """
-    arguments: List[str] = ["--quiet", "measure", os.fspath(shots), "--rig", os.fspath(rig)]
-    arguments += ["--model", model]
-    if patch_size_mm is not None:
-        arguments += ["--patch-size", repr(float(patch_size_mm))]
-    if time_limit_s is not None:
-        arguments += ["--time-limit", repr(float(time_limit_s))]
-    if threads is not None:
-        arguments += ["--threads", str(int(threads))]
-    with tempfile.TemporaryDirectory(prefix="scattermeter_") as temporary:
-        folder = os.fspath(out) if out is not None else temporary
-        run(*arguments, "--out", folder, program=program)
-        return read_result(Path(folder) / "result.json")
+    text = _native.measure(
+        os.fspath(shots),
+        os.fspath(rig),
+        model,
+        patch_size_mm,
+        time_limit_s,
+        list(materials),
+        channels,
+        os.fspath(cache) if cache is not None else "",
+        threads,
+        progress,
+    )
+    if out is not None:
+        _write(Path(out) / "result.json", text)
+    return Result(json.loads(text))
+
+
+def check(
+    shots: PathLike, rig: PathLike, *, progress: Optional[ProgressCallback] = None
+) -> Dict[str, Any]:
+    """Check whether the setup is consistent: the residual of every calibration and its limit.
+
+    shots: folder of the raws. rig: the rig file. Returns the content of check.json.
+    """
+    content: Dict[str, Any] = json.loads(_native.check(os.fspath(shots), os.fspath(rig), progress))
+    return content
+
+
+def simulate(
+    rig: PathLike,
+    out: PathLike,
+    *,
+    transport: str = "dipole",
+    paths: int = 1_000_000,
+    seed: int = 1,
+    noise: bool = True,
+    progress: Optional[ProgressCallback] = None,
+) -> List[Path]:
+    """Make the raw shots that a rig would have taken of its truth materials.
+
+    out: folder for the DNG files, made where missing. transport: dipole or volume (Monte Carlo, with
+    `paths` light paths for each light of a shot and channel). Returns the paths of the files.
+    """
+    if transport not in ("dipole", "volume"):
+        raise ValueError(f"transport: expected dipole or volume, got {transport!r}")
+    written = _native.simulate(
+        os.fspath(rig), os.fspath(out), transport == "volume", paths, seed, noise, progress
+    )
+    return [Path(path) for path in written]
+
+
+def plan(
+    rig: PathLike, *, other_shots: bool = True, progress: Optional[ProgressCallback] = None
+) -> Dict[str, Any]:
+    """Forecast what measuring a rig's shots would state, before they are taken.
+
+    other_shots: also what further shots would add. Returns the content of plan.json.
+    """
+    content: Dict[str, Any] = json.loads(_native.plan(os.fspath(rig), other_shots, progress))
+    return content
+
+
+def calibrate_camera(
+    shots: PathLike, rig: PathLike, out: PathLike, *, progress: Optional[ProgressCallback] = None
+) -> Path:
+    """Calibrate the lens from the board shots of the rig's calibration.camera.
+
+    Writes the YAML file `out`, which camera.intrinsics of a rig may name, and returns its path.
+    """
+    return _write(Path(out), _native.calibrate_camera(os.fspath(shots), os.fspath(rig), progress))
+
+
+def calibrate_led(
+    shots: PathLike,
+    rig: PathLike,
+    light: str,
+    out: PathLike,
+    *,
+    progress: Optional[ProgressCallback] = None,
+) -> Path:
+    """Calibrate one LED from the spheres and planes of the rig's calibration.led.
+
+    Writes the YAML file `out`, which lights.NAME.calibration of a rig may name, and returns its path.
+    """
+    text = _native.calibrate_led(os.fspath(shots), os.fspath(rig), light, progress)
+    return _write(Path(out), text)
+
+
+def calibrate_radiance(
+    shots: PathLike, rig: PathLike, out: PathLike, *, progress: Optional[ProgressCallback] = None
+) -> Path:
+    """Calibrate the sensor from the dark frames and flats of the rig's calibration.radiance.
+
+    Writes the YAML file `out`, which camera.radiance of a rig may name, and returns its path.
+    """
+    return _write(Path(out), _native.calibrate_radiance(os.fspath(shots), os.fspath(rig), progress))
+
+
+def export(
+    result: PathLike,
+    format: str,
+    out: PathLike,
+    *,
+    materials: Sequence[str] = (),
+    mm_per_unit: Optional[float] = None,
+    g: float = 0.0,
+) -> Path:
+    """Write measured materials as a renderer's material or as a table; returns the path.
+
+    result: a result.json. format: mitsuba, pbrt, blender, openpbr, materialx or csv. materials: only
+    these. mm_per_unit: length of a scene unit, mm (default: the format's own). g: mean cosine of the
+    phase function that is written, -1 < g < 1. A refused channel raises InputError (csv: its row has
+    the verdict and no values).
+    """
+    _native.export(os.fspath(result), format, os.fspath(out), list(materials), mm_per_unit, g)
+    return Path(out)
+
+
+def estimate(
+    camera: Mapping[str, Any],
+    objects: Mapping[str, Mapping[str, Any]],
+    lights: Mapping[str, Mapping[str, Any]],
+    shots: Sequence[Mapping[str, Any]],
+    *,
+    model: str = "dipole",
+    patch_size_mm: Optional[float] = None,
+    time_limit_s: float = 50.0,
+    progress: Optional[ProgressCallback] = None,
+) -> Result:
+    """Estimate the materials in linear images that are at hand as arrays, without any file.
+
+    camera: image_size_px (2), fx_px, fy_px, cx_px, cy_px; optional distortion (0, 4, 5 or 8 terms of
+    OpenCV's model), cfa ("RGGB" and so on), responsivity_counts_mm2_sr_per_W_s (3) and
+    responsivity_relative_std; without a responsivity the scale is free.
+    objects, by name: vertices_mm (n, 3) and triangles (m, 3) of a closed mesh in the world frame,
+    counter-clockwise from outside; eta; optional eta_std.
+    lights, by name, LEDs: position_mm (3), axis (3), intensity_W_per_sr (3); optional exponent,
+    radius_mm, position_std_mm, exponent_std, intensity_relative_std.
+    shots, each: object, material, lights (names), camera_from_world (4, 4; OpenCV's axes, mm),
+    exposure_s, and for each of its n samples xy_px (n, 2; column and row in the frame), value_counts
+    (n; above black) and variance_counts2 (n); optional name, pose_covariance (6, 6; rad and mm) and
+    variance_per_count (of photon noise, 1 / gain). Samples that are not given are not used.
+    """
+    text = _native.estimate(
+        dict(camera),
+        {name: dict(value) for name, value in objects.items()},
+        {name: dict(value) for name, value in lights.items()},
+        [dict(shot) for shot in shots],
+        model,
+        patch_size_mm,
+        time_limit_s,
+        progress,
+    )
+    return Result(json.loads(text))
+
+
+def _write(path: Path, text: str) -> Path:
+    """Writes the file by rename: it appears whole or not at all."""
+    _native.write_text_file(os.fspath(path), text)
+    return path

@@ -1,0 +1,28 @@
+// Known materials, by name and channel.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/material/medium.h"
+
+namespace scattermeter::apps {
+
+struct ListedMaterial {
+  std::string name;
+  char channel = 'R';  // R, G, B
+  Medium medium;
+};
+
+// Reads a CSV whose header names at least name, channel, eta, sigma_s_prime_per_mm and
+// sigma_a_per_mm, in any order; other columns are passed over. Throws InputError naming file, line,
+// column and value for a missing column, a channel other than R, G, B, one given twice, different
+// eta within a name, or a number that is no number or out of range (eta in 0.5 .. 4, sigma_s' > 0,
+// sigma_a > 0).
+std::vector<ListedMaterial> read_materials(const std::string& path);
+
+// Four materials that span what is measured: marble, skim milk, skin 1, ketchup. Jensen, Marschner,
+// Levoy and Hanrahan, "A practical model for subsurface light transport" (2001), figure 5.
+const std::vector<ListedMaterial>& well_known_materials();
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,55 @@
+#include "apps/checking/check.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "calib/pose/shot_pose.h"
+#include "core/base/progress.h"
+
+namespace scattermeter::apps {
+
+bool CheckReport::passed() const {
+  return std::all_of(items.begin(), items.end(), [](const CheckItem& i) { return i.passed; });
+}
+
+const std::vector<Check>& checks() {
+  static const std::vector<Check> kChecks = {check_settings, check_pose,       check_outline,
+                                             check_exposure, check_bracket,    check_noise,
+                                             check_black,    check_radiance,   check_identity,
+                                             check_light,    check_led_places, check_led_shots};
+  return kChecks;
+}
+
+CheckReport check_report(const CheckedRig& checked) {
+  CheckReport report;
+  report.notes = checked.notes;
+  if (checked.shared_pose) {
+    const Eigen::Vector3d& s = checked.shared_pose->center_std_mm;
+    report.notes.push_back(fmt::format(
+        "camera centre known to {:.3f}, {:.3f}, {:.3f} mm (std in x, y, z)", s.x(), s.y(), s.z()));
+  }
+  for (const CheckedTask& task : checked.fit.tasks) {
+    if (task.departures) continue;
+    report.notes.push_back(fmt::format(
+        "{} {}: no joint model, so its light is not judged{}", task.material,
+        kRgbName.at(task.channel),
+        task.estimate.reasons.empty() ? "" : " (" + task.estimate.reasons.front() + ")"));
+  }
+  for (const Check check : checks()) {
+    for (CheckItem& item : check(checked)) report.items.push_back(std::move(item));
+  }
+  return report;
+}
+
+CheckReport check(const Rig& given, const std::string& shots_folder, const CheckOptions& options,
+                  Progress* progress) {
+  Rig rig = given;
+  calib::take_points_from_board_shot(rig.scene, rig.decoding, shots_folder, rig.pose);
+  CheckOptions own = options;
+  own.progress = progress;
+  return check_report(open_checked_rig(rig, shots_folder, own));
+}
+
+}  // namespace scattermeter::apps

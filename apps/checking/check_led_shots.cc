@@ -1,0 +1,73 @@
+#include <cmath>
+#include <string>
+
+#include "apps/checking/check.h"
+#include "calib/led/led_check.h"
+
+namespace scattermeter::apps {
+
+// The shots of calibration.led that stand in the folder.
+std::vector<CheckItem> check_led_shots(const CheckedRig& checked) {
+  std::vector<CheckDetail> highlights, places, planes, ambients, powers;
+  std::string where_it_stands;
+  for (const calib::LedCheck& led : checked.leds) {
+    const std::string& light = led.light;
+    const auto add = [&](double value, double std, const std::string& what,
+                         std::vector<CheckDetail>& list) {
+      if (std::isnan(value)) return;
+      CheckDetail d;
+      d.where = light + what;
+      d.value = value;
+      d.std = std;
+      list.push_back(d);
+    };
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    add(led.highlight_worst_px, unknown, "", highlights);
+    if (led.problem.empty()) {
+      // As many deviations as all three coordinates make together.
+      add(led.displacement_length_mm,
+          led.displacement_stds > 0.0 ? led.displacement_length_mm / led.displacement_stds
+                                      : unknown,
+          "", places);
+      if (led.displacement_stds > checked.options.least_stds) {
+        where_it_stands += (where_it_stands.empty() ? "" : "; ") + led.text;
+      }
+    }
+    add(led.plane_rms_percent, unknown, "", planes);
+    add(led.ambient_percent, led.ambient_std_percent,
+        led.ambient_file.empty() ? "" : " " + led.ambient_file, ambients);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      add(led.power_change_percent[c], unknown,
+          std::string(" ") + kRgbName.at(static_cast<std::size_t>(c)), powers);
+    }
+  }
+  const CheckOptions& o = checked.options;
+  std::vector<CheckItem> out;
+  if (!highlights.empty()) {
+    out.push_back(judged("LED highlights", "px", {o.max_pose_rms_px},
+                         "calibrate the LEDs again: one stands elsewhere than the rig says",
+                         highlights));
+  }
+  if (!places.empty()) {
+    out.push_back(judged(
+        "LED places, from their shots", "mm", {o.max_led_place_mm, false, false, o.least_stds},
+        where_it_stands.empty() ? "calibrate the LEDs again" : where_it_stands, places));
+  }
+  if (!planes.empty()) {
+    out.push_back(judged("white plane under the LEDs", "%", {o.max_plane_percent},
+                         "calibrate the LEDs again: place, axis or lobe have changed", planes));
+    out.push_back(
+        judged("light beside the LEDs on the white plane", "% of theirs",
+               {o.max_plane_ambient_percent, false, false, o.least_stds},
+               "shoot the planes with the LEDs off as well (calibration.led.shots of kind "
+               "ambient), or darken the room",
+               ambients));
+    // Without a responsivity only their product counts, and that is what was calibrated.
+    out.push_back(judged("LED power, from the white plane", "%", {o.max_led_power_percent},
+                         "calibrate the LEDs again: their light or the camera's has changed",
+                         powers));
+  }
+  return out;
+}
+
+}  // namespace scattermeter::apps

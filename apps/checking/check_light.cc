@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "apps/checking/check.h"
+#include "core/fit/shot_departure.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// Relative power of every shot, mean over its channels by their deviations.
+struct ShotPower {
+  double weight = 0, sum = 0;
+};
+
+// Over the rig's order, which is taken for the order of the shots. Levels are compared within a
+// material only: what the dipole misses of the material is none of the LED's.
+std::vector<CheckDetail> drifts(const CheckedRig& checked, const std::vector<ShotPower>& powers) {
+  std::vector<std::string> lights;
+  for (const ObservedShot& shot : checked.shots) {
+    if (shot.stated->lights.size() != 1) continue;
+    const std::string& name = shot.stated->lights.front();
+    if (std::find(lights.begin(), lights.end(), name) == lights.end()) lights.push_back(name);
+  }
+  const std::vector<std::string> materials = checked.rig.scene.materials();
+  std::vector<CheckDetail> out;
+  for (const std::string& light : lights) {
+    std::vector<double> order, power;
+    std::vector<int> group;
+    for (std::size_t i = 0; i < checked.shots.size(); ++i) {
+      const SceneShot& shot = *checked.shots[i].stated;
+      if (shot.lights != std::vector<std::string>{light} || !(powers[i].weight > 0.0)) continue;
+      order.push_back(static_cast<double>(i));
+      power.push_back(powers[i].sum / powers[i].weight);
+      group.push_back(static_cast<int>(
+          std::find(materials.begin(), materials.end(), shot.material) - materials.begin()));
+    }
+    const Departure slope = common_slope(order, power, group);
+    if (!std::isfinite(slope.std)) continue;
+    const double span = order.back() - order.front();
+    CheckDetail d;
+    d.where = light;
+    d.value = 100.0 * slope.value * span;
+    d.std = 100.0 * slope.std * span;
+    out.push_back(d);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<CheckItem> check_light(const CheckedRig& checked) {
+  const CheckOptions& o = checked.options;
+  std::vector<CheckDetail> power, even, residual;
+  std::vector<ShotPower> powers(checked.shots.size());
+  for (const CheckedTask& task : checked.fit.tasks) {
+    if (!task.departures) continue;
+    for (std::size_t k = 0; k < task.shots.size(); ++k) {
+      const std::size_t i = task.shots[k];
+      const auto add = [&](const Departure& d, std::vector<CheckDetail>& list) {
+        CheckDetail detail = checked.of_channel(i, task.channel, 100.0 * d.value);
+        detail.std = 100.0 * d.std;
+        list.push_back(detail);
+      };
+      const Departure& p = task.departures->power_relative[k];
+      if (task.shots.size() > 1) {
+        add(p, power);
+        powers[i].weight += 1.0 / (p.std * p.std);
+        powers[i].sum += p.value / (p.std * p.std);
+      }
+      add(task.departures->even_relative[k], even);
+      residual.push_back(
+          checked.of_channel(i, task.channel, 100.0 * task.departures->residual_relative[k]));
+    }
+  }
+  // A misfit of the model as large as the limit says that its other figures mean little.
+  return {judged("image residual", "% of the image", {o.max_residual_percent},
+                 "look at the shot: object moved, wrong mesh, wrong light, or light from elsewhere",
+                 residual),
+          judged("light of shot", "% off the joint model",
+                 {o.max_power_percent, false, false, o.least_stds},
+                 "look whether aperture, exposure or LED current changed in this shot", power),
+          judged("LED drift", "% over the shots", {o.max_drift_percent, false, false, 3.0},
+                 "let the LED warm up, or drive it by a constant current", drifts(checked, powers)),
+          judged("light from elsewhere", "% of mean light",
+                 {o.max_even_percent, false, false, o.least_stds},
+                 "switch off every other lamp, shut the blinds, or list a light of type ambient",
+                 even)};
+}
+
+}  // namespace scattermeter::apps

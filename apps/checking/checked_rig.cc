@@ -1,0 +1,177 @@
+#include "apps/checking/checked_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <mutex>
+#include <utility>
+
+#include <fmt/core.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "apps/instrument/calibration_inputs.h"
+#include "apps/instrument/open_objects.h"
+#include "apps/instrument/open_shots.h"
+#include "calib/pose/shot_pose.h"
+#include "capture/files/file_kind.h"
+#include "capture/sensor/corrected_samples.h"
+#include "capture/sensor/linear_samples.h"
+#include "capture/sensor/radiance_calibration.h"
+#include "capture/shots/shot_folder.h"
+#include "capture/shots/shot_source.h"
+#include "core/base/progress.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// An LED's place is fitted within at least this, mm.
+constexpr double kLedPlaceStd_mm = 2.0;
+
+std::shared_ptr<CheckedGeometry> geometry_of(const Rig& rig) {
+  auto out = std::make_shared<CheckedGeometry>();
+  out->rig = rig;
+  // The pose as the rig states it: a refined one would hide what is looked for.
+  out->rig.pose.refine_by_silhouette = false;
+  for (SceneLight& light : out->rig.scene.lights) {
+    if (light.led() == nullptr) continue;
+    if (light.led()->calibrated) {
+      // Position, exponent and power by themselves: the places are what is asked for here.
+      const LedVector std = light.led()->calibrated->covariance.diagonal().cwiseSqrt();
+      light.led()->exponent_std = std[5];
+      light.led()->intensity_relative_std = std.tail<3>().maxCoeff();
+      light.led()->calibrated.reset();
+    }
+    light.led()->position_std_mm = std::max(light.led()->position_std_mm, kLedPlaceStd_mm);
+  }
+  out->scenes = open_objects(out->rig);
+  return out;
+}
+
+CheckedFrame checked_frame(const capture::RawFrame& frame, const Rig& rig, const ObservedShot& shot,
+                           const CheckOptions& options) {
+  CheckedFrame out;
+  out.black_counts = frame.black_counts;
+  const SampleMap& map = shot.seen->map;
+  // A board fills the frame with light.
+  if (!rig.pose.charuco) {
+    out.background = capture::background_level(frame, map.x0, map.y0, map.width, map.height);
+    if (rig.decoding.radiance) {
+      // What is known to lie on the background is none of its own light.
+      const capture::RadianceCorrection& c = rig.decoding.radiance->correction;
+      const std::array<double, kRgb> mean = capture::frame_mean_counts(frame, c);
+      for (std::size_t k = 0; k < kRgb; ++k) {
+        const double known = c.glare_share[k] * mean[k] + c.dark_counts_per_s[0] * frame.exposure_s;
+        out.background.darkest_counts[k] -= known;
+        out.background.median_counts[k] -= known;
+      }
+    }
+  }
+  out.noise = capture::noise_curve(
+      capture::linear_samples(frame, rig.scene.camera.sensor.noise, frame.exposure_s, map.x0,
+                              map.y0, map.width, map.height),
+      map);
+  if (options.draw_shot) {
+    out.png = options.draw_shot(frame, {rig.scene.camera.intrinsics, shot.pose.camera_from_world},
+                                *shot.seen->object->rays, map);
+  }
+  return out;
+}
+
+// The LEDs whose shots stand in the folder.
+std::vector<calib::LedCheck> checked_leds(const Rig& rig, const std::string& folder) {
+  std::vector<calib::LedCheck> out;
+  if (!rig.calibration.led) return out;
+  const calib::LedCalibrationInput input = led_calibration_input(rig);
+  for (const std::string& light : input.shots.lights()) {
+    const bool all_there =
+        std::all_of(input.shots.shots.begin(), input.shots.shots.end(),
+                    [&](const calib::LedCalibrationShot& shot) {
+                      return (shot.kind != calib::LedShotKind::kAmbient && shot.light != light) ||
+                             capture::is_there(std::filesystem::path(folder) / shot.file);
+                    });
+    if (all_there) out.push_back(calib::check_led(input, light, led_frames_in(rig, folder)));
+  }
+  return out;
+}
+
+}  // namespace
+
+CheckDetail CheckedRig::of_shot(std::size_t shot_idx, double value) const {
+  CheckDetail out;
+  out.where = rig.scene.shots.at(shot_idx).file;
+  out.value = value;
+  out.shot_idx = shot_idx;
+  return out;
+}
+
+CheckDetail CheckedRig::of_channel(std::size_t shot_idx, std::size_t channel, double value) const {
+  CheckDetail out = of_shot(shot_idx, value);
+  out.where += fmt::format(" {}", kRgbName.at(channel));
+  return out;
+}
+
+CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
+                            const CheckOptions& options) {
+  CheckedRig out{rig, options, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  const capture::ShotFolder folder =
+      capture::match_shots(rig.scene, calibration_files(rig), shots_folder);
+  for (const std::string& name : folder.unlisted) {
+    out.notes.push_back(name + ": not in the rig's list of shots, skipped");
+  }
+  const auto geometry = geometry_of(rig);
+  out.geometry = geometry;
+  out.folder = shots_folder;
+  const Rig& loose = geometry->rig;
+  if (!rig.pose.charuco) out.shared_pose = calib::pose_from_points(loose.scene, loose.pose);
+  geometry->library =
+      std::make_unique<LitObjects>(loose.scene, geometry->scenes, std::nullopt, 0.0);
+  std::optional<SharedView> view;
+  if (out.shared_pose) {
+    view = see_all(loose.scene, geometry->scenes, *geometry->library, *out.shared_pose);
+  }
+  const capture::ShotSource source =
+      capture::shots_in_files(loose.scene, loose.decoding, folder.paths);
+  out.shots =
+      open_shots(loose, source, geometry->scenes, *geometry->library, view, options.progress);
+  out.frames.resize(out.shots.size());
+  ProgressStage stage(options.progress, "looking at shots", out.shots.size());
+  tbb::parallel_for(std::size_t{0}, out.shots.size(), [&](std::size_t i) {
+    const capture::RawFrame frame =
+        std::get<capture::FrameSource>(source.open)(source.shot_idxs[i], 0);
+    out.frames[i] = checked_frame(frame, loose, out.shots[i], options);
+    stage.step();
+  });
+  calib::SilhouetteCheckOptions outline;
+  if (rig.lens) {
+    out.lens = *rig.lens;
+    for (std::size_t i = 0; i < out.lens->parameters.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      const double std = std::sqrt(out.lens->covariance(at, at));
+      const std::string& name = out.lens->parameters[i];
+      if (name.starts_with("f")) {
+        outline.explanation.focal_relative_std = std / rig.scene.camera.intrinsics.fx_px;
+      } else if (name == "k1") {
+        outline.explanation.k1_std = std;
+      }
+    }
+  }
+  const capture::FrameSource& frames = std::get<capture::FrameSource>(source.open);
+  if (out.shared_pose) {
+    out.outline = calib::check_silhouettes(loose.scene, loose.pose, geometry->scenes, frames,
+                                           source.shot_idxs, *out.shared_pose, outline);
+  } else {
+    std::vector<PoseResult> poses;
+    for (const ObservedShot& shot : out.shots) poses.push_back(shot.pose);
+    out.outline = calib::check_silhouettes_apart(loose.scene, loose.pose, geometry->scenes, frames,
+                                                 source.shot_idxs, poses, outline);
+  }
+  out.leds = checked_leds(rig, shots_folder);
+  out.fit = fit_for_check(loose, source, out.shots, *geometry->library, view, options.progress);
+  if (!rig.scene.camera.responsivity) {
+    out.notes.emplace_back(
+        "no responsivity in the rig: the scale is free, sigma_a will be uncertain");
+  }
+  return out;
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,67 @@
+#include <filesystem>
+#include <memory>
+#include <ostream>
+
+#include <fmt/core.h>
+
+#include "apps/commands/commands.h"
+#include "apps/instrument/calibration_inputs.h"
+#include "apps/report/calibration_tables.h"
+#include "apps/report/plot.h"
+#include "apps/report/radiance_plots.h"
+#include "apps/results/result_json.h"
+#include "apps/rig/radiance_file.h"
+#include "calib/pose/shot_pose.h"
+#include "calib/radiance/calibrate_radiance.h"
+#include "capture/files/pending_file.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// Linearity and noise, beside the file.
+void draw_radiance(const capture::RadianceCalibration& calibration, const std::string& stem) {
+  for (std::size_t c = 0; c < kRgb; ++c) {
+    write_plot(photon_transfer_plot(calibration, c),
+               fmt::format("{}_noise_{}.png", stem, kRgbName[c]));
+  }
+  write_plot(linearity_plot(calibration), stem + "_linearity.png");
+}
+
+}  // namespace
+
+void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context) {
+  struct Options {
+    std::string shots, rig, out = "radiance.yaml";
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = calibrate.add_subcommand(
+      "radiance",
+      "Black, dark current, hot pixels, read noise, gain, linearity, exposure times, vignetting, "
+      "glare and responsivity from the shots that the rig's calibration.radiance lists.\n"
+      "Writes the file that camera.radiance names, and pictures of noise and linearity beside it.\n"
+      "Exit status: 0 done, 1 a residual exceeds its limit, 2 bad input.");
+  command->add_option("SHOTS", options->shots, "folder of the raw files")->required();
+  command->add_option("--rig", options->rig, "rig file (YAML)")->required();
+  command->add_option("--out", options->out, "file to write")->capture_default_str();
+  command->callback([options, &context] {
+    context.chosen = [options, &context] {
+      Rig rig = read_rig(options->rig, false);
+      // Where the camera stands matters to the white reference alone.
+      if (rig.calibration.radiance && rig.calibration.radiance->white) {
+        calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
+      }
+      const capture::RadianceCalibration calibration = calib::calibrate_radiance(
+          radiance_calibration_input(rig), radiance_frames_in(rig, options->shots));
+      capture::write_text_file(options->out, radiance_file_text(calibration));
+      std::filesystem::path stem(options->out);
+      draw_radiance(calibration, stem.replace_extension().string());
+      if (!context.quiet) context.out << radiance_calibration_table(calibration);
+      for (const capture::RadianceResidual& r : calibration.residuals) {
+        if (r.rms > r.limit) return 1;
+      }
+      return 0;
+    };
+  });
+}
+
+}  // namespace scattermeter::apps

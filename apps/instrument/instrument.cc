@@ -1,0 +1,163 @@
+#include "apps/instrument/instrument.h"
+
+#include <algorithm>
+#include <exception>
+#include <set>
+
+#include <oneapi/tbb/parallel_invoke.h>
+
+#include "apps/instrument/open_shots.h"
+#include "calib/pose/shot_pose.h"
+#include "core/base/progress.h"
+
+namespace scattermeter::apps {
+namespace {
+
+std::optional<PoseResult> shared_pose(const Rig& rig) {
+  if (rig.pose.charuco) return std::nullopt;
+  return calib::pose_from_points(rig.scene, rig.pose);
+}
+
+// To the farthest object; 0 where the pose is not known before the shots are.
+double distance_to_camera_mm(const Rig& rig, const ObjectScenes& objects,
+                             const std::optional<PoseResult>& pose) {
+  if (!pose) return 0.0;
+  const CameraView view{rig.scene.camera.intrinsics, pose->camera_from_world};
+  double distance_mm = 0.0;
+  for (const auto& [name, object] : objects) {
+    distance_mm =
+        std::max(distance_mm, (view.center_in_world_mm() - object.box.center_mm()).norm());
+  }
+  return distance_mm;
+}
+
+std::vector<MergedBracket> brackets_of(const std::vector<ObservedShot>& shots) {
+  std::vector<MergedBracket> out;
+  for (const ObservedShot& shot : shots) {
+    if (shot.exposures.size() < 2) continue;
+    MergedBracket& bracket = out.emplace_back();
+    bracket.shot = shot.stated->file;
+    for (std::size_t c = 0; c < kRgb; ++c) {
+      bracket.samples[c] = shot.observation.channel[c].samples;
+      bracket.samples_clipped[c] = shot.observation.channel[c].samples_clipped;
+    }
+    for (std::size_t k = 0; k < shot.exposures.size(); ++k) {
+      MergedBracket::File& file = bracket.files.emplace_back();
+      file.file = shot.exposures[k].file;
+      file.exposure_s = shot.exposures[k].true_s;
+      file.departure = shot.exposures[k].departure;
+      for (std::size_t c = 0; c < kRgb; ++c) {
+        file.samples[c] = shot.observation.channel[c].exposures[k].samples;
+      }
+    }
+  }
+  return out;
+}
+
+Skipped skipped_of(const std::vector<ObservedShot>& shots, const LitObjects& lit) {
+  Skipped out;
+  std::set<const SeenObject*> views;
+  for (const ObservedShot& shot : shots) {
+    out.samples_outside += shot.samples_outside;
+    if (views.insert(shot.seen.get()).second) {
+      out.patches_unseen +=
+          static_cast<std::size_t>(shot.seen->patches->size()) - shot.seen->map.patch_of_row.size();
+    }
+  }
+  for (const IncidentLight* light : lit.lights_so_far()) {
+    out.patches_unlit += static_cast<std::size_t>(
+        std::count(light->patch_power_sr.begin(), light->patch_power_sr.end(), 0.0));
+    out.shadow_rays += light->shadow_rays_skipped;
+  }
+  return out;
+}
+
+// Reads the shots and meanwhile makes W of the views and lights that they need: neither wants the
+// other.
+std::vector<ObservedShot> open_and_light(const Rig& rig, const capture::ShotSource& source,
+                                         const ObjectScenes& objects, LitObjects& lit,
+                                         const SharedView& view, Progress* progress,
+                                         Weights& weights) {
+  std::vector<ObservedShot> unread(source.shot_idxs.size());
+  for (std::size_t i = 0; i < unread.size(); ++i) {
+    unread[i].stated = &rig.scene.shots.at(source.shot_idxs[i]);
+    unread[i].seen = view.objects.at(unread[i].stated->object);
+  }
+  std::vector<ObservedShot> shots;
+  std::exception_ptr of_light;
+  tbb::parallel_invoke([&] { shots = open_shots(rig, source, objects, lit, view, progress); },
+                       [&] {
+                         try {
+                           add_smooth_weights(rig.scene, unread, lit, nullptr, weights);
+                         } catch (...) {
+                           // What is wrong with a shot is reported first.
+                           of_light = std::current_exception();
+                         }
+                       });
+  if (of_light) std::rethrow_exception(of_light);
+  return shots;
+}
+
+}  // namespace
+
+Instrument::Instrument(const Rig& rig, const ObjectScenes& objects, const MeasureOptions& options,
+                       Progress* progress)
+    : rig_(rig),
+      objects_(objects),
+      options_(options),
+      progress_(progress),
+      pose_(shared_pose(rig)),
+      lit_(rig.scene, objects, options.patch_size_mm, distance_to_camera_mm(rig, objects, pose_)) {
+  if (pose_ && !rig.pose.refine_by_silhouette) view_ = see_all(rig.scene, objects, lit_, *pose_);
+}
+
+Measurement Instrument::measure(const capture::ShotSource& source) {
+  std::vector<std::pair<std::string, double>> timing_s;
+  Stopwatch watch(timing_s);
+  Measurement out = measure(source, watch);
+  watch.total();
+  out.timing_s = timing_s;
+  return out;
+}
+
+Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& watch) {
+  std::vector<ObservedShot> shots;
+  return measure(source, watch, false, shots);
+}
+
+Measurement Instrument::forecast(const capture::ShotSource& source,
+                                 std::vector<ObservedShot>& opened) {
+  std::vector<std::pair<std::string, double>> timing_s;
+  Stopwatch watch(timing_s);
+  return measure(source, watch, true, opened);
+}
+
+Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& watch,
+                                bool without_noise, std::vector<ObservedShot>& shots) {
+  EstimateOptions options = options_.estimate;
+  options.without_noise = without_noise;
+  if (without_noise) options.model = "dipole";
+  Measurement out;
+  out.model = options.model;
+  for (const auto& [name, object] : objects_) {
+    out.patch_size_mm[name] = lit_.patches(name).patch_size_mm();
+  }
+  if (!view_) kept_ = {};  // those of views that are gone
+  std::optional<SharedView> view = view_;
+  if (!view && pose_ && !rig_.pose.per_shot) {
+    view = see_all(rig_.scene, objects_, lit_,
+                   calib::pose_from_silhouettes(rig_.scene, rig_.pose, objects_, *pose_, source));
+  }
+  shots = view && estimator(options.model).on_smooth_knots
+              ? open_and_light(rig_, source, objects_, lit_, *view, progress_, kept_.weights)
+              : open_shots(rig_, source, objects_, lit_, view, progress_);
+  watch.lap("shots");
+  out.brackets = brackets_of(shots);
+  out.results = estimate(rig_.scene, lit_, shots, options, kept_, watch, progress_);
+  out.skipped = skipped_of(shots, lit_);
+  for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;
+  out.skipped.channels_not_asked = material_channels(rig_.scene, shots).size() - out.results.size();
+  return out;
+}
+
+}  // namespace scattermeter::apps

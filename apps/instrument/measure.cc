@@ -1,0 +1,103 @@
+#include "apps/instrument/measure.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include "apps/instrument/instrument.h"
+#include "apps/instrument/open_objects.h"
+#include "apps/instrument/rig_inputs.h"
+#include "calib/pose/shot_pose.h"
+#include "capture/files/digest.h"
+#include "capture/shots/shot_cache.h"
+#include "capture/shots/shot_folder.h"
+#include "capture/shots/shot_source.h"
+#include "core/base/input_error.h"
+#include "core/base/progress.h"
+#include "core/base/stopwatch.h"
+
+namespace scattermeter::apps {
+bool Measurement::any_refused() const {
+  return std::any_of(results.begin(), results.end(),
+                     [](const ChannelResult& r) { return r.refused(); });
+}
+
+namespace {
+
+// The rig with the shots of these materials alone.
+Rig with_materials(const Rig& rig, const std::vector<std::string>& wanted) {
+  if (wanted.empty()) return rig;
+  const std::vector<std::string> known = rig.scene.materials();
+  for (const std::string& name : wanted) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError(rig.path, fmt::format("shots: no shot is of material {} (there are: {})",
+                                             name, fmt::join(known, ", ")));
+    }
+  }
+  Rig out = rig;
+  std::erase_if(out.scene.shots, [&](const SceneShot& shot) {
+    return std::find(wanted.begin(), wanted.end(), shot.material) == wanted.end();
+  });
+  return out;
+}
+
+bool lists(const Rig& rig, const std::string& file) {
+  return std::any_of(rig.scene.shots.begin(), rig.scene.shots.end(), [&](const SceneShot& shot) {
+    const std::vector<std::string> files = shot.files();
+    return std::find(files.begin(), files.end(), file) != files.end();
+  });
+}
+
+}  // namespace
+
+Measurement measure(const Rig& whole, const std::string& shots_folder,
+                    const MeasureOptions& options, Progress* progress) {
+  std::vector<std::pair<std::string, double>> timing_s;
+  Stopwatch watch(timing_s);
+  Rig rig = with_materials(whole, options.materials);
+  calib::take_points_from_board_shot(rig.scene, rig.decoding, shots_folder, rig.pose);
+  const capture::ShotFolder folder =
+      capture::match_shots(rig.scene, calibration_files(rig), shots_folder);
+  const ObjectScenes scenes = open_objects(rig);
+  Instrument instrument(rig, scenes, options, progress);
+  watch.lap("geometry");
+  capture::FileDigests digests;
+  std::optional<capture::ShotCache> cache;
+  capture::ShotSource source = capture::shots_in_files(rig.scene, rig.decoding, folder.paths);
+  if (!options.cache_folder.empty()) {
+    cache.emplace(options.cache_folder);
+    source.cache = &*cache;
+    source.digests = &digests;
+  }
+  Measurement out;
+  try {
+    out = instrument.measure(source, watch);
+  } catch (...) {
+    if (cache) cache->forget();
+    throw;
+  }
+  out.skipped.shots_not_asked = whole.scene.shots.size() - rig.scene.shots.size();
+  for (const std::string& name : folder.unlisted) {
+    if (lists(whole, name)) continue;
+    out.notes.push_back(name + ": not in the rig's list of shots, skipped");
+  }
+  if (cache) {
+    cache->remove_others();
+    out.skipped.shots_from_cache = cache->found();
+    if (const std::string problem = cache->problem(); !problem.empty()) {
+      out.notes.push_back("decoded shots are not kept: " + problem);
+    }
+  }
+  std::vector<std::string> shot_files;
+  for (const std::vector<std::string>& of_shot : folder.paths) {
+    shot_files.insert(shot_files.end(), of_shot.begin(), of_shot.end());
+  }
+  out.inputs = rig_inputs(rig, scenes, digests, shot_files);
+  watch.lap("digests");
+  watch.total();
+  out.timing_s = timing_s;
+  return out;
+}
+
+}  // namespace scattermeter::apps

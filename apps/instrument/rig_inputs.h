@@ -1,0 +1,20 @@
+// The files that a rig's answer rests on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/instrument/measure.h"
+#include "apps/instrument/open_objects.h"
+#include "apps/rig/rig.h"
+#include "capture/files/digest.h"
+
+namespace scattermeter::apps {
+
+// The rig, its calibrations, meshes and probes that a shot refers to, each once, then `more`, with
+// their digests. Throws InputError naming a file that cannot be read.
+std::vector<InputFile> rig_inputs(const Rig& rig, const ObjectScenes& objects,
+                                  capture::FileDigests& digests,
+                                  const std::vector<std::string>& more = {});
+
+}  // namespace scattermeter::apps

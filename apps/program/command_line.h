@@ -1,0 +1,19 @@
+// The program's commands.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "core/transport/path_peers.h"
+
+namespace scattermeter::apps {
+
+// Runs `scattermeter arguments...` (without the program's name) and returns its exit status: 0
+// done, 1 at least one value refused or check failed, 2 bad input or bad usage. Results go to
+// `out`, notes and errors to `err`. Peers run the same command line; the first of them writes the
+// files. Lets no exception out except std::bad_alloc and what peers throw.
+int run_command_line(const std::vector<std::string>& arguments, std::ostream& out,
+                     std::ostream& err, PathPeers* peers = nullptr);
+
+}  // namespace scattermeter::apps

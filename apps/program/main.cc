@@ -1,0 +1,48 @@
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "apps/program/command_line.h"
+#include "apps/program/ranks.h"
+#include "core/base/input_error.h"
+
+namespace {
+
+using scattermeter::apps::Ranks;
+
+int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& err,
+        Ranks& ranks) {
+  try {
+    return scattermeter::apps::run_command_line(arguments, out, err, &ranks);
+  } catch (const Ranks::Ended&) {
+    return Ranks::kFollows;
+  } catch (const std::exception& e) {
+    err << "scattermeter: internal error: " << e.what() << "\n";
+    return 3;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A file over the limit of its size is an error of the write that hits it, with a message.
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    Ranks ranks;
+    // The first rank alone is heard; what another has to say of an error is told at the end.
+    const bool first = ranks.place() == 0;
+    std::ostream nowhere(nullptr);
+    std::ostringstream heard;
+    const int status = run(std::vector<std::string>(argv + 1, argv + argc),
+                           first ? std::cout : nowhere, first ? std::cerr : heard, ranks);
+    const Ranks::End end = ranks.end(status, heard.str());
+    if (first) std::cerr << end.message;
+    return end.status;
+  } catch (const scattermeter::InputError& e) {
+    std::cerr << "scattermeter: " << e.what() << "\n";
+    return 2;
+  }
+}

@@ -1,0 +1,184 @@
+#include "apps/report/html_page.h"
+
+#include <stdexcept>
+
+#include <fmt/core.h>
+
+#include "apps/report/base64.h"
+
+namespace scattermeter::apps {
+namespace {
+
+constexpr const char* kStyle = R"css(
+:root { color-scheme: light dark; --ink: #1b1f24; --paper: #ffffff; --soft: #f3f5f7; --line: #d4d9df;
+  --dim: #5a6470; --pass: #11632f; --fail: #b3141d; --bar: #4a86c5; }
+@media (prefers-color-scheme: dark) { :root { --ink: #e4e7eb; --paper: #14171a; --soft: #1e2328;
+  --line: #3a424b; --dim: #a2acb8; --pass: #6fd08f; --fail: #ff8a86; --bar: #6fa8e0; } }
+* { box-sizing: border-box; }
+body { margin: 0 auto; padding: 1rem; max-width: 78rem; background: var(--paper); color: var(--ink);
+  font: 1rem/1.5 system-ui, sans-serif; overflow-wrap: anywhere; }
+h1 { font-size: 1.6rem; line-height: 1.2; margin: 0.3em 0; }
+h2 { font-size: 1.25rem; margin: 1.6em 0 0.4em; border-bottom: 1px solid var(--line); }
+h3 { font-size: 1.05rem; margin: 1.2em 0 0.3em; }
+p { max-width: 48rem; }
+.dim { color: var(--dim); font-size: 0.875rem; }
+.pass { color: var(--pass); font-weight: 600; }
+.fail { color: var(--fail); font-weight: 600; }
+.scroll { overflow-x: auto; margin: 0.6rem 0; border: 1px solid var(--line); border-radius: 6px; }
+table { border-collapse: collapse; width: 100%; font-size: 0.9rem; overflow-wrap: normal; }
+th, td { padding: 0.3rem 0.6rem; text-align: left; vertical-align: top;
+  border-bottom: 1px solid var(--line); }
+tr:last-child td { border-bottom: 0; }
+th { background: var(--soft); font-weight: 600; }
+td.number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
+th.number { text-align: right; }
+.figures { display: grid; gap: 0.8rem;
+  grid-template-columns: repeat(auto-fill, minmax(min(100%, 23rem), 1fr)); }
+figure { margin: 0; padding: 0.4rem; border: 1px solid var(--line); border-radius: 6px;
+  background: var(--soft); min-width: 0; }
+figure img { display: block; width: 100%; height: auto; background: #ffffff; border-radius: 3px; }
+figcaption { font-size: 0.875rem; color: var(--dim); padding: 0.3rem 0.2rem 0; }
+details { margin: 0.6rem 0; }
+summary { cursor: pointer; font-weight: 600; }
+meter { width: 6rem; }
+@media (max-width: 30rem) { body { padding: 0.6rem; } th, td { padding: 0.25rem 0.4rem; } }
+)css";
+
+// The length of the valid UTF-8 sequence that starts here, or 0 (RFC 3629: no overlong forms, no
+// surrogates, nothing above U+10FFFF).
+std::size_t sequence_length(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const unsigned first = byte(at);
+  std::size_t n = 0;
+  unsigned low = 0x80;
+  unsigned high = 0xBF;
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) n = 2;
+  if (first >= 0xE0 && first <= 0xEF) n = 3;
+  if (first >= 0xF0 && first <= 0xF4) n = 4;
+  if (first == 0xE0) low = 0xA0;
+  if (first == 0xED) high = 0x9F;
+  if (first == 0xF0) low = 0x90;
+  if (first == 0xF4) high = 0x8F;
+  for (std::size_t i = 1; i < n; ++i) {
+    if (byte(at + i) < low || byte(at + i) > high) return 0;
+    low = 0x80;
+    high = 0xBF;
+  }
+  return n;
+}
+
+}  // namespace
+
+Html& Html::operator+=(const Html& other) {
+  markup += other.markup;
+  return *this;
+}
+
+std::string plain_text(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t n = sequence_length(text, i);
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if (n == 0) {
+      out += "\xEF\xBF\xBD";
+    } else if (n > 1) {
+      out += text.substr(i, n);
+    } else {
+      out += byte < 0x20U || byte == 0x7FU ? ' ' : text[i];
+    }
+    i += n == 0 ? 1 : n;
+  }
+  return out;
+}
+
+Html html_text(const std::string& text) {
+  std::string out;
+  for (const char c : plain_text(text)) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else if (c == '\'') {
+      out += "&#39;";
+    } else {
+      out += c;
+    }
+  }
+  return {out};
+}
+
+Html html_element(const std::string& name, const Html& inner, const std::string& css_class) {
+  const std::string attribute =
+      css_class.empty() ? "" : " class=\"" + html_text(css_class).markup + "\"";
+  return {"<" + name + attribute + ">" + inner.markup + "</" + name + ">\n"};
+}
+
+HtmlTable::Cell text_cell(const std::string& text, const std::string& css_class) {
+  return {html_text(text), false, css_class};
+}
+
+HtmlTable::Cell number_cell(const std::string& text) { return {html_text(text), true, ""}; }
+
+Html html_table(const HtmlTable& table) {
+  std::string out = "<div class=\"scroll\"><table>\n<thead><tr>";
+  for (std::size_t i = 0; i < table.header.size(); ++i) {
+    const bool number = !table.rows.empty() && i < table.rows[0].size() && table.rows[0][i].number;
+    out += number ? "<th scope=\"col\" class=\"number\">" : "<th scope=\"col\">";
+    out += html_text(table.header[i]).markup + "</th>";
+  }
+  out += "</tr></thead>\n<tbody>\n";
+  for (const auto& row : table.rows) {
+    if (row.size() != table.header.size()) {
+      throw std::invalid_argument(
+          fmt::format("html_table: {} cells under {} headers", row.size(), table.header.size()));
+    }
+    out += "<tr>";
+    for (const HtmlTable::Cell& cell : row) {
+      std::string css = cell.number ? "number" : "";
+      if (!cell.css_class.empty()) css += (css.empty() ? "" : " ") + cell.css_class;
+      out += css.empty() ? "<td>" : "<td class=\"" + html_text(css).markup + "\">";
+      out += cell.content.markup + "</td>";
+    }
+    out += "</tr>\n";
+  }
+  return {out + "</tbody></table></div>\n"};
+}
+
+std::string data_address(const std::string& type, const std::string& bytes) {
+  return "data:" + type + ";base64," + base64(bytes);
+}
+
+Html html_figure(const std::string& address, const std::string& alt, const Html& caption) {
+  return {"<figure><img src=\"" + html_text(address).markup + "\" alt=\"" + html_text(alt).markup +
+          "\"><figcaption>" + caption.markup + "</figcaption></figure>\n"};
+}
+
+Html html_figures(const std::vector<Html>& figures) {
+  Html all;
+  for (const Html& f : figures) all += f;
+  return {"<div class=\"figures\">\n" + all.markup + "</div>\n"};
+}
+
+Html html_details(const std::string& summary, const Html& inner) {
+  return {"<details><summary>" + html_text(summary).markup + "</summary>\n" + inner.markup +
+          "</details>\n"};
+}
+
+std::string html_document(const std::string& title, const Html& body) {
+  return std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
+         "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
+         "data:; "
+         "style-src 'unsafe-inline'\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
+         html_text(title).markup + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n" +
+         body.markup + "</body>\n</html>\n";
+}
+
+}  // namespace scattermeter::apps

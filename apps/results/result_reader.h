@@ -1,0 +1,61 @@
+// Reading result.json back.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/fit/estimate.h"
+#include "core/material/medium.h"
+
+namespace scattermeter::apps {
+
+// One entry of `results`. Numbers that the file does not tell are NaN.
+struct ReadChannel {
+  std::string material;
+  char channel = 'R';  // R, G, B
+  std::string model;   // that answered
+  double eta_int_over_ext = 1;
+  Quantity sigma_s_prime_per_mm;  // of what is not refused: value > 0
+  Quantity sigma_a_per_mm;        // of what is not refused: value >= 0
+  double correlation = 0;
+  bool refused = false;
+  std::vector<std::string> reasons;
+
+  Medium medium() const {
+    return {sigma_s_prime_per_mm.value, sigma_a_per_mm.value, eta_int_over_ext};
+  }
+};
+
+struct ReadResult {
+  std::string path;
+  std::string version;  // of the program that measured
+  std::string command;
+  std::vector<ReadChannel> channels;  // in the file's order
+};
+
+// Throws InputError naming file, field and value for a file that cannot be read, is no JSON, or is
+// no result: a field missing or of another kind, a channel given twice, a number out of its domain.
+// Fields that are not asked for here are passed over.
+ReadResult read_result(const std::string& path);
+
+// The three channels of a material.
+struct MeasuredMaterial {
+  std::string name;
+  double eta_int_over_ext = 1;
+  std::array<ReadChannel, 3> rgb;
+  bool refused() const { return rgb[0].refused || rgb[1].refused || rgb[2].refused; }
+};
+
+// Materials in the order of their first channel; only those of `names` where it holds any. Throws
+// InputError for a name that the result does not hold, a material without one of R, G, B, or
+// channels of different eta.
+std::vector<MeasuredMaterial> materials_of(const ReadResult& result,
+                                           const std::vector<std::string>& names = {});
+
+std::vector<std::string> names_of(const std::vector<MeasuredMaterial>& materials);
+
+// A line for each refused channel: what, and why.
+std::vector<std::string> refusals(const std::vector<MeasuredMaterial>& materials);
+
+}  // namespace scattermeter::apps

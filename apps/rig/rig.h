@@ -1,0 +1,76 @@
+// The rig: everything the program is told about camera, objects, lights and shots.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "apps/rig/rig_calibration.h"
+#include "apps/rig/rig_limits.h"
+#include "calib/pose/pose_source.h"
+#include "capture/sensor/sensor_truth.h"
+#include "capture/shots/shot_decoding.h"
+#include "core/material/medium.h"
+#include "core/scene/scene.h"
+
+namespace scattermeter::calib {
+struct CameraCalibrationFile;  // calib/lens/camera_calibration_file.h
+}
+
+namespace scattermeter::apps {
+
+// Where the camera of simulated shots stands.
+struct CameraPlacement {
+  Eigen::Vector3d position_mm;
+  Eigen::Vector3d look_at_mm;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+};
+
+// What simulation alone reads: the world as it is, beside what the rig states of it.
+struct Truth {
+  std::map<std::string, std::array<Medium, 3>> materials;  // eta is the object's, not set here
+  std::optional<CameraPlacement> pose;
+  capture::SensorTruth sensor;
+  // R, G, B; of light beside the LEDs on the white planes of calibration.led, the same all over.
+  Eigen::Array3d ambient_irradiance_W_per_mm2 = Eigen::Array3d::Zero();
+};
+
+// A rig file as values.
+struct Rig {
+  std::string path;  // as given
+  Scene scene;
+  calib::PoseSource pose;
+  capture::ShotDecoding decoding;  // with camera.radiance; absent: the raws are taken as they are
+  // All that the file of camera.intrinsics says of the lens; null: no such file.
+  std::shared_ptr<const calib::CameraCalibrationFile> lens;
+  std::string intrinsics_path;  // of that file; "": none
+  RigCalibration calibration;
+  Truth truth;
+  RigLimits limits;
+
+  // "rig.yaml:12" for messages.
+  std::string at(int line) const { return path + ":" + std::to_string(line); }
+};
+
+// Files that a folder of this rig's shots may hold besides the shots themselves: those of
+// calibrations and of the board.
+std::set<std::string> calibration_files(const Rig& rig);
+
+// Lets the rig's shots be corrected by this calibration (null: by none). Its responsivity is not
+// taken. path: of its file; "": made in code.
+void use_radiance(Rig& rig, std::shared_ptr<const capture::RadianceCalibration> radiance,
+                  const std::string& path = {});
+
+// Reads and checks a rig file (YAML). Throws InputError with file, line, field and value for
+// anything that is missing, of the wrong kind, out of range, not finite, unknown, given twice or
+// not referred to properly. Paths in the rig are relative to the rig's folder. Meshes are not
+// opened here.
+// with_radiance off: camera.radiance is left out (`calibrate radiance` makes that file).
+Rig read_rig(const std::string& path, bool with_radiance = true);
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,100 @@
+#include "apps/simulation/board_picture.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "core/camera/cfa_samples.h"
+
+namespace scattermeter::apps {
+namespace {
+
+constexpr double kWhite = 0.9;
+constexpr double kBlack = 0.04;
+constexpr int kSide = 3;  // sub-samples a pixel and side
+
+// The board's four corners, for the rectangle of the frame that it fills.
+TriangleMesh outline(const calib::CharucoBoard& board) {
+  const double w = board.squares_x * board.square_mm;
+  const double h = board.squares_y * board.square_mm;
+  TriangleMesh mesh;
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(w, 0, 0),
+                                   Eigen::Vector3d(w, h, 0), Eigen::Vector3d(0, h, 0)}) {
+    mesh.vertices_mm.push_back(board.world_from_board * p);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+void add_board(const CameraView& view, const calib::CharucoBoard& board,
+               const std::vector<Led>& leds, const Eigen::Array3d& ambient_W_per_mm2,
+               const RayScene& object, const std::array<int, 4>& channel_of_phase,
+               std::vector<float>& radiance) {
+  const TriangleMesh corners = outline(board);
+  const ViewCheck check = check_view(view, corners);
+  if (!check.in_front || !check.in_frame) return;
+  const RayGrid rays = rays_around(view, corners, 4);
+  const calib::CharucoPattern pattern(board);
+  const Rigid3d board_from_world = inverse(board.world_from_board);
+  const Eigen::Vector3d origin = board_from_world * rays.origin_in_world_mm;
+  const Eigen::Vector3d normal = board.world_from_board.rotation * Eigen::Vector3d::UnitZ();
+  const auto direction = [&](int x, int y) {
+    return rays
+        .directions_in_world[static_cast<std::size_t>(y) * static_cast<std::size_t>(rays.width) +
+                             static_cast<std::size_t>(x)]
+        .cast<double>()
+        .eval();
+  };
+  const auto shade = [&](int x, int y) {
+    const Eigen::Vector3d d = direction(x, y);
+    if (object.first_hit(rays.origin_in_world_mm, d).facet_idx >= 0)
+      return;  // the object is nearer
+    const Eigen::Vector3d per_x =
+        x + 1 < rays.width ? (direction(x + 1, y) - d).eval() : d - direction(x - 1, y);
+    const Eigen::Vector3d per_y =
+        y + 1 < rays.height ? (direction(x, y + 1) - d).eval() : d - direction(x, y - 1);
+    double reflectance = 0.0;
+    Eigen::Vector3d center_in_board = Eigen::Vector3d::Zero();
+    int hits = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const int row = i / kSide;
+      const int column = i % kSide;
+      const double fx = (column + 0.5) / kSide - 0.5;
+      const double fy = (row + 0.5) / kSide - 0.5;
+      const Eigen::Vector3d w = board_from_world.rotation * (d + fx * per_x + fy * per_y);
+      if (!(origin.z() > 0.0) || !(w.z() < 0.0)) continue;
+      const Eigen::Vector3d p = origin - origin.z() / w.z() * w;
+      const double print = pattern.reflectance(p.x(), p.y());
+      if (!std::isfinite(print)) continue;
+      reflectance += kBlack + (kWhite - kBlack) * print;
+      center_in_board += p;
+      ++hits;
+    }
+    if (hits == 0) return;
+    const Eigen::Vector3d point = board.world_from_board * (center_in_board / hits);
+    const int xx = rays.x0 + x;
+    const int yy = rays.y0 + y;
+    const int channel = channel_of_phase[cfa_phase(xx, yy)];
+    double irradiance = ambient_W_per_mm2[channel];
+    for (const Led& led : leds) {
+      const double e = led.transmitted_irradiance_per_mm2(point, normal, 1.0);
+      if (e > 0.0 && !object.occluded(point, normal, led.position_mm)) {
+        irradiance += e * led.intensity_W_per_sr[channel];
+      }
+    }
+    radiance[static_cast<std::size_t>(yy) * static_cast<std::size_t>(view.intrinsics.width_px) +
+             static_cast<std::size_t>(xx)] +=
+        static_cast<float>(irradiance / std::numbers::pi * reflectance / (kSide * kSide));
+  };
+  tbb::parallel_for(tbb::blocked_range<int>(0, rays.height, 8),
+                    [&](const tbb::blocked_range<int>& range) {
+                      for (int y = range.begin(); y < range.end(); ++y) {
+                        for (int x = 0; x < rays.width; ++x) shade(x, y);
+                      }
+                    });
+}
+
+}  // namespace scattermeter::apps

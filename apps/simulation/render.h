@@ -1,0 +1,47 @@
+// Measured materials on the objects of a rig, under its lights.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/results/result_reader.h"
+#include "apps/rig/rig.h"
+#include "apps/simulation/shot_renderer.h"
+#include "core/base/progress.h"
+
+namespace scattermeter::apps {
+
+struct RenderOptions {
+  std::vector<std::string> objects;  // only these of the rig; empty: those of its shots
+  // On at once, on each object; empty: what the rig's shots of it are lit by, each set for itself.
+  std::vector<std::string> lights;
+  int width_px = 0;  // of the frame, its height by the rig's proportions; 0: the rig's
+  RenderTransport transport;
+  Progress* progress = nullptr;
+};
+
+// An object under one or more lights.
+struct RenderScene {
+  std::string object;
+  std::vector<std::string> lights;
+};
+
+struct RenderedPicture {
+  std::size_t scene_idx = 0;
+  std::size_t material_idx = 0;
+  ColourRadiance radiance;
+  double monte_carlo_std = 0;  // see ShotRenderer, largest so far
+};
+
+struct Rendering {
+  std::vector<RenderScene> scenes;
+  std::vector<RenderedPicture> pictures;  // scene by scene, in each the materials in their order
+};
+
+// Every scene with every material, which brings its own eta. The camera stands at truth.pose or
+// where the pose points put it. Throws InputError for a rig without either, an object or light that
+// it does not have, an object out of view, and for what `simulate` refuses.
+Rendering render(const Rig& rig, const std::vector<MeasuredMaterial>& materials,
+                 const RenderOptions& options);
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,94 @@
+#include "apps/simulation/simulate.h"
+
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+#include "apps/instrument/open_objects.h"
+#include "apps/simulation/simulate_camera_calibration.h"
+#include "apps/simulation/simulate_led_calibration.h"
+#include "apps/simulation/simulate_radiance_calibration.h"
+#include "apps/simulation/virtual_shots.h"
+#include "capture/sensor/virtual_sensor.h"
+#include "core/base/input_error.h"
+#include "core/base/progress.h"
+
+namespace scattermeter::apps {
+
+namespace {
+
+double board_exposure_s(const Rig& rig) { return rig.scene.camera.exposure_s.value_or(0.1); }
+
+std::vector<float> board_signal_counts(const Rig& rig) {
+  const calib::CharucoBoard& board = *rig.pose.charuco;
+  CameraView view = true_view(rig);
+  view.camera_from_world = view.camera_from_world * board.world_from_board;
+  return board_counts(rig, view,
+                      {calib::BoardKind::kCharuco, board.squares_x, board.squares_y,
+                       board.square_mm, board.marker_mm, board.dictionary},
+                      rig.at(rig.pose.line) + ": pose.charuco", rig.pose.board_shot);
+}
+
+std::string write_board_shot(const Rig& rig, const std::string& out_folder,
+                             const SimulateOptions& options) {
+  const std::string path = (std::filesystem::path(out_folder) / rig.pose.board_shot).string();
+  capture::VirtualSensor(rig.scene, rig.truth.sensor, options.noise)
+      .write(path, board_signal_counts(rig), board_exposure_s(rig),
+             capture::VirtualSensor::stream(options.seed, rig.pose.board_shot));
+  return path;
+}
+
+}  // namespace
+
+capture::RawFrame board_frame(const Rig& rig) {
+  return capture::VirtualSensor(rig.scene, rig.truth.sensor, false)
+      .frame(board_signal_counts(rig), board_exposure_s(rig), 0);
+}
+
+SimulatedShots simulate(const Rig& given, const std::string& out_folder,
+                        const SimulateOptions& options, Progress* progress) {
+  // A board that has a shot of its own is in no other.
+  Rig rig = given;
+  if (!rig.pose.board_shot.empty()) {
+    true_view(given);  // throws where the rig does not say where the camera stands
+    rig.pose.charuco.reset();
+  }
+  ObjectScenes scenes;
+  std::optional<VirtualShots> shots;
+  if (options.scene) {
+    scenes = open_objects(rig);
+    RenderTransport transport = options.transport;
+    transport.seed = options.seed;
+    shots.emplace(rig, scenes, VirtualShotOptions{options.noise, progress, transport});
+  }
+  SimulatedShots made;
+  if (options.transport.peers != nullptr && options.transport.peers->place() > 0) return made;
+  std::error_code error;
+  std::filesystem::create_directories(out_folder, error);
+  if (error) throw InputError(out_folder, "the folder cannot be made: " + error.message());
+  if (!given.pose.board_shot.empty()) {
+    made.paths.push_back(write_board_shot(given, out_folder, options));
+  }
+  if (shots) {
+    ProgressStage stage(progress, "exposing", shots->size());
+    made.monte_carlo_std = shots->monte_carlo_std();
+    for (std::size_t i = 0; i < shots->size(); ++i) {
+      const std::vector<std::string> files = rig.scene.shots[i].files();
+      for (std::size_t k = 0; k < files.size(); ++k) {
+        made.paths.push_back((std::filesystem::path(out_folder) / files[k]).string());
+        shots->write(i, options.seed, made.paths.back(), k);
+      }
+      stage.step();
+    }
+  }
+  if (options.calibration) {
+    for (const auto& part :
+         {simulate_camera_calibration, simulate_led_calibration, simulate_radiance_calibration}) {
+      const std::vector<std::string> paths = part(rig, out_folder, options, progress);
+      made.paths.insert(made.paths.end(), paths.begin(), paths.end());
+    }
+  }
+  return made;
+}
+
+}  // namespace scattermeter::apps

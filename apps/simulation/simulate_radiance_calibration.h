@@ -1,0 +1,20 @@
+// The shots of a rig's calibration.radiance.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/rig/rig.h"
+#include "apps/simulation/simulate.h"
+#include "core/base/progress.h"
+
+namespace scattermeter::apps {
+
+// Writes the shots into `out_folder` (which exists); the paths of the files. None where the rig has
+// no calibration.radiance. Throws InputError for bad input.
+std::vector<std::string> simulate_radiance_calibration(const Rig& rig,
+                                                       const std::string& out_folder,
+                                                       const SimulateOptions& options,
+                                                       Progress* progress);
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,91 @@
+#include "calib/board/opencv_storage.h"
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/base/input_error.h"
+
+namespace scattermeter::calib {
+namespace {
+
+// The file's text. cv::FileStorage would log to stderr when it cannot open a file.
+std::string storage_text(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path, "cannot open the intrinsics file");
+  try {
+    // A folder opens, and throws on the first read.
+    std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    if (!in.bad()) return text;
+  } catch (const std::ios_base::failure&) {
+  }
+  throw InputError(path, "cannot read the intrinsics file");
+}
+
+// OpenCV 4.6 never returns from some texts with more than one beginning of a document.
+bool has_one_document(const std::string& text) {
+  int begins = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.compare(0, 3, "---") != 0) continue;
+    ++begins;
+    if (line.find_first_not_of(" \t\r", 3) != std::string::npos) return false;
+  }
+  return begins <= 1;
+}
+
+cv::FileStorage parse_storage(const std::string& path, const std::string& text) {
+  const char* expected = "expected YAML (%YAML), XML or JSON as OpenCV's FileStorage writes it";
+  // It takes a text by its first characters and asserts on an empty one.
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw InputError(path, std::string(expected) + ", got an empty file");
+  }
+  if (!has_one_document(text)) {
+    throw InputError(path, "expected one document: one line of --- and nothing else in that line");
+  }
+  try {
+    cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+    if (storage.isOpened() && storage.root().isMap()) return storage;
+  } catch (const cv::Exception& error) {
+    throw InputError(path, std::string(expected) + ", got: " + error.err);
+  } catch (const std::logic_error& error) {
+    // Its parser counts characters of some broken lines below zero.
+    throw InputError(path, std::string(expected) + ", got: " + error.what());
+  }
+  throw InputError(path, expected);
+}
+
+}  // namespace
+
+cv::FileStorage open_storage(const std::string& path) {
+  return parse_storage(path, storage_text(path));
+}
+
+cv::Mat read_storage_matrix(const std::string& where, const cv::FileNode& node) {
+  cv::Mat matrix;
+  try {
+    if (!node.isMap()) throw InputError(where, "expected an opencv-matrix");
+    // OpenCV takes the memory that rows and columns claim before it looks at the values.
+    const cv::FileNode rows = node["rows"];
+    const cv::FileNode columns = node["cols"];
+    const std::size_t values = node["data"].size();
+    if (!rows.isInt() || !columns.isInt() || static_cast<int>(rows) < 0 ||
+        static_cast<int>(columns) < 0 ||
+        static_cast<double>(rows) * static_cast<double>(columns) != static_cast<double>(values)) {
+      throw InputError(where,
+                       "expected an opencv-matrix of rows x cols values in data, which has " +
+                           std::to_string(values));
+    }
+    node >> matrix;
+    if (matrix.dims > 2 || matrix.channels() != 1) {
+      throw InputError(where, "expected an opencv-matrix of one channel");
+    }
+    matrix.convertTo(matrix, CV_64F);
+  } catch (const cv::Exception& error) {
+    throw InputError(where, "cannot be read as an opencv-matrix: " + error.err);
+  }
+  return matrix;
+}
+
+}  // namespace scattermeter::calib

@@ -1,0 +1,23 @@
+// Calibration of an LED from its shots.
+#pragma once
+
+#include <string>
+
+#include "calib/led/led_calibration_input.h"
+#include "calib/led/led_fit.h"
+#include "calib/led/led_shots.h"
+
+namespace scattermeter::calib {
+
+struct LedCalibration {
+  std::string light;
+  LedShots shots;
+  LedFit fit;  // valid where its status is kOk
+};
+
+// fit_led() of read_led_shots(), started from the input's LED, whose radius_mm is kept. Throws
+// InputError as read_led_shots() does.
+LedCalibration calibrate_led(const LedCalibrationInput& input, const std::string& light,
+                             const LedFrames& frames);
+
+}  // namespace scattermeter::calib

@@ -1,0 +1,68 @@
+// What calibration shots show of one LED.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "calib/led/mirror_sphere.h"
+#include "calib/led/white_plane.h"
+#include "core/camera/camera_model.h"
+#include "core/camera/rigid3d.h"
+
+namespace scattermeter::calib {
+
+// The camera in a shot. Covariance as in PoseResult: (w in rad, dt in mm), camera axes.
+struct LedView {
+  Rigid3d camera_from_world;
+  Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+// The LED's image in a mirror sphere.
+struct SeenHighlight {
+  std::size_t view = 0;    // of LedScene::views
+  std::size_t sphere = 0;  // of LedScene::spheres
+  Eigen::Vector2d image_px = Eigen::Vector2d::Zero();
+  double std_px = 0;  // of each coordinate, > 0
+};
+
+// The mean of one channel's samples in a cell of a white plane.
+struct ShadedCell {
+  std::size_t view = 0;
+  std::size_t plane = 0;
+  std::size_t shot = 0;                                  // cells of a shot share its ambient light
+  std::size_t setting = 0;                               // of LedScene::exposure_relative_std
+  int column = 0, row = 0;                               // of the plane's grid of cells
+  int channel = 0;                                       // 0 R, 1 G, 2 B
+  Eigen::Vector2d place_mm = Eigen::Vector2d::Zero();    // mean of the samples, on the plane
+  Eigen::Matrix2d spread_mm2 = Eigen::Matrix2d::Zero();  // covariance of their places
+  double radiance_W_per_mm2_sr = 0;
+  double std_W_per_mm2_sr = 0;  // of the mean, by the noise of the samples; > 0
+};
+
+struct LedScene {
+  CameraIntrinsics intrinsics;
+  std::vector<LedView> views;
+  std::vector<MirrorSphere> spheres;
+  std::vector<WhitePlane> planes;
+  std::vector<SeenHighlight> highlights;
+  std::vector<ShadedCell> cells;
+  // How well the time of each exposure setting is known, which all cells of that setting share; an
+  // error of the time is one of the power. Empty: all exactly.
+  std::vector<double> exposure_relative_std;
+  // By ShadedCell::shot: the shot's ambient light was measured with the LED off and subtracted from
+  // its cells. Empty: none was.
+  std::vector<bool> ambient_subtracted;
+
+  std::size_t plane_shots() const;  // one more than the largest ShadedCell::shot; 0 without cells
+};
+
+inline std::size_t LedScene::plane_shots() const {
+  std::size_t n = 0;
+  for (const ShadedCell& cell : cells) n = std::max(n, cell.shot + 1);
+  return n;
+}
+
+}  // namespace scattermeter::calib

@@ -1,0 +1,54 @@
+// A white plane's samples, gathered into cells.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "calib/led/led_scene.h"
+#include "calib/led/white_plane.h"
+#include "core/camera/camera_model.h"
+#include "core/camera/cfa_samples.h"
+#include "core/camera/rigid3d.h"
+
+namespace scattermeter::calib {
+
+struct PlaneCellOptions {
+  int cells_across = 16;      // along the plane's longer side, at most
+  double min_cell_px = 10;    // smallest edge of a cell in the image
+  double border_px = 4;       // samples nearer to the plane's edge are left out
+  double max_left_out = 0.2;  // share of a cell's samples; with more, the cell is dropped
+  // Cells below the camera's floor stay, the bias of noise cut at zero counted with their noise:
+  // for light that is to be subtracted.
+  bool keep_faint = false;
+};
+
+// Rectangle (even x0, y0; cut to the frame) that holds the plane's image; width 0: out of view, or
+// seen from behind.
+struct PlaneImage {
+  int x0 = 0, y0 = 0, width = 0, height = 0;  // px
+  double mm_per_px = 0;                       // on the plane, the largest at its corners
+};
+PlaneImage plane_image(const CameraIntrinsics& intrinsics, const Rigid3d& camera_from_world,
+                       const WhitePlane& plane);
+
+struct PlaneCells {
+  std::vector<ShadedCell> cells;
+  int columns = 0, rows = 0;      // of the grid
+  std::size_t clipped_cells = 0;  // left out because they are (each channel counts)
+  std::size_t spots = 0;          // samples left out: dust, hot pixels
+};
+
+// Means of the cells, each channel for itself. In a cell the samples are held against their own
+// linear trend; those farther from it than five deviations (of the noise, or of the bulk of the
+// samples if that is wider) are dust and left out. Clipped cells and those below the camera's floor
+// are left out. Radiance = signal / (exposure responsivity), W/(mm^2 sr). `samples` must hold the
+// rectangle of plane_image().
+PlaneCells plane_cells(const CfaSamples& samples, const CameraIntrinsics& intrinsics,
+                       const Rigid3d& camera_from_world, const WhitePlane& plane,
+                       const std::array<double, 3>& responsivity_counts_mm2_sr_per_W_s,
+                       std::size_t view_idx, std::size_t plane_idx,
+                       const PlaneCellOptions& options = {});
+
+}  // namespace scattermeter::calib

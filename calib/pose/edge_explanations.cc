@@ -1,0 +1,241 @@
+#include "calib/pose/edge_explanations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+#include "calib/pose/edge_scatter.h"
+#include "core/base/chi_square.h"
+
+namespace scattermeter::calib {
+namespace {
+
+using namespace edge_parameter;
+
+constexpr double kDoubt = 1e-4;    // p below which chance is out of the question
+constexpr double kCloseScore = 6;  // two causes nearer than that cannot be told apart
+constexpr double kCloseChi2 = 9;   // one that leaves no more than this is named beside the best
+// Standard deviations that keep what the outline does not tell from running away.
+constexpr double kLooseTurn_rad = 0.3;
+constexpr double kLooseDistance = 0.3;
+constexpr double kLooseLog = 0.2;
+constexpr double kLooseDistortion = 0.3;
+
+std::vector<int> with_pose(std::vector<int> more) {
+  std::vector<int> all = {0, 1, 2, 3, 4, 5};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+std::string formatted(const char* format, double value, double std) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, value, std);
+  return text;
+}
+
+// Length of a part of the values and its standard deviation along itself.
+std::pair<double, double> length(const EdgeFit& f, int first) {
+  const Eigen::Vector3d v = f.value.segment<3>(first);
+  const Eigen::Matrix3d c = f.covariance.block<3, 3>(first, first);
+  const Eigen::Vector3d u = v.norm() > 0 ? v.normalized().eval() : Eigen::Vector3d::UnitX().eval();
+  return {v.norm(), std::sqrt(u.dot(c * u))};
+}
+
+double rms(const std::vector<double>& residual) {
+  double sum = 0;
+  for (const double r : residual) sum += r * r;
+  return std::sqrt(sum / static_cast<double>(residual.size()));
+}
+
+void describe(const EdgeFit& f, const std::vector<std::string>& names, EdgeExplanation& e) {
+  constexpr double kDegree = 180 / std::numbers::pi;
+  const auto relative = [&](int parameter) {
+    e.value = std::expm1(f.value[parameter]);
+    e.std = std::exp(f.value[parameter]) * std::sqrt(f.covariance(parameter, parameter));
+  };
+  switch (e.cause) {
+    case EdgeCause::kNone:
+      e.text = "the rig as it is";
+      break;
+    case EdgeCause::kCameraTurned:
+      std::tie(e.value, e.std) = length(f, kTurn);
+      e.value *= kDegree;
+      e.std *= kDegree;
+      e.text = formatted("camera turned by %.3f +- %.3f deg", e.value, e.std);
+      break;
+    case EdgeCause::kCameraMoved:
+      std::tie(e.value, e.std) = length(f, kMove);
+      e.text = formatted("camera moved by %.3f +- %.3f mm", e.value, e.std);
+      break;
+    case EdgeCause::kMeshScale:
+    case EdgeCause::kAllMeshScales: {
+      relative(e.cause == EdgeCause::kAllMeshScales ? kScale : kScaleOfBody + e.body_idx);
+      const std::string whose = e.cause == EdgeCause::kAllMeshScales
+                                    ? "all meshes"
+                                    : "mesh of " + names.at(static_cast<std::size_t>(e.body_idx));
+      e.text = whose +
+               formatted(e.value > 0 ? " %.2f +- %.2f %% too small" : " %.2f +- %.2f %% too large",
+                         100 * std::abs(e.value), 100 * e.std);
+      break;
+    }
+    case EdgeCause::kFocalLength:
+      relative(kFocal);
+      e.text = formatted(e.value > 0 ? "focal length %.2f +- %.2f %% longer"
+                                     : "focal length %.2f +- %.2f %% shorter",
+                         100 * std::abs(e.value), 100 * e.std);
+      e.text += formatted(", k1 changed by %.3f +- %.3f", f.value[kDistortion],
+                          std::sqrt(f.covariance(kDistortion, kDistortion)));
+      break;
+    case EdgeCause::kCameraTurnedMoved: {
+      std::tie(e.value, e.std) = length(f, kTurn);
+      e.value *= kDegree;
+      e.std *= kDegree;
+      const auto [move, move_std] = length(f, kMove);
+      e.text = formatted("camera turned by %.3f +- %.3f deg", e.value, e.std) +
+               formatted(" and moved by %.3f +- %.3f mm", move, move_std);
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+EdgeDiagnosis explain_edges(const std::vector<EdgePoint>& points,
+                            const CameraIntrinsics& intrinsics, const PoseResult& pose,
+                            const std::vector<std::string>& names,
+                            const EdgeExplanationOptions& options) {
+  if (points.empty()) throw std::invalid_argument("explain_edges: no points");
+  const int size = edge_parameters(points);
+  const double distance_mm = pose.camera_from_world.translation_mm.norm();
+  EdgeFitOptions fit;
+  fit.prior = Eigen::MatrixXd::Zero(size, size);
+  fit.prior.topLeftCorner<6, 6>() = pose.covariance.ldlt().solve(Eigen::MatrixXd::Identity(6, 6));
+  for (int i = 0; i < 3; ++i) {
+    fit.prior(kTurn + i, kTurn + i) = 1 / std::pow(kLooseTurn_rad, 2);
+    fit.prior(kMove + i, kMove + i) = 1 / std::pow(kLooseDistance * distance_mm, 2);
+  }
+  fit.prior(kDistortion, kDistortion) = 1 / std::pow(kLooseDistortion, 2);
+  for (int i = 0; i < size; ++i) {
+    if (i == kFocal || i >= kScale) fit.prior(i, i) = 1 / std::pow(kLooseLog, 2);
+  }
+  std::set<int> bodies;
+  std::set<std::pair<int, int>> lines;
+  for (const EdgePoint& p : points) {
+    bodies.insert(p.body_idx);
+    lines.insert({p.body_idx, p.line_idx});
+  }
+  // All causes at once. A turn and a move on top of a pose that is free are nothing new: the pose
+  // without its prior stands for both.
+  std::vector<int> all = {kFocal, kDistortion};
+  for (const int b : bodies) all.push_back(kScaleOfBody + b);
+  EdgeFitOptions every = fit;
+  every.free = with_pose(all);
+  every.prior.topLeftCorner<6, 6>() =
+      fit.prior.block<6, 6>(kTurn, kTurn);  // turn and move: as loose
+  EdgeDiagnosis out;
+  const EdgeScatter scatter =
+      edge_scatter(points, intrinsics, pose.camera_from_world, every, options.line_std_px);
+  out.line_std_px = fit.line_std_px = every.line_std_px = scatter.line_std_px;
+  out.piece_std_px = fit.piece_std_px = every.piece_std_px = scatter.piece_std_px;
+  const EdgeFit rich = fit_edges(points, intrinsics, pose.camera_from_world, every);
+  out.residual_px = rich.residual_px;
+  const auto rich_parameters = static_cast<int>(every.free.size());
+
+  // What the rig itself does not know exactly goes along with its pose.
+  std::vector<int> known;
+  Eigen::MatrixXd known_prior = fit.prior;
+  if (options.focal_relative_std > 0) {
+    known.push_back(kFocal);
+    known_prior(kFocal, kFocal) = 1 / std::pow(options.focal_relative_std, 2);
+  }
+  if (options.k1_std > 0) {
+    known.push_back(kDistortion);
+    known_prior(kDistortion, kDistortion) = 1 / std::pow(options.k1_std, 2);
+  }
+  if (options.scale_relative_std > 0) {
+    for (const int b : bodies) {
+      known.push_back(kScaleOfBody + b);
+      known_prior(kScaleOfBody + b, kScaleOfBody + b) = 1 / std::pow(options.scale_relative_std, 2);
+    }
+  }
+  const auto attempt = [&](EdgeCause cause, int body_idx, const std::vector<int>& extra) {
+    EdgeFitOptions o = fit;
+    o.prior = known_prior;
+    std::vector<int> more = known;
+    for (const int p : extra) {
+      o.prior(p, p) = fit.prior(p, p);
+      if (std::find(more.begin(), more.end(), p) == more.end()) more.push_back(p);
+    }
+    o.free = with_pose(more);
+    const EdgeFit f = fit_edges(points, intrinsics, pose.camera_from_world, o);
+    EdgeExplanation e;
+    e.cause = cause;
+    e.body_idx = body_idx;
+    e.parameters = static_cast<int>(extra.size());
+    e.chi2 = f.chi2;
+    e.rms_px = rms(f.residual_px);
+    const double left = std::max(0.0, f.chi2 - rich.chi2);
+    e.explains =
+        f.converged && chi_square_tail(left, std::max(1, rich_parameters - e.parameters)) > kDoubt;
+    describe(f, names, e);
+    out.explanations.push_back(e);
+  };
+  attempt(EdgeCause::kNone, -1, {});
+  attempt(EdgeCause::kCameraTurned, -1, {kTurn, kTurn + 1, kTurn + 2});
+  attempt(EdgeCause::kCameraMoved, -1, {kMove, kMove + 1, kMove + 2});
+  for (const int b : bodies) attempt(EdgeCause::kMeshScale, b, {kScaleOfBody + b});
+  if (bodies.size() > 1) attempt(EdgeCause::kAllMeshScales, -1, {kScale});
+  attempt(EdgeCause::kFocalLength, -1, {kFocal, kDistortion});
+  attempt(EdgeCause::kCameraTurnedMoved, -1,
+          {kTurn, kTurn + 1, kTurn + 2, kMove, kMove + 1, kMove + 2});
+
+  out.agrees = rich.converged && out.explanations[0].explains;
+  if (out.agrees) {
+    out.is_told = true;
+    out.verdict = "the outline agrees with the rig";
+    return out;
+  }
+  const double per_parameter = std::log(2.0 * static_cast<double>(lines.size()));
+  const auto score = [&](const EdgeExplanation& e) {
+    return e.chi2 + e.parameters * per_parameter;
+  };
+  const EdgeExplanation* best = nullptr;
+  for (const EdgeExplanation& e : out.explanations) {
+    if (e.explains && (best == nullptr || score(e) < score(*best))) best = &e;
+  }
+  if (best == nullptr) {
+    out.verdict =
+        "the outline contradicts the rig, and neither the camera's place, the mesh's scale nor the "
+        "focal length alone explains it";
+    return out;
+  }
+  out.cause = best->cause;
+  out.body_idx = best->body_idx;
+  out.verdict = best->text;
+  out.is_told = true;
+  std::string others;
+  std::string unlikely;
+  for (const EdgeExplanation& e : out.explanations) {
+    const bool holds_best =
+        e.cause == EdgeCause::kCameraTurnedMoved &&
+        (best->cause == EdgeCause::kCameraTurned || best->cause == EdgeCause::kCameraMoved);
+    if (&e == best || !e.explains || holds_best || e.chi2 > best->chi2 + kCloseChi2) continue;
+    if (score(e) <= score(*best) + kCloseScore) {
+      out.is_told = false;
+      others += (others.empty() ? "; not told apart from: " : ", ") + e.text;
+    } else {
+      unlikely += (unlikely.empty() ? "; fits as well with more freedom: " : ", ") + e.text;
+    }
+  }
+  out.verdict += others + unlikely;
+  return out;
+}
+
+}  // namespace scattermeter::calib

@@ -1,0 +1,284 @@
+#include "calib/pose/edge_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <ceres/ceres.h>
+
+#include "core/base/covariance_root.h"
+#include "core/base/solver_options.h"
+#include "core/camera/lens.h"
+
+namespace scattermeter::calib {
+namespace {
+
+using namespace edge_parameter;
+
+Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w) {
+  const double angle = w.norm();
+  if (angle == 0) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, w / angle));
+}
+
+Rigid3d changed_pose(const Rigid3d& camera_from_world, const Eigen::VectorXd& v) {
+  const Rigid3d pose{rotation_by(v.segment<3>(kPose)) * camera_from_world.rotation,
+                     camera_from_world.translation_mm + v.segment<3>(kPose + 3)};
+  return Rigid3d{rotation_by(v.segment<3>(kTurn)), v.segment<3>(kMove)} * pose;
+}
+
+CameraIntrinsics changed_lens(CameraIntrinsics k, const Eigen::VectorXd& v) {
+  k.fx_px *= std::exp(v[kFocal]);
+  k.fy_px *= std::exp(v[kFocal]);
+  if (v[kDistortion] != 0) {
+    if (k.distortion.empty()) k.distortion.assign(4, 0.0);
+    k.distortion[0] += v[kDistortion];
+  }
+  return k;
+}
+
+double residual_px(const EdgePoint& p, const Lens& lens, const Rigid3d& pose,
+                   const Eigen::VectorXd& v) {
+  const double scale = std::exp(v[kScale] + v[kScaleOfBody + p.body_idx]);
+  const Eigen::Vector3d x = pose * Eigen::Vector3d(scale * p.point_mm);
+  Eigen::Matrix<double, 2, 3> jacobian;
+  const Eigen::Vector2d at = lens.project(x, &jacobian);
+  const Eigen::Vector2d along = jacobian * (pose.rotation * p.tangent);
+  Eigen::Vector2d normal = Eigen::Vector2d(-along.y(), along.x()).normalized();
+  if (normal.dot(p.outward) < 0) normal = -normal;
+  return normal.dot(p.measured_px - at);
+}
+
+struct Problem {
+  const std::vector<EdgePoint>& points;
+  const CameraIntrinsics& intrinsics;
+  const Rigid3d& camera_from_world;
+  const std::vector<int>& free;
+  Eigen::Index size;
+  Lens nominal;
+  bool lens_changes;
+
+  Eigen::VectorXd all(const double* values) const {
+    Eigen::VectorXd v = Eigen::VectorXd::Zero(size);
+    for (std::size_t i = 0; i < free.size(); ++i) v[free[i]] = values[i];
+    return v;
+  }
+  Eigen::VectorXd residuals(const std::vector<std::size_t>& which, const Eigen::VectorXd& v) const {
+    const Rigid3d pose = changed_pose(camera_from_world, v);
+    Eigen::VectorXd r(static_cast<Eigen::Index>(which.size()));
+    const Lens* lens = &nominal;
+    std::optional<Lens> other;
+    if (lens_changes) {
+      other.emplace(changed_lens(intrinsics, v));
+      lens = &*other;
+    }
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      r[static_cast<Eigen::Index>(i)] = residual_px(points[which[i]], *lens, pose, v);
+    }
+    return r;
+  }
+};
+
+// A step that moves the image by about 1e-3 px at 10^4 px of focal length.
+double difference_step(int parameter) {
+  const bool is_mm =
+      (parameter >= kPose + 3 && parameter < kTurn) || (parameter >= kMove && parameter < kFocal);
+  if (parameter == kDistortion) return 1e-4;
+  return is_mm ? 1e-4 : 1e-6;
+}
+
+// Pieces of one line, whitened.
+class LineCost final : public ceres::CostFunction {
+ public:
+  LineCost(const Problem& problem, std::vector<std::size_t> which, const EdgeFitOptions& options)
+      : problem_(problem), which_(std::move(which)) {
+    const auto n = static_cast<Eigen::Index>(which_.size());
+    // Places along the line, -1 and 1 at its ends.
+    Eigen::VectorXd q(n);
+    const EdgePoint& first = problem.points[which_[0]];
+    for (Eigen::Index i = 0; i < n; ++i) {
+      q[i] = first.tangent.dot(problem.points[which_[static_cast<std::size_t>(i)]].point_mm -
+                               first.point_mm);
+    }
+    const double middle = 0.5 * (q.maxCoeff() + q.minCoeff());
+    const double half = 0.5 * (q.maxCoeff() - q.minCoeff());
+    q = half > 0 ? ((q.array() - middle) / half).matrix().eval() : Eigen::VectorXd::Zero(n).eval();
+    Eigen::MatrixXd covariance = 0.5 * options.line_std_px * options.line_std_px *
+                                 (Eigen::MatrixXd::Ones(n, n) + q * q.transpose());
+    for (Eigen::Index i = 0; i < n; ++i) {
+      covariance(i, i) += std::pow(problem.points[which_[static_cast<std::size_t>(i)]].std_px, 2) +
+                          std::pow(options.piece_std_px, 2);
+    }
+    if (options.robust) covariance(0, 0) += std::pow(options.robust_px, 2);
+    root_ = covariance.llt();
+    set_num_residuals(static_cast<int>(n));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.free.size()));
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Eigen::VectorXd v = problem_.all(parameters[0]);
+    Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
+    r = root_.matrixL().solve(problem_.residuals(which_, v));
+    if (!r.allFinite()) return false;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(
+        jacobians[0], num_residuals(), static_cast<Eigen::Index>(problem_.free.size()));
+    for (std::size_t i = 0; i < problem_.free.size(); ++i) {
+      const double step = difference_step(problem_.free[i]);
+      Eigen::VectorXd up = v;
+      Eigen::VectorXd down = v;
+      up[problem_.free[i]] += step;
+      down[problem_.free[i]] -= step;
+      j.col(static_cast<Eigen::Index>(i)) = root_.matrixL().solve(
+          (problem_.residuals(which_, up) - problem_.residuals(which_, down)) / (2 * step));
+    }
+    return j.allFinite();
+  }
+
+ private:
+  const Problem& problem_;
+  std::vector<std::size_t> which_;
+  Eigen::LLT<Eigen::MatrixXd> root_;
+};
+
+// Normal prior about 0: root of its information times the values.
+class PriorCost final : public ceres::CostFunction {
+ public:
+  explicit PriorCost(Eigen::MatrixXd root) : root_(std::move(root)) {
+    set_num_residuals(static_cast<int>(root_.rows()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(root_.cols()));
+  }
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    Eigen::Map<Eigen::VectorXd>(residuals, root_.rows()) =
+        root_ * Eigen::Map<const Eigen::VectorXd>(parameters[0], root_.cols());
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+          jacobians[0], root_.rows(), root_.cols()) = root_;
+    }
+    return true;
+  }
+
+ private:
+  Eigen::MatrixXd root_;
+};
+
+}  // namespace
+
+int edge_parameters(const std::vector<EdgePoint>& points) {
+  int bodies = 0;
+  for (const EdgePoint& p : points) bodies = std::max(bodies, p.body_idx + 1);
+  return kScaleOfBody + bodies;
+}
+
+std::vector<double> edge_residuals_px(const std::vector<EdgePoint>& points,
+                                      const CameraIntrinsics& intrinsics,
+                                      const Rigid3d& camera_from_world,
+                                      const Eigen::VectorXd& value) {
+  const Lens lens(changed_lens(intrinsics, value));
+  const Rigid3d pose = changed_pose(camera_from_world, value);
+  std::vector<double> out;
+  out.reserve(points.size());
+  for (const EdgePoint& p : points) out.push_back(residual_px(p, lens, pose, value));
+  return out;
+}
+
+EdgeFit fit_edges(const std::vector<EdgePoint>& points, const CameraIntrinsics& intrinsics,
+                  const Rigid3d& camera_from_world, const EdgeFitOptions& options) {
+  const Eigen::Index size = edge_parameters(points);
+  if (points.empty() || options.prior.rows() != size || options.prior.cols() != size) {
+    throw std::invalid_argument("fit_edges: no points, or a prior of another size");
+  }
+  EdgeFit out;
+  out.value = Eigen::VectorXd::Zero(size);
+  out.covariance = Eigen::MatrixXd::Zero(size, size);
+  const auto finish = [&] {
+    out.residual_px = edge_residuals_px(points, intrinsics, camera_from_world, out.value);
+    out.camera_from_world = changed_pose(camera_from_world, out.value);
+    return out;
+  };
+  const bool lens_changes = std::any_of(options.free.begin(), options.free.end(),
+                                        [](int i) { return i == kFocal || i == kDistortion; });
+  const Problem problem{points, intrinsics,       camera_from_world, options.free,
+                        size,   Lens(intrinsics), lens_changes};
+  std::map<std::pair<int, int>, std::vector<std::size_t>> lines;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto key = options.robust ? std::pair<int, int>{static_cast<int>(i), 0}
+                                    : std::pair<int, int>{points[i].body_idx, points[i].line_idx};
+    lines[key].push_back(i);
+  }
+  ceres::Problem least_squares;
+  const auto n_free = static_cast<Eigen::Index>(options.free.size());
+  std::vector<double> values(options.free.size(), 0.0);
+  std::vector<std::unique_ptr<LineCost>> costs;
+  for (const auto& [key, which] : lines) {
+    costs.push_back(std::make_unique<LineCost>(problem, which, options));
+  }
+  if (options.free.empty()) {
+    for (const auto& cost : costs) {
+      Eigen::VectorXd r(cost->num_residuals());
+      const double* none = nullptr;
+      if (!cost->Evaluate(&none, r.data(), nullptr)) return finish();
+      out.chi2 += r.squaredNorm();
+    }
+    out.converged = true;
+    return finish();
+  }
+  for (auto& cost : costs) {
+    least_squares.AddResidualBlock(
+        cost.release(), options.robust ? new ceres::CauchyLoss(2.0) : nullptr, values.data());
+  }
+  Eigen::MatrixXd prior(n_free, n_free);
+  for (Eigen::Index i = 0; i < n_free; ++i) {
+    for (Eigen::Index j = 0; j < n_free; ++j) {
+      prior(i, j) = options.prior(options.free[static_cast<std::size_t>(i)],
+                                  options.free[static_cast<std::size_t>(j)]);
+    }
+  }
+  if (prior.squaredNorm() > 0) {
+    least_squares.AddResidualBlock(new PriorCost(covariance_root(prior).transpose()), nullptr,
+                                   values.data());
+  }
+  auto solver = quiet_solver<ceres::Solver::Options>({60, 1e-12, 1e-14, 1e-12});
+  solver.linear_solver_type = ceres::DENSE_QR;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &least_squares, &summary);
+  out.converged = summary.IsSolutionUsable();
+  out.chi2 = 2 * summary.final_cost;
+  out.value = problem.all(values.data());
+  ceres::CRSMatrix sparse;
+  double cost = 0;
+  least_squares.Evaluate({}, &cost, nullptr, nullptr, &sparse);
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+  for (int row = 0; row < sparse.num_rows; ++row) {
+    for (int k = sparse.rows[static_cast<std::size_t>(row)];
+         k < sparse.rows[static_cast<std::size_t>(row) + 1]; ++k) {
+      jacobian(row, sparse.cols[static_cast<std::size_t>(k)]) =
+          sparse.values[static_cast<std::size_t>(k)];
+    }
+  }
+  // Scaled, as radians and millimetres differ by orders of magnitude.
+  const Eigen::VectorXd norms = jacobian.colwise().norm().cwiseMax(1e-300);
+  jacobian = (jacobian * norms.cwiseInverse().asDiagonal()).eval();
+  const Eigen::MatrixXd information = jacobian.transpose() * jacobian;
+  Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(n_free, n_free));
+  covariance =
+      (norms.cwiseInverse().asDiagonal() * covariance * norms.cwiseInverse().asDiagonal()).eval();
+  out.converged = out.converged && covariance.allFinite() && covariance.diagonal().minCoeff() > 0;
+  for (Eigen::Index i = 0; i < n_free; ++i) {
+    for (Eigen::Index j = 0; j < n_free; ++j) {
+      out.covariance(options.free[static_cast<std::size_t>(i)],
+                     options.free[static_cast<std::size_t>(j)]) = covariance(i, j);
+    }
+  }
+  return finish();
+}
+
+}  // namespace scattermeter::calib

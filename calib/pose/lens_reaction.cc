@@ -1,0 +1,49 @@
+#include "calib/pose/lens_reaction.h"
+
+#include <Eigen/Geometry>
+
+#include "core/camera/lens_parameters.h"
+
+namespace scattermeter::calib {
+namespace {
+
+// A pose moved by (w, dt), see PoseResult::covariance.
+Rigid3d moved_pose(const Rigid3d& pose, const Eigen::Matrix<double, 6, 1>& by) {
+  Rigid3d out = pose;
+  const double angle = by.head<3>().norm();
+  if (angle > 0.0) {
+    out.rotation =
+        Eigen::Quaterniond(Eigen::AngleAxisd(angle, by.head<3>() / angle)) * pose.rotation;
+  }
+  out.translation_mm += by.tail<3>();
+  return out;
+}
+
+}  // namespace
+
+PosePerLens combined_per_lens_parameter(const Silhouette& silhouette,
+                                        const CameraIntrinsics& intrinsics, const PoseResult& prior,
+                                        const LensParameters& steps) {
+  const auto combined = [&](Eigen::Index parameter, double by) {
+    LensParameters lens = lens_parameters(intrinsics);
+    lens[parameter] += by;
+    PoseResult other = prior;
+    other.camera_from_world =
+        moved_pose(prior.camera_from_world, by * prior.per_lens_parameter.col(parameter));
+    return fit_with_pose(silhouette, intrinsics_of(lens, intrinsics.width_px, intrinsics.height_px),
+                         other)
+        .camera_from_world;
+  };
+  PosePerLens out = PosePerLens::Zero();
+  for (Eigen::Index k = 0; k < kLensParameters; ++k) {
+    if (!(steps[k] > 0.0)) continue;
+    const Rigid3d up = combined(k, steps[k]);
+    const Rigid3d down = combined(k, -steps[k]);
+    const Eigen::AngleAxisd turn(up.rotation * down.rotation.conjugate());
+    out.col(k) << turn.angle() * turn.axis(), up.translation_mm - down.translation_mm;
+    out.col(k) /= 2.0 * steps[k];
+  }
+  return out;
+}
+
+}  // namespace scattermeter::calib

@@ -1,0 +1,44 @@
+// The camera's pose in a scene's shots, from points, a board or silhouettes.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "calib/pose/pose.h"
+#include "calib/pose/pose_source.h"
+#include "capture/raw/raw_frame.h"
+#include "capture/shots/shot_source.h"
+#include "core/scene/object_scene.h"
+#include "core/scene/scene.h"
+
+namespace scattermeter::calib {
+
+// Pose from point pairs. Throws InputError naming the line when the layout is
+// degenerate or no pose explains it.
+PoseResult pose_from_points(const Scene& scene, const PoseSource& source);
+
+// Pose from the ChArUco board in the shot. Throws InputError naming the shot when the board is not
+// found or does not determine the pose.
+PoseResult pose_from_board(const Scene& scene, const PoseSource& source,
+                           const capture::RawFrame& frame, const std::string& path);
+
+// Where the pose comes from one shot of a board (pose.shot): its corners become the points, as if
+// they had been given. Throws InputError when the shot is missing or does not show the board.
+void take_points_from_board_shot(const Scene& scene, const capture::ShotDecoding& decoding,
+                                 const std::string& shots_folder, PoseSource& source);
+// The same from that shot; name: for messages. Precondition: the pose comes from one.
+void take_points_from_board_shot(const capture::RawFrame& frame, const std::string& name,
+                                 PoseSource& source);
+
+// `prior` (of points or board) and the objects' silhouettes together: of one shot, or of all shots
+// of a source, by one camera that stood still. Throws InputError naming the line and the shot
+// (of several: the first) when the silhouette is not found or contradicts the prior.
+PoseResult pose_from_silhouette(const Scene& scene, const PoseSource& source,
+                                const ObjectScenes& objects, const PoseResult& prior,
+                                std::size_t shot_idx, const capture::RawFrame& frame,
+                                const std::string& name);
+PoseResult pose_from_silhouettes(const Scene& scene, const PoseSource& source,
+                                 const ObjectScenes& objects, const PoseResult& prior,
+                                 const capture::ShotSource& shots);
+
+}  // namespace scattermeter::calib

@@ -1,0 +1,149 @@
+// Dark frames: black, dark current, hot pixels.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "calib/radiance/dark_fit.h"
+#include "calib/radiance/radiance_steps.h"
+#include "capture/sensor/corrected_samples.h"
+#include "capture/sensor/saturation.h"
+#include "core/base/input_error.h"
+
+namespace scattermeter::calib {
+namespace {
+
+constexpr double kMaxDarkShare = 0.02;       // of the range; dark current fills no more
+constexpr double kMaxUneven_counts = 0.5;    // of a block of an eighth of the frame
+constexpr double kMaxDarkStep_counts = 3.0;  // of one frame against the others
+
+void refuse_lit(const RadianceShot& shot, const std::string& what) {
+  throw InputError(
+      shot.file,
+      "dark frame: " + what + "; was a light on, or the lens cap off? Take it again in the dark");
+}
+
+void check_dark(const RadianceShot& shot, const capture::RawFrame& frame, const DarkFrame& dark) {
+  for (std::size_t p = 0; p < 4; ++p) {
+    const double excess = dark.mean_counts[p] - frame.black_counts[p];
+    const double limit = kMaxDarkShare * (frame.white_counts - frame.black_counts[p]);
+    if (excess > limit) {
+      refuse_lit(shot,
+                 fmt::format("its mean lies {:.1f} counts above the file's black, limit {:.1f}",
+                             excess, limit));
+    }
+  }
+}
+
+}  // namespace
+
+capture::RawFrame open_radiance_shot(RadianceSteps& steps, const RadianceShot& shot) {
+  capture::RawFrame frame = steps.open(shot);
+  capture::RadianceCorrection& c = steps.calibration.correction;
+  if (!(frame.exposure_s > 0.0)) throw InputError(shot.file, "the file holds no exposure time");
+  if (c.width_px == 0) {
+    c.width_px = frame.width_px;
+    c.height_px = frame.height_px;
+    c.iso = frame.iso;
+    c.f_number = frame.f_number;
+    c.vignetting = vignetting_of_frame(frame.width_px, frame.height_px);
+  }
+  // Those that the first file did not state are taken from the next.
+  if (c.iso == 0.0) c.iso = frame.iso;
+  if (c.f_number == 0.0) c.f_number = frame.f_number;
+  if (const std::string problem = capture::correction_problem(frame, c); !problem.empty()) {
+    throw InputError(shot.file, problem + " (its first dark frame says so)");
+  }
+  return frame;
+}
+
+std::vector<std::uint8_t> marks_of(const capture::RawFrame& frame,
+                                   const capture::RadianceCorrection& correction) {
+  const std::array<double, 4> clip = capture::clip_levels(frame);
+  std::vector<std::uint8_t> marks(frame.samples.size(), 0);
+  const auto width = static_cast<std::size_t>(frame.width_px);
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const std::size_t phase = 2 * ((i / width) & 1U) + ((i % width) & 1U);
+    if (static_cast<double>(frame.samples[i]) >= clip[phase]) marks[i] = kSampleClipped;
+  }
+  for (const std::size_t i : correction.defect_pixels) marks[i] = kSampleDefect;
+  return marks;
+}
+
+std::array<double, 4> black_at(const capture::RadianceCorrection& correction, double exposure_s) {
+  std::array<double, 4> black = correction.black_counts;
+  for (std::size_t p = 0; p < 4; ++p) black[p] += correction.dark_counts_per_s[p] * exposure_s;
+  return black;
+}
+
+void find_dark(RadianceSteps& steps) {
+  const std::vector<RadianceShot>& shots = steps.input.shots.dark;
+  capture::RadianceCalibration& calibration = steps.calibration;
+  capture::RadianceCorrection& correction = calibration.correction;
+  // Hot pixels first, from the longest frames, where they show best.
+  std::vector<float> sums;
+  double longest_s = 0, sample_std = 0;
+  int n_longest = 0;
+  for (const RadianceShot& shot : shots) {
+    const capture::RawFrame frame = open_radiance_shot(steps, shot);
+    const std::vector<std::uint8_t> none(frame.samples.size(), 0);
+    const DarkFrame dark = dark_frame(frame.samples, none, frame.width_px, frame.exposure_s);
+    check_dark(shot, frame, dark);
+    if (frame.exposure_s > 1.1 * longest_s) {
+      longest_s = frame.exposure_s;
+      n_longest = 0;
+      sums.assign(frame.samples.size(), 0.0F);
+    } else if (frame.exposure_s < longest_s / 1.1) {
+      continue;
+    }
+    ++n_longest;
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += static_cast<float>(frame.samples[i]);
+    sample_std = dark.std_of_mean[0] * std::sqrt(0.25 * static_cast<double>(frame.samples.size()));
+  }
+  constexpr double kLeastHot_counts = 2.0;
+  correction.defect_pixels =
+      hot_pixels(sums, n_longest, correction.width_px, sample_std, kLeastHot_counts);
+  if (static_cast<double>(correction.defect_pixels.size()) >
+      0.05 * static_cast<double>(sums.size())) {
+    throw InputError(
+        shots.front().file,
+        fmt::format("dark frames: {} of {} pixels are hot; light on part of the frame?",
+                    correction.defect_pixels.size(), sums.size()));
+  }
+  std::vector<DarkFrame> frames;
+  for (const RadianceShot& shot : shots) {
+    const capture::RawFrame frame = open_radiance_shot(steps, shot);
+    std::vector<std::uint8_t> marks(frame.samples.size(), 0);
+    for (const std::size_t i : correction.defect_pixels) marks[i] = kSampleDefect;
+    const Unevenness uneven = unevenness(frame.samples, marks, frame.width_px);
+    if (uneven.counts > std::max(kMaxUneven_counts, 6.0 * uneven.std)) {
+      refuse_lit(shot, fmt::format("parts of it differ by {:.2f} counts, limit {:.2f}",
+                                   uneven.counts, std::max(kMaxUneven_counts, 6.0 * uneven.std)));
+    }
+    frames.push_back(dark_frame(frame.samples, marks, frame.width_px, frame.exposure_s));
+  }
+  const DarkFit fit = fit_dark(frames);
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    if (std::abs(fit.residual_counts[i]) >= fit.worst_counts &&
+        fit.worst_counts > kMaxDarkStep_counts) {
+      refuse_lit(shots[i], fmt::format("its mean is {:+.2f} counts off those of the others, limit "
+                                       "{:.1f}",
+                                       fit.residual_counts[i], kMaxDarkStep_counts));
+    }
+  }
+  correction.black_counts = fit.black_counts;
+  correction.dark_counts_per_s = fit.dark_counts_per_s;
+  correction.black_std_counts = fit.black_std_counts;
+  if (!fit.rate_known) {
+    calibration.notes.emplace_back(
+        "dark frames of one exposure time: dark current is taken for black, and does not grow with "
+        "time; shoot some twice as long or longer");
+  }
+  if (!fit.scatter_known) {
+    calibration.notes.emplace_back(
+        "too few dark frames to see the black level drift: shoot four or more");
+  }
+  calibration.residuals.push_back({"dark frames", fit.rms_counts, fit.worst_counts, 1.0, "counts"});
+}
+
+}  // namespace scattermeter::calib

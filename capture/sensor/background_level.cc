@@ -1,0 +1,67 @@
+#include "capture/sensor/background_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace scattermeter::capture {
+namespace {
+
+struct BlockSum {
+  double n = 0, sum = 0, squares = 0;
+};
+
+// The quantile of the values for the given share; reorders the list.
+double quantile(std::vector<double>& values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+}  // namespace
+
+BackgroundLevel background_level(const RawFrame& frame, int x0, int y0, int width, int height) {
+  if (frame.samples.size() !=
+      static_cast<std::size_t>(frame.width_px) * static_cast<std::size_t>(frame.height_px)) {
+    throw std::invalid_argument("background_level: the frame has no samples");
+  }
+  BackgroundLevel out;
+  out.block_px = std::max(16, frame.width_px / 40 / 2 * 2);
+  std::array<std::vector<double>, kChannels> means;
+  std::array<std::vector<double>, kChannels> stds;
+  for (int top = 0; top + out.block_px <= frame.height_px; top += out.block_px) {
+    for (int left = 0; left + out.block_px <= frame.width_px; left += out.block_px) {
+      const bool clear = left + out.block_px <= x0 || left >= x0 + width ||
+                         top + out.block_px <= y0 || top >= y0 + height;
+      if (!clear) continue;
+      std::array<BlockSum, kChannels> sums;
+      for (int y = top; y < top + out.block_px; ++y) {
+        for (int x = left; x < left + out.block_px; ++x) {
+          const auto phase = 2U * (static_cast<unsigned>(y) & 1U) + (static_cast<unsigned>(x) & 1U);
+          BlockSum& s = sums[static_cast<std::size_t>(frame.cfa.at(x, y))];
+          const double counts = frame.at(x, y) - frame.black_counts[phase];
+          s.n += 1.0;
+          s.sum += counts;
+          s.squares += counts * counts;
+        }
+      }
+      ++out.blocks;
+      for (std::size_t c = 0; c < kChannels; ++c) {
+        const BlockSum& s = sums[c];
+        const double mean = s.sum / s.n;
+        means[c].push_back(mean);
+        stds[c].push_back(std::sqrt(std::max(0.0, s.squares / s.n - mean * mean) / s.n));
+      }
+    }
+  }
+  if (out.blocks == 0) return out;
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    out.darkest_counts[c] = quantile(means[c], 0.1);
+    out.median_counts[c] = quantile(means[c], 0.5);
+    out.block_std_counts[c] = quantile(stds[c], 0.5);
+  }
+  return out;
+}
+
+}  // namespace scattermeter::capture

@@ -1,0 +1,55 @@
+#include "capture/shots/shot_folder.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <system_error>
+
+#include "core/base/input_error.h"
+
+namespace scattermeter::capture {
+
+ShotFolder match_shots(const Scene& scene, const std::set<std::string>& also_listed,
+                       const std::string& folder) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::exists(status)) throw MissingFile(folder, "the folder of shots does not exist");
+  if (!fs::is_directory(status)) throw InputError(folder, "is a file, not a folder of shots");
+  std::set<std::string> present;
+  try {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with('.') && !entry.is_directory()) present.insert(name);
+    }
+  } catch (const fs::filesystem_error& e) {
+    throw InputError(folder, "the folder of shots cannot be read: " + e.code().message());
+  }
+  if (present.empty()) throw InputError(folder, "the folder of shots is empty");
+  ShotFolder out;
+  std::string missing;
+  int first_line = 0;
+  for (const SceneShot& shot : scene.shots) {
+    std::vector<std::string>& paths = out.paths.emplace_back();
+    for (const std::string& file : shot.files()) {
+      if (!present.contains(file)) {
+        missing += (missing.empty() ? "" : ", ") + file;
+        if (first_line == 0) first_line = shot.line;
+      }
+      paths.push_back((fs::path(folder) / file).string());
+    }
+  }
+  if (!missing.empty()) {
+    throw MissingFile(scene.at(first_line) + ": shots.file",
+                      "listed, but not in the folder " + folder + ": " + missing);
+  }
+  std::set<std::string> listed = also_listed;
+  for (const SceneShot& shot : scene.shots) {
+    for (const std::string& file : shot.files()) listed.insert(file);
+  }
+  std::set_difference(present.begin(), present.end(), listed.begin(), listed.end(),
+                      std::back_inserter(out.unlisted));
+  return out;
+}
+
+}  // namespace scattermeter::capture

@@ -1,0 +1,48 @@
+#include "capture/shots/shot_key.h"
+
+#include "core/base/version.h"
+
+namespace scattermeter::capture {
+namespace {
+
+// To be raised where the same inputs decode to something else than before.
+constexpr int kFormat = 1;
+
+void add_camera(const SceneCamera& camera, const ShotDecoding& decoding, FileDigests& digests,
+                Digest& key) {
+  const CameraIntrinsics& k = camera.intrinsics;
+  key.text(camera.model).number(k.width_px).number(k.height_px);
+  key.number(k.fx_px).number(k.fy_px).number(k.cx_px).number(k.cy_px);
+  key.number(static_cast<double>(k.distortion.size())).numbers(k.distortion);
+  key.number(camera.responsivity.has_value());
+  if (camera.responsivity) key.numbers(*camera.responsivity);
+  if (decoding.radiance) {
+    key.text(decoding.radiance_path.empty() ? "" : digests.of(decoding.radiance_path));
+  } else {
+    key.number(camera.sensor.noise.gain_e_per_count).number(camera.sensor.noise.read_noise_counts);
+  }
+}
+
+}  // namespace
+
+std::string shot_key(const Scene& scene, const ShotDecoding& decoding, const ObservedShot& shot,
+                     const std::vector<std::string>& names, FileDigests& digests) {
+  Digest key;
+  key.text(kVersion).number(kFormat).number(decoding.max_megapixels);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    // The name in the rig is kept with the shot.
+    key.text(shot.stated->files().at(k)).text(digests.of(names[k]));
+  }
+  add_camera(scene.camera, decoding, digests, key);
+  const Rigid3d& pose = shot.pose.camera_from_world;
+  const auto& q = pose.rotation;
+  key.number(q.w()).number(q.x()).number(q.y()).number(q.z());
+  key.number(pose.translation_mm.x()).number(pose.translation_mm.y());
+  key.number(pose.translation_mm.z());
+  const SeenObject& seen = *shot.seen;
+  key.text(digests.of(seen.object->stated->mesh_path));
+  key.number(seen.patches->patch_size_mm()).number(seen.object->stated->eta_int_over_ext);
+  return key.hex();
+}
+
+}  // namespace scattermeter::capture

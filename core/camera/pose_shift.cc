@@ -1,0 +1,40 @@
+#include "core/camera/pose_shift.h"
+
+#include <Eigen/Geometry>
+
+namespace scattermeter {
+namespace {
+
+// Along the ray through p into the plane through p with normal n, all in camera axes.
+Eigen::Matrix3d onto_plane(const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
+  return Eigen::Matrix3d::Identity() - p * n.transpose() / n.dot(p);
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 3, 6> surface_shift_by_pose(const Rigid3d& camera_from_world,
+                                                  const Eigen::Vector3d& point_mm,
+                                                  const Eigen::Vector3d& normal) {
+  const Eigen::Matrix3d rotation = camera_from_world.rotation.toRotationMatrix();
+  const Eigen::Vector3d p = camera_from_world * point_mm;
+  const Eigen::Vector3d n = rotation * normal;
+  // Movement of the point in the camera frame at a fixed world point: w x y + dt.
+  const Eigen::Vector3d y = rotation * point_mm;
+  Eigen::Matrix<double, 3, 6> movement;
+  for (int i = 0; i < 3; ++i) {
+    movement.col(i) = Eigen::Vector3d::Unit(i).cross(y);
+    movement.col(3 + i) = Eigen::Vector3d::Unit(i);
+  }
+  return -(rotation.transpose() * onto_plane(p, n) * movement);
+}
+
+Eigen::Matrix<double, 3, 2> surface_shift_by_ray(const Rigid3d& camera_from_world,
+                                                 const Eigen::Vector3d& point_mm,
+                                                 const Eigen::Vector3d& normal) {
+  const Eigen::Matrix3d rotation = camera_from_world.rotation.toRotationMatrix();
+  const Eigen::Vector3d p = camera_from_world * point_mm;
+  return rotation.transpose() * onto_plane(p, rotation * normal) * p.z() *
+         Eigen::Matrix<double, 3, 2>::Identity();
+}
+
+}  // namespace scattermeter

@@ -1,0 +1,26 @@
+// How a wrong camera pose moves what a sample sees.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/camera/rigid3d.h"
+
+namespace scattermeter {
+
+// Shift (world, mm) of the surface point that a fixed sample sees, per unit of a small change of
+// pose: 3 x 6, columns (w in rad, dt in mm) with rotation' = exp([w]_x) rotation, translation' =
+// translation + dt. The point stays in the plane through `point_mm` with `normal`. With p the
+// point, n the normal and y = rotation * point in the camera frame, the new point has camera
+// coordinates parallel to p: R dX = mu p - (w x y + dt), and n . R dX = 0 gives mu. Grows without
+// bound for a plane seen edge-on.
+Eigen::Matrix<double, 3, 6> surface_shift_by_pose(const Rigid3d& camera_from_world,
+                                                  const Eigen::Vector3d& point_mm,
+                                                  const Eigen::Vector3d& normal);
+
+// The same per unit of a small change of the ray (X / Z, Y / Z) that falls on the sample, at a
+// fixed pose: 3 x 2. The point moves by Z (dx, dy, 0) and along the ray back into its plane.
+Eigen::Matrix<double, 3, 2> surface_shift_by_ray(const Rigid3d& camera_from_world,
+                                                 const Eigen::Vector3d& point_mm,
+                                                 const Eigen::Vector3d& normal);
+
+}  // namespace scattermeter

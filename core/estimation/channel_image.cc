@@ -1,0 +1,214 @@
+#include "core/estimation/channel_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include "core/diffusion/dipole_curve.h"
+#include "core/fit/numerics.h"
+
+namespace scattermeter {
+namespace {
+
+std::vector<Eigen::Index> used_rows(const ChannelObservation& o) {
+  std::vector<Eigen::Index> rows;
+  rows.reserve(o.rows_used);
+  for (std::size_t j = 0; j < o.state.size(); ++j) {
+    if (o.state[j] == RowState::kUsed) rows.push_back(static_cast<Eigen::Index>(j));
+  }
+  return rows;
+}
+
+double sigma_t_per_mm(const Medium& medium) {
+  return medium.sigma_s_prime_per_mm + medium.sigma_a_per_mm;
+}
+
+// A nuisance, and the square of the length of what one deviation of it changes in the image, in
+// deviations of the rows; infinite where it is free.
+struct Effect {
+  Nuisance nuisance;
+  double square = 0;
+};
+
+// Of one shot, from a part of its rows evenly among all.
+std::vector<Effect> effects(const SceneNuisances& nuisances, const ObservedShot& shot,
+                            const ChannelObservation& rows) {
+  constexpr std::size_t kRows = 500;
+  const std::vector<Eigen::Index> used = used_rows(rows);
+  const std::size_t step = std::max<std::size_t>(1, used.size() / kRows);
+  std::vector<Eigen::Index> some;
+  for (std::size_t i = 0; i < used.size(); i += step) some.push_back(used[i]);
+  std::vector<Effect> out;
+  for (const NuisanceColumn& c : nuisances.columns(shot, rows, some)) {
+    Effect& effect = out.emplace_back(Effect{c.nuisance, 0.0});
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const double change = c.nuisance.std * c.change[static_cast<Eigen::Index>(i)];
+      effect.square += static_cast<double>(step) * change * change /
+                       rows.variance[static_cast<std::size_t>(some[i])];
+    }
+    if (!std::isfinite(effect.square)) effect.square = std::numeric_limits<double>::infinity();
+  }
+  return out;
+}
+
+// Of all shots, in the order in which these have them.
+std::vector<Effect> summed(const std::vector<std::vector<Effect>>& of_shot) {
+  std::vector<Effect> all;
+  std::map<std::string, std::size_t> known;
+  for (const std::vector<Effect>& list : of_shot) {
+    for (const Effect& e : list) {
+      const auto [it, is_new] = known.try_emplace(e.nuisance.name, all.size());
+      if (is_new) all.push_back({e.nuisance, 0.0});
+      all[it->second].square += e.square;
+    }
+  }
+  return all;
+}
+
+// Those that are nothing: the smallest, as long as all of them are together.
+std::vector<bool> negligible_of(const std::vector<Effect>& all) {
+  constexpr double kNothing = 1e-2;
+  std::vector<std::size_t> by_size(all.size());
+  std::iota(by_size.begin(), by_size.end(), std::size_t{0});
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [&](std::size_t a, std::size_t b) { return all[a].square < all[b].square; });
+  double together = 0.0;
+  std::vector<bool> out(all.size());
+  for (const std::size_t k : by_size) {
+    together += all[k].square;
+    if (!(together < kNothing * kNothing)) break;
+    out[k] = true;
+  }
+  return out;
+}
+
+Eigen::VectorXd reflectance(const LitMedium& first, const DistanceKnots& knots,
+                            double eta_int_over_ext) {
+  const double sigma_t = sigma_t_per_mm(first.medium);
+  return first.scale * dipole_curve(knots, std::log(sigma_t), first.medium.sigma_a_per_mm / sigma_t,
+                                    eta_int_over_ext)
+                           .r;
+}
+
+}  // namespace
+
+ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& task, const ChannelRows& rows,
+                           const Weights& weights, const DistanceKnots& knots,
+                           const LitMedium& first,
+                           const std::map<LightKey, ChannelSensitivity>& sensitivities,
+                           std::optional<double> patch_mm)
+    : scene_(scene),
+      task_(task),
+      rows_(rows),
+      weights_(weights),
+      knots_(knots),
+      first_(first),
+      r_(reflectance(first, knots, task.eta_int_over_ext)),
+      scene_nuisances_(scene, task.channel, sensitivities),
+      patch_mm_(patch_mm) {
+  std::vector<std::vector<Effect>> of_shot(shots());
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, shots(), [&](std::size_t s) {
+      of_shot[s] = effects(scene_nuisances_, *task.shots[s], rows[s]);
+    });
+  });
+  const std::vector<Effect> all = summed(of_shot);
+  const std::vector<bool> negligible = negligible_of(all);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (negligible[k]) {
+      ++negligible_;
+      continue;
+    }
+    place_[all[k].nuisance.name] = static_cast<Eigen::Index>(nuisances_.size());
+    nuisances_.push_back(all[k].nuisance);
+  }
+  // Those of the method, as a shot without rows has them: its octaves', and its own.
+  DenseSystem none{WeightMatrix(0, knots.size()), Eigen::VectorXd(0), Eigen::VectorXd(0)};
+  add_method_errors(none);
+  octaves_ = static_cast<Eigen::Index>(none.nuisances.size()) - 1;
+  nuisances_.insert(nuisances_.end(), static_cast<std::size_t>(octaves_) + shots(),
+                    none.nuisances.front());
+}
+
+DenseSystem ChannelImage::rows_of_shot(std::size_t s) const {
+  DenseSystem system = channel_system(scene_, task_, s, rows_[s], weights_,
+                                      1.0 / sigma_t_per_mm(first_.medium), patch_mm_);
+  add_method_errors(system);
+  return system;
+}
+
+void ChannelImage::add_method_errors(DenseSystem& system) const {
+  add_numerics(
+      knots_, r_, patch_mm_.value_or(patch_size_mm(task_)),
+      {first_.medium.sigma_s_prime_per_mm, first_.medium.sigma_a_per_mm, task_.eta_int_over_ext},
+      system);
+}
+
+ShotSystem ChannelImage::shot(std::size_t s) const {
+  auto system = std::make_shared<DenseSystem>(rows_of_shot(s));
+  std::vector<NuisanceColumn> own =
+      scene_nuisances_.columns(*task_.shots[s], rows_[s], used_rows(rows_[s]));
+  std::erase_if(own, [&](const NuisanceColumn& c) { return !place_.contains(c.nuisance.name); });
+  // The rig's first, as in the image's list.
+  const auto n_own = static_cast<Eigen::Index>(own.size());
+  Eigen::MatrixXd columns(system->l.size(), n_own + system->nuisance_columns.cols());
+  ShotSystem out;
+  std::vector<Nuisance> nuisances;
+  std::map<Eigen::Index, const NuisanceColumn*> in_order;
+  for (const NuisanceColumn& c : own) in_order[place_.at(c.nuisance.name)] = &c;
+  for (const auto& [place, c] : in_order) {
+    columns.col(static_cast<Eigen::Index>(nuisances.size())) = c->change;
+    nuisances.push_back(c->nuisance);
+    out.nuisances.push_back(place);
+  }
+  columns.rightCols(system->nuisance_columns.cols()) = system->nuisance_columns;
+  const auto first_held = static_cast<Eigen::Index>(place_.size());
+  for (Eigen::Index o = 0; o < octaves_; ++o) out.nuisances.push_back(first_held + o);
+  out.nuisances.push_back(first_held + octaves_ + static_cast<Eigen::Index>(s));
+  nuisances.insert(nuisances.end(), system->nuisances.begin(), system->nuisances.end());
+  system->nuisance_columns = std::move(columns);
+  system->nuisances = std::move(nuisances);
+  out.system = std::move(system);
+  return out;
+}
+
+FirstChannelImage::FirstChannelImage(const Scene& scene, const MaterialChannel& task,
+                                     const ChannelRows& rows, const Weights& weights)
+    : scene_(scene), task_(task), rows_(rows), weights_(weights), has_ambient_(task.shots.size()) {
+  bool any = false;
+  for (std::size_t s = 0; s < task.shots.size(); ++s) {
+    for (const std::string& name : task.shots[s]->stated->lights) {
+      const SceneLight& light = scene.light(name);
+      if (light->is_fitted() && !light->nuisances(name, task.channel).empty()) {
+        has_ambient_[s] = any = true;
+      }
+    }
+  }
+  if (!any) return;
+  nuisances_.push_back({"ambient", std::numeric_limits<double>::infinity(), true});
+  std::size_t used = 0;
+  for (const ChannelObservation& o : rows) {
+    for (const Eigen::Index j : used_rows(o)) mean_l_ += o.l[static_cast<std::size_t>(j)];
+    used += o.rows_used;
+  }
+  if (used > 0) mean_l_ /= static_cast<double>(used);
+}
+
+ShotSystem FirstChannelImage::shot(std::size_t s) const {
+  auto system =
+      std::make_shared<DenseSystem>(channel_system(scene_, task_, s, rows_[s], weights_, 0.0));
+  ShotSystem out;
+  if (has_ambient_[s]) {
+    system->nuisances = nuisances_;
+    system->nuisance_columns = Eigen::MatrixXd::Constant(system->l.size(), 1, mean_l_);
+    out.nuisances = {0};
+  }
+  out.system = std::move(system);
+  return out;
+}
+
+}  // namespace scattermeter

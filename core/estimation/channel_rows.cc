@@ -1,0 +1,108 @@
+#include "core/estimation/channel_rows.h"
+
+#include <limits>
+
+#include "core/fit/numerics.h"
+#include "core/view/row_selection.h"
+
+namespace scattermeter {
+namespace {
+
+// Error of the predicted l of a row while the material is not known.
+constexpr double kFirstNumericalStd = 5e-4;
+
+// About the mirror direction of a light: as wide as the gloss of a satin surface.
+constexpr double kMirrorCone_rad = 0.17;
+
+LinearShot linear_shot(const Scene& scene, const MaterialChannel& channel, std::size_t shot_idx,
+                       const ChannelObservation& rows, const Weights& weights,
+                       double mean_free_path_mm, std::optional<double> patch_mm) {
+  const ObservedShot* shot = channel.shots[shot_idx];
+  LinearShot linear{{}, &rows, kFirstNumericalStd};
+  if (mean_free_path_mm > 0.0) {
+    linear.numerical_relative_std =
+        row_numerics(patch_mm.value_or(shot->seen->patches->patch_size_mm()), mean_free_path_mm);
+  }
+  for (const std::string& name : shot->stated->lights) {
+    const SceneLight& light = scene.light(name);
+    linear.lights.push_back(
+        {&weights.at({shot->seen.get(), name, light.channel_of(channel.channel)}),
+         light->power()[static_cast<Eigen::Index>(channel.channel)]});
+  }
+  return linear;
+}
+
+}  // namespace
+
+ChannelRows channel_rows(const Scene& scene, const MaterialChannel& channel) {
+  ChannelRows rows;
+  for (const ObservedShot* shot : channel.shots) {
+    const SeenObject& seen = *shot->seen;
+    ChannelObservation& o = rows.emplace_back(shot->observation.channel[channel.channel]);
+    for (const std::string& name : shot->stated->lights) {
+      const auto position_mm = scene.light(name)->position_mm();
+      if (!position_mm) continue;
+      for (std::size_t j = 0; j < o.l.size(); ++j) {
+        if (mirrors(seen.sites[j].center_mm, seen.patches->normal(seen.map.patch_of_row[j]),
+                    seen.camera_center_mm, *position_mm, kMirrorCone_rad)) {
+          leave_out(o, j, RowState::kMirror);
+        }
+      }
+    }
+  }
+  return rows;
+}
+
+DenseSystem channel_system(const Scene& scene, const MaterialChannel& channel, std::size_t shot,
+                           const ChannelObservation& rows, const Weights& weights,
+                           double mean_free_path_mm, std::optional<double> patch_mm) {
+  return stack({linear_shot(scene, channel, shot, rows, weights, mean_free_path_mm, patch_mm)});
+}
+
+DenseSystem channel_system(const Scene& scene, const MaterialChannel& channel,
+                           const ChannelRows& rows, const Weights& weights,
+                           double mean_free_path_mm) {
+  std::vector<LinearShot> shots;
+  for (std::size_t i = 0; i < channel.shots.size(); ++i) {
+    shots.push_back(
+        linear_shot(scene, channel, i, rows[i], weights, mean_free_path_mm, std::nullopt));
+  }
+  return stack(shots);
+}
+
+void report_rows(const MaterialChannel& channel, const ChannelRows& rows, ChannelResult& result) {
+  result.patches_by_state.fill(0);
+  result.patches_partly_seen = 0;
+  for (const ChannelObservation& o : rows) {
+    for (RowState state : o.state) ++result.patches_by_state[static_cast<std::size_t>(state)];
+  }
+  for (const ObservedShot* shot : channel.shots) {
+    result.patches_partly_seen += shot->seen->map.patches_partly_seen;
+  }
+}
+
+std::vector<ShotRows> shot_rows(const MaterialChannel& channel, const ChannelRows& rows,
+                                const Eigen::VectorXd& predicted, const Eigen::VectorXd& std) {
+  std::vector<ShotRows> out;
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const ChannelObservation& o = rows[i];
+    const ObservedShot& shot = *channel.shots[i];
+    ShotRows& r = out.emplace_back();
+    r.file = shot.stated->file;
+    r.map = {shot.seen, &shot.seen->map};
+    r.observed.assign(o.l.begin(), o.l.end());
+    r.state = o.state;
+    r.predicted.assign(o.l.size(), std::numeric_limits<float>::quiet_NaN());
+    r.std = r.predicted;
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (o.state[j] != RowState::kUsed) continue;
+      r.predicted[j] = static_cast<float>(predicted[at]);
+      r.std[j] = static_cast<float>(std[at]);
+      ++at;
+    }
+  }
+  return out;
+}
+
+}  // namespace scattermeter

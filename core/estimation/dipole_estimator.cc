@@ -1,0 +1,232 @@
+// --model dipole: the dipole, with all that the rig knows only to a standard deviation.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "core/estimation/channel_image.h"
+#include "core/estimation/estimation.h"
+#include "core/estimation/nuisances.h"
+#include "core/estimation/sensitivities.h"
+#include "core/fit/dipole_fit.h"
+#include "core/fit/dipole_misfit.h"
+#include "core/fit/image_information.h"
+#include "core/fit/shot_agreement.h"
+#include "core/fit/smooth_reflectance.h"
+#include "core/view/row_selection.h"
+
+namespace scattermeter {
+namespace {
+
+// One material and channel on its way to an estimate.
+struct Work {
+  ChannelRows rows;
+  bool estimated = false;  // a first estimate is there
+  bool settled = false;    // another round would not change it
+};
+
+bool settled(const Estimate& before, const Estimate& after) {
+  constexpr double kOfStd = 0.02;
+  const auto close = [](const Quantity& a, const Quantity& b) {
+    return std::abs(a.value - b.value) <= kOfStd * b.std;
+  };
+  return close(before.sigma_s_prime_per_mm, after.sigma_s_prime_per_mm) &&
+         close(before.sigma_a_per_mm, after.sigma_a_per_mm);
+}
+
+class DipoleEstimator {
+ public:
+  DipoleEstimator(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems)
+      : e_(e), systems_(systems), knots_(smooth_knots(e.lit)), work_(e.channels.size()) {
+    fit_.scale = scale_prior(e.scene);
+    fit_.without_noise = e.options.without_noise;
+  }
+
+  // Without nuisances, to know the material that rows are weighed for and that the image's
+  // dependence on the nuisances is computed for; then with them, and once more where that shows
+  // rows that are outliers.
+  void run() {
+    for (ChannelResult& result : e_.results) result.model = "dipole";
+    add_smooth_weights(e_.scene, e_.shots, e_.lit, e_.progress, e_.kept.weights);
+    e_.watch.lap("light");
+    e_.for_open_channels("fitting", [&](std::size_t i) { first_fit(i); });
+    e_.watch.lap("first fit");
+    std::vector<bool> open;
+    for (const Work& w : work_) open.push_back(w.estimated);
+    // What ambient light adds depends on the material itself: those tasks go round again until they
+    // settle (an error falls to a sixth each time).
+    constexpr int kRounds = 8;
+    for (int round = 0; round < kRounds; ++round) {
+      sensitivities_ = sensitivities(e_, open, knots_);
+      e_.watch.lap("sensitivities");
+      tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
+        if (!open[i]) return;
+        const Estimate before = e_.results[i].estimate;
+        final_fit(i);
+        work_[i].settled = !has_ambient(e_.channels[i]) || settled(before, e_.results[i].estimate);
+      });
+      e_.watch.lap("fit");
+      bool again = false;
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        open[i] = open[i] && !work_[i].settled && e_.results[i].estimate.converged;
+        again = again || open[i];
+      }
+      if (!again) break;
+    }
+  }
+
+ private:
+  DipoleFitOptions options_of(const MaterialChannel& task) const {
+    DipoleFitOptions own = fit_;
+    own.eta_int_over_ext = task.eta_int_over_ext;
+    return own;
+  }
+
+  void first_fit(std::size_t i) {
+    Work& work = work_[i];
+    const MaterialChannel& task = e_.channels[i];
+    work.rows = channel_rows(e_.scene, task);
+    const DipoleFit fit =
+        fit_to_some(FirstChannelImage(e_.scene, task, work.rows, e_.kept.weights), task, work.rows);
+    e_.results[i].estimate = fit.estimate;
+    report_rows(task, work.rows, e_.results[i]);
+    work.estimated = fit.estimate.converged;
+    if (!work.estimated) return;
+    Eigen::Index at = 0;
+    for (ChannelObservation& o : work.rows) {
+      const auto n = static_cast<Eigen::Index>(o.rows_used);
+      expect(o, fit.image.predicted.segment(at, n));
+      at += n;
+    }
+  }
+
+  // To some thousand rows evenly among all, which tell a material well enough to begin with; where
+  // they don't, to all of them.
+  DipoleFit fit_to_some(const ImageRows& image, const MaterialChannel& task,
+                        const ChannelRows& rows) const {
+    constexpr std::size_t kRows = 4096;
+    const DipoleFitOptions options = options_of(task);
+    std::size_t used = 0;
+    for (const ChannelObservation& o : rows) used += o.rows_used;
+    if (used / kRows > 1) {
+      const DenseSystem some = stacked(image, static_cast<Eigen::Index>(used / kRows));
+      DipoleFit fit = fit_dipole(some, knots_, options);
+      if (fit.estimate.converged) {
+        fit.image = compared_image(image, knots_, fit.optimum, options.eta_int_over_ext);
+        return fit;
+      }
+    }
+    return fit_dipole(image,
+                      joint_information(information_by_shot(image), image.nuisances().size()),
+                      knots_, options);
+  }
+
+  bool has_ambient(const MaterialChannel& task) const {
+    for (const ObservedShot* shot : task.shots) {
+      for (const std::string& name : shot->stated->lights) {
+        if (e_.scene.light(name)->is_fitted()) return true;
+      }
+    }
+    return false;
+  }
+
+  bool leave_outliers_out(const ComparedImage& image, ChannelRows& rows) const {
+    if (image.l.size() == 0) return false;
+    const std::vector<Eigen::Index> far = outliers(image.l, image.predicted, image.std_l);
+    auto next = far.begin();
+    Eigen::Index at = 0;
+    for (ChannelObservation& o : rows) {
+      for (std::size_t j = 0; j < o.l.size(); ++j) {
+        if (o.state[j] != RowState::kUsed) continue;
+        if (next != far.end() && *next == at) {
+          leave_out(o, j, RowState::kOutlier);
+          ++next;
+        }
+        ++at;
+      }
+    }
+    return !far.empty();
+  }
+
+  void remember(std::size_t i, const LitMedium& first, double image_in_std) {
+    const auto rows = std::make_shared<const ChannelRows>(work_[i].rows);
+    const auto of_lights = sensitivities_;
+    const Estimation& e = e_;
+    const DistanceKnots knots = knots_;
+    (*systems_)[i] =
+        DipoleSystem{[&e, i, rows, of_lights, knots, first] {
+                       return stacked(ChannelImage(e.scene, e.channels[i], *rows, e.kept.weights,
+                                                   knots, first, of_lights->of_channel[i]));
+                     },
+                     knots_, rows, image_in_std};
+  }
+
+  void final_fit(std::size_t i) {
+    const MaterialChannel& task = e_.channels[i];
+    ChannelResult& result = e_.results[i];
+    const Estimate first = result.estimate;
+    const DipoleFitOptions options = options_of(task);
+    const LitMedium medium{{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
+                           first.scale.value};
+    const ChannelImage image(e_.scene, task, work_[i].rows, e_.kept.weights, knots_, medium,
+                             sensitivities_->of_channel[i]);
+    result.nuisances_negligible = image.negligible_nuisances();
+    std::vector<ShotInformation> shots;
+    ImageInformation joint;
+    const auto fitted = [&] {
+      shots = information_by_shot(image);
+      joint = joint_information(shots, image.nuisances().size());
+      return fit_dipole(image, joint, knots_, options);
+    };
+    DipoleFit fit = fitted();
+    if (systems_ != nullptr) remember(i, medium, std::sqrt(joint.l2));
+    if (leave_outliers_out(fit.image, work_[i].rows)) fit = fitted();
+    report_rows(task, work_[i].rows, result);
+    result.estimate = fit.estimate;
+    if (!fit.estimate.converged) return;
+    if (e_.options.keep_rows) {
+      result.rows = shot_rows(task, work_[i].rows, fit.image.predicted, fit.image.std_l);
+    }
+    SmoothReflectanceOptions smooth;
+    smooth.scale = options.scale;
+    result.recovered = smooth_reflectance(fit.recovered, image.nuisances(), knots_, smooth);
+    DipoleMisfitOptions misfit;
+    misfit.scale = options.scale;
+    result.misfit = dipole_misfit(
+        fit.recovered, image.nuisances(), knots_,
+        {fit.optimum.sigma_s_prime_per_mm(), fit.optimum.sigma_a_per_mm(), task.eta_int_over_ext},
+        std::exp(fit.optimum.log_s), misfit);
+    if (task.shots.size() < 2) return;
+    result.singles.clear();
+    for (std::size_t s = 0; s < task.shots.size(); ++s) {
+      const ShotSystem own = image.shot(s);
+      result.singles.push_back(
+          {task.shots[s]->stated->file,
+           fit_dipole(SystemRows(*own.system), shots[s].image, knots_, options).estimate});
+    }
+    result.agreement =
+        shot_agreement(shots, image.nuisances(), knots_, fit.optimum, task.eta_int_over_ext,
+                       options.scale, std::max(1.0, fit.estimate.reduced_chi2));
+    widen_by_disagreement(result.agreement, result.estimate);
+  }
+
+  Estimation& e_;
+  std::vector<std::optional<DipoleSystem>>* systems_;
+  DistanceKnots knots_;
+  DipoleFitOptions fit_;
+  std::vector<Work> work_;
+  std::shared_ptr<const Sensitivities> sensitivities_;
+};
+
+}  // namespace
+
+void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems) {
+  DipoleEstimator(e, systems).run();
+}
+
+void estimate_dipole(Estimation& e) { estimate_dipole(e, nullptr); }
+
+}  // namespace scattermeter

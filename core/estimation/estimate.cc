@@ -1,0 +1,52 @@
+#include "core/estimation/estimate.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "core/base/progress.h"
+#include "core/estimation/estimation.h"
+
+namespace scattermeter {
+
+std::span<const Estimator> estimators() {
+  static constexpr std::array<Estimator, 4> kEstimators = {{
+      {"auto", "the dipole where the shots show that it holds, else transport", true,
+       estimate_auto},
+      {"transport", "volume Monte Carlo in the mesh", true, estimate_transport},
+      {"dipole", "the dipole, fitted with all nuisances", true,
+       [](Estimation& e) { estimate_dipole(e); }},
+      {"paper", "the procedure of Mukaigawa, Suzuki and Yagi", false, estimate_paper},
+  }};
+  return kEstimators;
+}
+
+const Estimator& estimator(const std::string& name) {
+  const auto all = estimators();
+  const auto it =
+      std::find_if(all.begin(), all.end(), [&](const Estimator& e) { return name == e.name; });
+  if (it == all.end()) throw std::invalid_argument("no estimator has the name '" + name + "'");
+  return *it;
+}
+
+std::vector<ChannelResult> estimate(const Scene& scene, LitObjects& lit,
+                                    std::span<const ObservedShot> shots,
+                                    const EstimateOptions& options, Progress* progress) {
+  KeptLight kept;
+  std::vector<std::pair<std::string, double>> timing_s;
+  Stopwatch watch(timing_s);
+  return estimate(scene, lit, shots, options, kept, watch, progress);
+}
+
+std::vector<ChannelResult> estimate(const Scene& scene, LitObjects& lit,
+                                    std::span<const ObservedShot> shots,
+                                    const EstimateOptions& options, KeptLight& kept,
+                                    Stopwatch& watch, Progress* progress) {
+  const Estimator& chosen = estimator(options.model);
+  Estimation estimation(scene, lit, shots, material_channels(scene, shots, options.channels),
+                        options, kept, watch, progress);
+  chosen.estimate(estimation);
+  return std::move(estimation.results);
+}
+
+}  // namespace scattermeter

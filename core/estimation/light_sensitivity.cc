@@ -1,0 +1,175 @@
+#include "core/estimation/light_sensitivity.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/light/incident_light.h"
+#include "core/material/dipole.h"
+#include "core/material/fresnel.h"
+
+namespace scattermeter {
+namespace {
+
+constexpr double kEtaStep = 0.01;
+
+// R on the knots, one column a medium, times its scale.
+Eigen::MatrixXd curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
+                       double eta) {
+  Eigen::MatrixXd r(knots.size(), static_cast<Eigen::Index>(media.size()));
+  for (std::size_t m = 0; m < media.size(); ++m) {
+    Medium medium = media[m].medium;
+    medium.eta_int_over_ext = eta;
+    const Dipole dipole(medium);
+    for (Eigen::Index i = 0; i < r.rows(); ++i) {
+      r(i, static_cast<Eigen::Index>(m)) =
+          media[m].scale *
+          dipole.reflectance_per_mm2(knots.knots_mm()[static_cast<std::size_t>(i)]);
+    }
+  }
+  return r;
+}
+
+// Bins between the knots: their error is the same before and after a change.
+constexpr int kFineBits = 5;
+
+// make(sites, sources, is_other_eta): of one change.
+template <class Each, class Make>
+Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size_t channel,
+                      LitObjects& lit, const Make& make) {
+  Changed<Each> out;
+  if (light->is_fitted()) return out;
+  const ObjectScene& object = *seen.object;
+  const double eta = object.stated->eta_int_over_ext;
+  const PatchMesh coarse(object.mesh(), 2.0 * seen.patches->patch_size_mm());
+  const auto lit_by = [&](const Light& other, double eta_here) {
+    const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
+    return SourceCloud(other.illuminate(coarse, shadows, eta_here, LightUse::kMeasure)[channel],
+                       object.box.center_mm());
+  };
+  // A light whose channels differ makes all of them at once: they are kept for the others.
+  const auto nominal = [&](double eta_here) {
+    if (light->channels() == 1) return lit_by(*light, eta_here);
+    return SourceCloud(lit.light_on(object.stated->name, light, channel, coarse, eta_here),
+                       object.box.center_mm());
+  };
+  std::array<std::vector<ExitSite>, 3> sites;
+  out.shift_mm = 0.1 * seen.patches->patch_size_mm();
+  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
+    const ExitSite center = exit_point(seen.sites[j].center_mm);
+    const auto along = tangents(seen.patches->normal(seen.map.patch_of_row[j]));
+    sites[0].push_back(center);
+    for (std::size_t t = 0; t < 2; ++t) {
+      sites[t + 1].push_back(moved(center, out.shift_mm * along[t]));
+    }
+  }
+  const SourceCloud sources = nominal(eta);
+  out.nominal = make(sites[0], sources, false);
+  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = make(sites[t + 1], sources, false);
+  for (const LightChange& change : light->changes(object.box.center_mm())) {
+    out.changed.push_back(make(sites[0], lit_by(*change.changed, eta), false));
+    out.steps.push_back(change.step);
+  }
+  if (object.stated->eta_std > 0.0) {
+    out.other_eta = make(sites[0], nominal(eta + kEtaStep), true);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d first = normal.unitOrthogonal();
+  return {first, normal.cross(first)};
+}
+
+PairSumOptions coarse_pair_options(const DistanceKnots& knots) {
+  PairSumOptions pairs;
+  pairs.floor_mm = 4.0 * knots.resolution_mm();
+  pairs.far_ratio = 3.0;
+  pairs.near_ratio = 0.7;
+  return pairs;
+}
+
+ChangedWeights changed_weights(const SeenObject& seen, const SceneLight& light, std::size_t channel,
+                               LitObjects& lit, const DistanceKnots& knots) {
+  const PairSumOptions pairs = coarse_pair_options(knots);
+  const DistanceKnots few = knots.with_fine_bits(kFineBits);
+  return changed<WeightMatrix>(seen, light, channel, lit,
+                               [&](const std::vector<ExitSite>& sites, const SourceCloud& sources,
+                                   bool) { return smooth_weights(sites, sources, few, pairs); });
+}
+
+ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, std::size_t channel,
+                             LitObjects& lit, const DistanceKnots& knots,
+                             const std::vector<LitMedium>& media) {
+  const PairSumOptions pairs = coarse_pair_options(knots);
+  const DistanceKnots few = knots.with_fine_bits(kFineBits);
+  const double eta = seen.object->stated->eta_int_over_ext;
+  const Eigen::MatrixXd r = curves(media, knots, eta);
+  const Eigen::MatrixXd other = curves(media, knots, eta + kEtaStep);
+  return changed<Eigen::MatrixXd>(
+      seen, light, channel, lit,
+      [&](const std::vector<ExitSite>& sites, const SourceCloud& sources, bool is_other_eta) {
+        return smooth_images(sites, sources, few, pairs, is_other_eta ? other : r);
+      });
+}
+
+ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weights,
+                             const DistanceKnots& knots, const std::vector<LitMedium>& media) {
+  const double eta = seen.object->stated->eta_int_over_ext;
+  const Eigen::MatrixXd r = curves(media, knots, eta);
+  const auto image = [&](const WeightMatrix& w) -> Eigen::MatrixXd {
+    if (w.size() == 0) return {};
+    return w * r;
+  };
+  ChangedImages out;
+  out.nominal = image(weights.nominal);
+  for (const WeightMatrix& w : weights.changed) out.changed.push_back(image(w));
+  out.steps = weights.steps;
+  if (weights.other_eta.size() > 0) {
+    out.other_eta = weights.other_eta * curves(media, knots, eta + kEtaStep);
+  }
+  for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = image(weights.shifted[t]);
+  out.shift_mm = weights.shift_mm;
+  return out;
+}
+
+LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,
+                             const ChangedImages& images, const std::vector<LitMedium>& media,
+                             const DistanceKnots& knots) {
+  const double eta = seen.object->stated->eta_int_over_ext;
+  LightSensitivity out;
+  out.l = nominal * curves(media, knots, eta);
+  const Eigen::MatrixXd& l = images.nominal;
+  const auto change = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
+    if (changed.size() == 0) return {};
+    const Eigen::ArrayXXd per_l = (changed - l).array() / (by * l.array());
+    return (l.array() > 0.0).select(per_l * out.l.array(), 0.0);
+  };
+  for (std::size_t k = 0; k < images.changed.size(); ++k) {
+    out.per_change.push_back(change(images.changed[k], images.steps[k]));
+  }
+  for (std::size_t t = 0; t < 2; ++t) {
+    out.per_tangent_mm[t] = change(images.shifted[t], images.shift_mm);
+  }
+  out.per_eta = change(images.other_eta, kEtaStep);
+  if (out.per_eta.size() == 0) return out;
+  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
+    const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
+    // The observed l = pi L / Ft(eta) falls as Ft grows.
+    const Eigen::Vector3d to_camera =
+        (seen.camera_center_mm - seen.sites[j].center_mm).normalized();
+    const double cos_theta = normal.dot(to_camera);
+    const double growth =
+        fresnel_transmittance(eta, cos_theta) / fresnel_transmittance(eta + kEtaStep, cos_theta) -
+        1.0;
+    const auto row = static_cast<Eigen::Index>(j);
+    out.per_eta.row(row) -= out.l.row(row) * (growth / kEtaStep);
+  }
+  return out;
+}
+
+}  // namespace scattermeter

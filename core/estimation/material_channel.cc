@@ -1,0 +1,70 @@
+#include "core/estimation/material_channel.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "core/base/input_error.h"
+
+namespace scattermeter {
+namespace {
+
+// A shot whose brightest patch does not stand out of the noise by this many deviations is dark.
+constexpr double kDarkSnr = 10.0;
+// A shot with more than this share of its patches clipped is over-exposed as a whole.
+constexpr double kClippedShare = 0.5;
+
+}  // namespace
+
+std::vector<MaterialChannel> material_channels(const Scene& scene,
+                                               std::span<const ObservedShot> shots,
+                                               const std::string& channels) {
+  std::vector<MaterialChannel> out;
+  for (const std::string& material : scene.materials()) {
+    for (std::size_t c = 0; c < kRgb; ++c) {
+      if (!channels.empty() && channels.find(kRgbName[c]) == std::string::npos) continue;
+      MaterialChannel one{material, c, {}, 0.0};
+      for (const ObservedShot& shot : shots) {
+        if (shot.stated->material != material) continue;
+        const double eta = shot.seen->object->stated->eta_int_over_ext;
+        if (!one.shots.empty() && eta != one.eta_int_over_ext) {
+          throw InputError(scene.at(shot.stated->line) + ": shots.object",
+                           fmt::format("material {} has eta {} here but {} in another shot",
+                                       material, eta, one.eta_int_over_ext));
+        }
+        one.eta_int_over_ext = eta;
+        one.shots.push_back(&shot);
+      }
+      if (!one.shots.empty()) out.push_back(one);
+    }
+  }
+  return out;
+}
+
+std::string shot_problem(const ObservedShot& shot, std::size_t channel) {
+  const ChannelObservation& o = shot.observation.channel[channel];
+  const char name = kRgbName[channel];
+  const double rows = static_cast<double>(o.l.size());
+  if (o.l.empty())
+    return fmt::format("{}: no whole patch of the object is seen", shot.stated->file);
+  if (static_cast<double>(o.rows_clipped) > kClippedShare * rows) {
+    return fmt::format("{}: channel {} is clipped on {:.0f} % of the object (exposure {:g} s)",
+                       shot.stated->file, name, 100.0 * static_cast<double>(o.rows_clipped) / rows,
+                       shot.exposure_s);
+  }
+  if (o.brightest_snr < kDarkSnr) {
+    return fmt::format("{}: channel {} is dark, brightest patch {:.1f} counts above black",
+                       shot.stated->file, name, o.brightest_counts);
+  }
+  return "";
+}
+
+double patch_size_mm(const MaterialChannel& channel) {
+  double size_mm = 0.0;
+  for (const ObservedShot* shot : channel.shots) {
+    size_mm = std::max(size_mm, shot->seen->patches->patch_size_mm());
+  }
+  return size_mm;
+}
+
+}  // namespace scattermeter

@@ -1,0 +1,34 @@
+// A material in a channel, and the shots that show it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/scene/observed_shot.h"
+#include "core/scene/scene.h"
+
+namespace scattermeter {
+
+struct MaterialChannel {
+  std::string material;
+  std::size_t channel;  // 0 R, 1 G, 2 B
+  std::vector<const ObservedShot*> shots;
+  double eta_int_over_ext = 0;
+};
+
+// The shots' materials in the scene's order, of each those of R, G, B that `channels` holds; empty:
+// all. Throws InputError where the shots of one material are of objects with different eta.
+std::vector<MaterialChannel> material_channels(const Scene& scene,
+                                               std::span<const ObservedShot> shots,
+                                               const std::string& channels = {});
+
+// The patch size of the channel's objects, the largest, mm.
+double patch_size_mm(const MaterialChannel& channel);
+
+// What makes a shot useless as a whole in a channel (dark, over-exposed, nothing seen); empty:
+// nothing.
+std::string shot_problem(const ObservedShot& shot, std::size_t channel);
+
+}  // namespace scattermeter

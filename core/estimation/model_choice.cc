@@ -1,0 +1,28 @@
+#include "core/estimation/model_choice.h"
+
+#include <fmt/core.h>
+
+namespace scattermeter {
+
+std::string why_transport(const ChannelResult& result, double image_in_std) {
+  constexpr double kPValue = 1e-6;
+  constexpr double kMisfit = 1e-3;
+  // A misfit stands out where it exceeds the noise in the directions that the dipole might miss
+  // (some tens, together this many deviations of the whole image).
+  constexpr double kDeviations = 8.0;
+  constexpr double kVisible = 5e-3;
+  const Estimate& e = result.estimate;
+  if (!e.reasons.empty()) return "the dipole is refused: " + e.reasons.front();
+  if (e.misfit_p_value < kPValue && e.misfit_relative > kMisfit) {
+    return fmt::format("the dipole misses {:.2g} % of the image", 100.0 * e.misfit_relative);
+  }
+  if (result.agreement.disagree()) return "by the dipole the shots do not agree";
+  const double visible = kDeviations / image_in_std;
+  if (visible > kVisible) {
+    return fmt::format("noise hides what the dipole may miss, up to {:.2g} % of the image",
+                       100.0 * visible);
+  }
+  return "";
+}
+
+}  // namespace scattermeter

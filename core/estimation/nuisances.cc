@@ -1,0 +1,165 @@
+#include "core/estimation/nuisances.h"
+
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "core/base/covariance_root.h"
+#include "core/camera/lens_parameters.h"
+#include "core/camera/pose_shift.h"
+
+namespace scattermeter {
+
+// Columns by the names of their nuisances; lights that share a nuisance add up.
+class SceneNuisances::Columns {
+ public:
+  explicit Columns(const std::vector<Eigen::Index>& rows) : rows_(rows) {}
+  const std::vector<Eigen::Index>& rows() const { return rows_; }
+  template <class Change>
+  void add(const std::string& name, const std::string& group, double std, const Change& change) {
+    for (NuisanceColumn& column : list_) {
+      if (column.nuisance.name != name) continue;
+      column.change += change;
+      return;
+    }
+    list_.push_back({{group, std, true, name}, change});
+  }
+  // Of a quantity on all rows of the view.
+  Eigen::VectorXd of(const Eigen::MatrixXd& on_view, Eigen::Index medium) const {
+    return on_view(rows_, medium);
+  }
+  std::vector<NuisanceColumn> take() { return std::move(list_); }
+
+ private:
+  const std::vector<Eigen::Index>& rows_;
+  std::vector<NuisanceColumn> list_;
+};
+
+SceneNuisances::SceneNuisances(const Scene& scene, std::size_t channel,
+                               std::map<LightKey, ChannelSensitivity> sensitivities)
+    : scene_(scene), channel_(channel), sensitivities_(std::move(sensitivities)) {}
+
+void SceneNuisances::add_light(const SceneLight& light, const ChannelSensitivity& own,
+                               Columns& columns) const {
+  const LightSensitivity& s = *own.sensitivity;
+  const double power = light->power()[static_cast<Eigen::Index>(channel_)];
+  const auto n = static_cast<Eigen::Index>(columns.rows().size());
+  Eigen::MatrixXd by(n, static_cast<Eigen::Index>(s.per_change.size()));
+  for (std::size_t k = 0; k < s.per_change.size(); ++k) {
+    by.col(static_cast<Eigen::Index>(k)) = columns.of(s.per_change[k], own.medium);
+  }
+  const Eigen::VectorXd l = columns.of(s.l, own.medium);
+  for (const LightNuisance& v : light->nuisances(light.name, channel_)) {
+    Eigen::VectorXd change = (power * v.of_power + v.of_unit_power) * l;
+    if (v.of_change.size() > 0) change += power * (by * v.of_change);
+    columns.add(v.name, v.group, v.std, change);
+  }
+}
+
+// What the radiance calibration leaves open: each shot's black, the glare, the shutter.
+void SceneNuisances::add_radiance(const ObservedShot& shot, const ChannelObservation& observed,
+                                  const Eigen::VectorXd& predicted, Columns& columns) const {
+  const std::vector<Eigen::Index>& rows = columns.rows();
+  const auto pick = [&](const std::vector<double>& of_row) -> Eigen::VectorXd {
+    return Eigen::Map<const Eigen::VectorXd>(of_row.data(),
+                                             static_cast<Eigen::Index>(of_row.size()))(rows);
+  };
+  const Eigen::VectorXd l_per_count = pick(observed.l_per_count);
+  for (std::size_t k = 0; k < shot.exposures.size(); ++k) {
+    const ShotExposure& e = shot.exposures[k];
+    // What part of the rows' l comes from this exposure.
+    const Eigen::VectorXd part = observed.exposures.empty()
+                                     ? Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows.size()))
+                                     : pick(observed.exposures[k].of_row);
+    if (e.black_std_counts > 0.0) {
+      columns.add("black " + e.file, "black level", e.black_std_counts,
+                  (shot.exposure_s / e.true_s) * part.cwiseProduct(l_per_count));
+    }
+    if (e.relative_std > 0.0) {
+      columns.add(fmt::format("exposure {:.4g}", e.stated_s), "exposure time", e.relative_std,
+                  part.cwiseProduct(predicted));
+    }
+  }
+  const double glare_std = scene_.camera.glare_std[channel_];
+  if (glare_std > 0.0) {
+    columns.add("glare", "veiling glare", glare_std,
+                shot.frame_mean_counts[channel_] * l_per_count);
+  }
+}
+
+// What pose and lens do to the rows. The lens is one for all shots; where it was wrong, the pose
+// was fitted through the wrong lens, too, and has taken up part of it
+// (PoseResult::per_lens_parameter): the two go together. What the pose's own marks leave open is
+// independent of that. per_mm: change of each row's l where what its samples see shifts along the
+// surface.
+void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
+                              Columns& columns) const {
+  const SeenObject& seen = *shot.seen;
+  const Rigid3d& pose = shot.pose.camera_from_world;
+  const LensRoot& lens_root = scene_.camera.lens_root;
+  const Eigen::Matrix<double, 6, 6> pose_root = covariance_root(shot.pose.covariance);
+  const auto n = static_cast<Eigen::Index>(columns.rows().size());
+  Eigen::Matrix<double, Eigen::Dynamic, 6> by_pose_root(n, 6);
+  Eigen::MatrixXd by_lens_root(n, lens_root.cols());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto row = static_cast<std::size_t>(columns.rows()[static_cast<std::size_t>(i)]);
+    const Eigen::Vector3d& site_mm = seen.sites[row].center_mm;
+    const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[row]);
+    const Eigen::Matrix<double, 3, 6> by_pose = surface_shift_by_pose(pose, site_mm, normal);
+    by_pose_root.row(i) = per_mm.col(i).transpose() * by_pose * pose_root;
+    if (lens_root.cols() == 0) continue;
+    const Eigen::Matrix<double, 3, kLensParameters> by_lens =
+        surface_shift_by_ray(pose, site_mm, normal) *
+            ray_per_lens_parameter(scene_.camera.intrinsics, (pose * site_mm).hnormalized()) +
+        by_pose * shot.pose.per_lens_parameter;
+    by_lens_root.row(i) = per_mm.col(i).transpose() * by_lens * lens_root;
+  }
+  // One pose for all shots, or one a shot.
+  const std::string name = shot.has_own_pose ? "pose " + shot.stated->file : "pose";
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    columns.add(name + std::to_string(k), "pose", 1.0, by_pose_root.col(k));
+  }
+  for (Eigen::Index k = 0; k < by_lens_root.cols(); ++k) {
+    columns.add("lens" + std::to_string(k), "lens", 1.0, by_lens_root.col(k));
+  }
+}
+
+std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
+                                                    const ChannelObservation& observed,
+                                                    const std::vector<Eigen::Index>& rows) const {
+  Columns columns(rows);
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::VectorXd predicted = Eigen::VectorXd::Zero(n);
+  Eigen::Matrix3Xd per_mm = Eigen::Matrix3Xd::Zero(3, n);
+  Eigen::VectorXd per_eta = Eigen::VectorXd::Zero(n);
+  bool has_view = false;
+  const double eta_std = shot.seen->object->stated->eta_std;
+  for (const std::string& name : shot.stated->lights) {
+    const SceneLight& light = scene_.light(name);
+    const ChannelSensitivity& own =
+        sensitivities_.at({shot.seen.get(), name, light.channel_of(channel_)});
+    const LightSensitivity& s = *own.sensitivity;
+    const double intensity = light->power()[static_cast<Eigen::Index>(channel_)];
+    predicted += intensity * columns.of(s.l, own.medium);
+    add_light(light, own, columns);
+    if (light->is_fitted()) continue;
+    has_view = true;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+      const auto along = tangents(
+          shot.seen->patches->normal(shot.seen->map.patch_of_row[static_cast<std::size_t>(row)]));
+      for (std::size_t t = 0; t < 2; ++t) {
+        per_mm.col(i) += intensity * s.per_tangent_mm[t](row, own.medium) * along[t];
+      }
+    }
+    if (eta_std > 0.0) per_eta += intensity * columns.of(s.per_eta, own.medium);
+  }
+  if (has_view) {
+    add_view(shot, per_mm, columns);
+    if (eta_std > 0.0) columns.add("eta", "eta", eta_std, per_eta);
+  }
+  add_radiance(shot, observed, predicted, columns);
+  return columns.take();
+}
+
+}  // namespace scattermeter

@@ -1,0 +1,90 @@
+#include "core/estimation/sensitivities.h"
+
+#include <tuple>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include "core/base/progress.h"
+
+namespace scattermeter {
+namespace {
+
+// The changed W are kept for other media and other shots where there is room for some ten of them.
+bool may_be_kept(const LightKey& key, const DistanceKnots& knots) {
+  constexpr std::size_t kRoomForNumbers = 1 << 25;  // 256 MiB
+  return 10 * std::get<0>(key)->sites.size() * static_cast<std::size_t>(knots.size()) <=
+         kRoomForNumbers;
+}
+
+// kept: those of the light; filled if empty; null: not to be kept.
+ChangedImages images_of(const Estimation& e, const LightKey& key,
+                        const std::vector<LitMedium>& media, const DistanceKnots& knots,
+                        ChangedWeights* kept) {
+  const auto& [seen, light, channel] = key;
+  const SceneLight& stated = e.scene.light(light);
+  if (kept == nullptr) {
+    return changed_images(*seen, stated, channel, e.lit, knots, media);
+  }
+  if (kept->nominal.size() == 0) {
+    *kept = changed_weights(*seen, stated, channel, e.lit, knots);
+  }
+  return changed_images(*seen, *kept, knots, media);
+}
+
+}  // namespace
+
+std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
+                                                   const std::vector<bool>& estimated,
+                                                   const DistanceKnots& knots) {
+  std::map<LightKey, std::vector<LitMedium>> media;
+  std::vector<std::map<LightKey, Eigen::Index>> column(e.channels.size());
+  for (std::size_t i = 0; i < e.channels.size(); ++i) {
+    if (!estimated[i]) continue;
+    const Estimate& first = e.results[i].estimate;
+    for (const ObservedShot* shot : e.channels[i].shots) {
+      for (const std::string& light : shot->stated->lights) {
+        const LightKey key{shot->seen.get(), light,
+                           e.scene.light(light).channel_of(e.channels[i].channel)};
+        const auto [it, is_new] =
+            column[i].try_emplace(key, static_cast<Eigen::Index>(media[key].size()));
+        if (is_new) {
+          media[key].push_back({{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
+                                first.scale.value});
+        }
+      }
+    }
+  }
+  const auto made = std::make_shared<Sensitivities>();
+  Sensitivities& all = *made;
+  ProgressStage stage(e.progress, "uncertainties", media.size());
+  struct Item {
+    const LightKey& key;
+    const std::vector<LitMedium>& media;
+    ChangedWeights* kept;
+    LightSensitivity& out;
+  };
+  std::vector<Item> alike, apart;  // in the channels
+  for (const auto& [key, list] : media) {
+    const bool is_one = e.scene.light(std::get<1>(key))->channels() == 1;
+    (is_one ? alike : apart)
+        .push_back({key, list, may_be_kept(key, knots) ? &e.kept.changed[key] : nullptr,
+                    all.by_light[key]});
+  }
+  const auto make = [&](const Item& item) {
+    item.out = sensitivity(*std::get<0>(item.key), e.kept.weights.at(item.key),
+                           images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
+    stage.step();
+  };
+  tbb::parallel_for(std::size_t{0}, alike.size(), [&](std::size_t k) { make(alike[k]); });
+  // The lit objects make one such light at a time.
+  for (const Item& item : apart) make(item);
+  all.of_channel.resize(e.channels.size());
+  for (std::size_t i = 0; i < e.channels.size(); ++i) {
+    for (const auto& [key, medium] : column[i]) {
+      all.of_channel[i][key] = {&all.by_light.at(key), medium};
+    }
+  }
+  return made;
+}
+
+}  // namespace scattermeter

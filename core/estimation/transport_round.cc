@@ -1,0 +1,186 @@
+#include "core/estimation/transport_round.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/fit/excess_scatter.h"
+#include "core/fit/part_light.h"
+
+namespace scattermeter {
+namespace {
+
+// A misfit of the parts so improbable widens the answer.
+constexpr double kWideningPValue = 1e-2;
+
+ScatteringImage part_of(const ScatteringImage& m, Eigen::Index first, Eigen::Index n) {
+  return {m.l.segment(first, n), m.per_log_sigma_s.segment(first, n),
+          m.per_sigma_a.segment(first, n), m.variance.segment(first, n)};
+}
+
+// Columns that touch some of the rows.
+Eigen::MatrixXd touching(const Eigen::MatrixXd& columns) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    if (!columns.col(k).isZero(0.0)) kept.push_back(k);
+  }
+  return columns(Eigen::all, kept);
+}
+
+}  // namespace
+
+TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& scale,
+                               const ScatteringPoint& at, const ScatteringImage& pilot,
+                               double expected, const Eigen::MatrixXd& cells)
+    : shots_(shots),
+      at_(at),
+      pilot_(pilot),
+      alike_(correlated_rows(shots.parts, at.scale * pilot.l, cells)),
+      joint_(shots.system, scale, pilot, at, expected, alike_) {
+  const std::vector<Eigen::Index>& shot_rows = shots.system.shot_rows;
+  if (shot_rows.size() < 2) return;
+  Eigen::Index first = 0;
+  for (std::size_t s = 0; s < shot_rows.size(); ++s) {
+    if (shot_rows[s] >= kLeastRows) singles_.push_back({s, first, {}, {}});
+    first += shot_rows[s];
+  }
+  for (Single& single : singles_) {
+    const Eigen::Index n = shot_rows[single.shot];
+    std::vector<Eigen::Index> rows(static_cast<std::size_t>(n));
+    std::iota(rows.begin(), rows.end(), single.first);
+    single.system = selected(shots.system, rows);
+    single.equation.emplace(single.system, scale, part_of(pilot, single.first, n), at, expected,
+                            touching(alike_.middleRows(single.first, n)));
+  }
+}
+
+Eigen::MatrixXd TransportRound::projection() const {
+  const Eigen::Index n_cells = shots_.parts.n_cells();
+  const Eigen::Index answers = unknowns() * (1 + static_cast<Eigen::Index>(singles_.size()));
+  const Eigen::RowVectorXd& scale = joint_.scale_form();
+  Eigen::MatrixXd all =
+      Eigen::MatrixXd::Zero(answers + (scale.size() > 0 ? 1 : 0) + n_cells, shots_.system.l.size());
+  all.topRows(unknowns()) = joint_.projection();
+  for (std::size_t i = 0; i < singles_.size(); ++i) {
+    const Eigen::MatrixXd& own = singles_[i].equation->projection();
+    all.block(static_cast<Eigen::Index>(i + 1) * unknowns(), singles_[i].first, unknowns(),
+              own.cols()) = own;
+  }
+  if (scale.size() > 0) all.row(answers) = scale;
+  all.bottomRows(n_cells) = shots_.parts.cells();
+  return all;
+}
+
+void TransportRound::take(const ChannelSimulation::Draw& draw) {
+  image_ = shots_.simulation.image(draw);
+  covariance_ = ChannelSimulation::covariance(draw);
+  blocks_ = draw.blocks();
+  const Eigen::MatrixXd own = covariance_.topLeftCorner(unknowns(), unknowns());
+  step_ = joint_.step(image_, own, at_);
+  // What has been smoothed, as renderings are, scatters less from row to row than over some rows;
+  // both are the noise of something. What parts as wholes are off by is not.
+  const Eigen::VectorXd rest = residual();
+  scatter_within_ = std::max(
+      excess_scatter(joint_.without_nuisances(rest), shots_.system.std_l.cwiseAbs2(),
+                     at_.scale * at_.scale * image_.variance, joint_.row_variance().cwiseInverse()),
+      scatter_of_cells(rest));
+  scatter_ = scatter_within_;
+  misfit_ = misfit_of(rest);
+  if (misfit_.p_value < kWideningPValue) scatter_ *= std::max(1.0, misfit_.chi2 / misfit_.dof);
+  step_ = joint_.step(image_, own, at_, scatter_);
+}
+
+ScatteringEquation::ScaleDoubt TransportRound::scale_doubt() const {
+  if (joint_.scale_form().size() == 0) return {};
+  const Eigen::Index row = covariance_.rows() - shots_.parts.n_cells() - 1;
+  return joint_.scale_doubt(residual(), at_.scale * at_.scale * covariance_(row, row), scatter_);
+}
+
+Eigen::MatrixXd TransportRound::cell_covariance() const {
+  const Eigen::Index n = shots_.parts.n_cells();
+  return covariance_.bottomRightCorner(n, n);
+}
+
+// Among the cells of each part, about its own light.
+double TransportRound::scatter_of_cells(const Eigen::VectorXd& rest) const {
+  if (blocks_ < kLeastBlocks) return 1.0;
+  const Eigen::MatrixXd& about = shots_.parts.about_parts();
+  const Eigen::MatrixXd light = about * shots_.parts.cells();
+  const Eigen::VectorXd paths =
+      at_.scale * at_.scale * (about * cell_covariance() * about.transpose()).diagonal();
+  const Eigen::VectorXd noise = light.cwiseAbs2() * shots_.system.std_l.cwiseAbs2();
+  // A part that is one cell says nothing.
+  const Eigen::VectorXd weights =
+      (paths.array() > 1e-9 * paths.maxCoeff()).select(paths.cwiseInverse(), 0.0);
+  return excess_scatter(light * rest, noise, paths, weights);
+}
+
+std::vector<std::size_t> TransportRound::shots() const {
+  std::vector<std::size_t> out;
+  for (const Single& single : singles_) out.push_back(single.shot);
+  return out;
+}
+
+std::vector<ScatteringEquation::Step> TransportRound::steps_of_shots() const {
+  std::vector<ScatteringEquation::Step> steps;
+  for (std::size_t i = 0; i < singles_.size(); ++i) {
+    const Eigen::Index first = static_cast<Eigen::Index>(i + 1) * unknowns();
+    steps.push_back(singles_[i].equation->step(
+        part_of(image_, singles_[i].first, singles_[i].system.l.size()),
+        covariance_.block(first, first, unknowns(), unknowns()), at_, scatter_));
+  }
+  return steps;
+}
+
+ShotAgreement TransportRound::agreement(const std::vector<ScatteringEquation::Step>& steps) const {
+  const auto n = static_cast<Eigen::Index>(steps.size());
+  Eigen::VectorXd answers(2 * n);
+  Eigen::MatrixXd all(2 * n, 2 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ScatteringEquation::Step& a = steps[static_cast<std::size_t>(i)];
+    answers.segment<2>(2 * i) = a.move.head<2>();
+    all.block<2, 2>(2 * i, 2 * i) = a.covariance.topLeftCorner<2, 2>();
+    for (Eigen::Index k = 0; k < i; ++k) {
+      const ScatteringEquation::Step& b = steps[static_cast<std::size_t>(k)];
+      // Shots under the same light share paths.
+      const Eigen::MatrixXd paths =
+          at_.scale * at_.scale *
+          covariance_.block((i + 1) * unknowns(), (k + 1) * unknowns(), unknowns(), unknowns());
+      const Eigen::MatrixXd shared =
+          a.pushes * b.pushes.transpose() + a.inverse * paths * b.inverse.transpose();
+      all.block<2, 2>(2 * i, 2 * k) = shared.topLeftCorner<2, 2>();
+      all.block<2, 2>(2 * k, 2 * i) = shared.topLeftCorner<2, 2>().transpose();
+    }
+  }
+  return agreement_of(answers, all);
+}
+
+LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
+  if (blocks_ < kLeastBlocks) return {};
+  const Eigen::MatrixXd light = shots_.parts.parts() * shots_.parts.cells();
+  const Eigen::Index n = light.rows();
+  const Eigen::MatrixXd noise =
+      light * shots_.system.std_l.cwiseAbs2().asDiagonal() * light.transpose();
+  // The inverse of a covariance from so many blocks is too large in the mean (Hartlap, Simon &
+  // Schneider 2007); parts of other shots do not count.
+  const double own_parts =
+      static_cast<double>(n) / static_cast<double>(shots_.system.shot_rows.size());
+  const double too_large = (blocks_ - 1.0) / (blocks_ - own_parts - 2.0);
+  const Eigen::MatrixXd paths =
+      at_.scale * at_.scale * scatter_within_ * too_large *
+      (shots_.parts.parts() * cell_covariance() * shots_.parts.parts().transpose());
+  const Eigen::MatrixXd j = light * ScatteringEquation::jacobian(pilot_, at_, unknowns() == 3);
+  Eigen::MatrixXd free(n, j.cols() + joint_.nuisances().cols());
+  constexpr double kWide = 30.0;  // of the light
+  for (Eigen::Index k = 0; k < j.cols(); ++k) {
+    free.col(k) = kWide / j.col(k).cwiseAbs().maxCoeff() * j.col(k);
+  }
+  free.rightCols(joint_.nuisances().cols()) = light * joint_.nuisances();
+  const auto unbound = std::count_if(shots_.system.nuisances.begin(), shots_.system.nuisances.end(),
+                                     [](const Nuisance& v) { return !std::isfinite(v.std); });
+  const int fitted = static_cast<int>(j.cols() + unbound);
+  if (n <= fitted) return {};
+  return lack_of_fit(light * rest, noise + paths, free, fitted);
+}
+
+}  // namespace scattermeter

@@ -1,0 +1,268 @@
+#include "core/fit/dipole_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/base/chi_square.h"
+#include "core/diffusion/dipole_curve.h"
+#include "core/fit/doubtful_input.h"
+#include "core/fit/fit_uncertainty.h"
+#include "core/fit/profile_interval.h"
+#include "core/fit/recovered_reflectance.h"
+#include "core/fit/residual.h"
+
+namespace scattermeter {
+namespace {
+
+using Point = DipoleSolver::Point;
+using Coefficient = DipoleSolver::Coefficient;
+
+// Standard deviations, correlation, budget and scale; the profile of the likelihood where the
+// quadratic approximation of the chi-square is not good enough for an interval.
+void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, const Point& p,
+                     double noise_inflation, Estimate& estimate) {
+  const Eigen::Matrix2d all = fit.covariance([](const std::string&) { return false; });
+  Quantity& s = estimate.sigma_s_prime_per_mm;
+  Quantity& a = estimate.sigma_a_per_mm;
+  s = normal_quantity(p.sigma_s_prime_per_mm(), std::sqrt(all(0, 0)));
+  a = normal_quantity(p.sigma_a_per_mm(), std::sqrt(all(1, 1)));
+  estimate.correlation = all(0, 1) / std::sqrt(all(0, 0) * all(1, 1));
+  const double scale = std::exp(p.log_s);
+  estimate.scale = normal_quantity(scale, scale * fit.log_scale_std());
+  const Eigen::Matrix2d noise = fit.covariance([](const std::string&) { return true; });
+  estimate.budget.push_back({"noise", std::sqrt(noise(0, 0)), std::sqrt(noise(1, 1))});
+  for (const std::string& cause : fit.causes()) {
+    const Eigen::Matrix2d rest = fit.covariance([&](const std::string& c) { return c == cause; });
+    estimate.budget.push_back({cause, std::sqrt(std::max(0.0, all(0, 0) - rest(0, 0))),
+                               std::sqrt(std::max(0.0, all(1, 1) - rest(1, 1)))});
+  }
+  // The chi-square is a parabola over a few per cent of a coefficient, not over tens, and not
+  // beside sigma_a = 0.
+  constexpr double kParabolic = 0.1;
+  if (!(s.std > kParabolic * s.value) && !(a.std > kParabolic * a.value)) return;
+  if (!std::isfinite(s.std) || !std::isfinite(a.std)) return;
+  // What is not fitted widens the interval as it widens the standard deviation.
+  const Eigen::Matrix2d fitted = fit.covariance_of_fitted();
+  const auto profile = [&](Coefficient which, Eigen::Index i, Quantity& q) {
+    const double wider = all(i, i) / fitted(i, i);
+    // `fitted` is inflated; the solver's chi-square is not.
+    const Interval interval =
+        profile_interval(solver, p, which, std::sqrt(fitted(i, i) / noise_inflation),
+                         3.841 * noise_inflation * wider);
+    q.low95 = interval.low;
+    q.high95 = interval.high;
+    // A side on which the profile rises within one deviation has caught the wall of a narrow basin
+    // beside which there may be others.
+    if (q.low95 > q.value - q.std) q.low95 = std::min(q.low95, q.value - 1.96 * q.std);
+    if (q.high95 < q.value + q.std) q.high95 = q.value + 1.96 * q.std;
+    q.low95 = std::max(0.0, q.low95);
+  };
+  profile(Coefficient::kSigmaSPrime, 0, s);
+  profile(Coefficient::kSigmaA, 1, a);
+}
+
+template <class... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream out;
+  out.precision(3);
+  (out << ... << parts);
+  return out.str();
+}
+
+void judge(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& options,
+           Estimate& e) {
+  const double mfp_mm = std::exp(-p.u);
+  if (!e.converged) e.reasons.push_back("the fit did not converge");
+  // Knots are a sixteenth of the patch apart at the source; over patches longer than three mean
+  // free paths the light bends more than their quadrature follows.
+  if (mfp_mm < 5.0 * knots.resolution_mm()) {
+    e.reasons.push_back(sentence("the mean free path, ", mfp_mm,
+                                 " mm, is too short for the patches: choose a patch size below ",
+                                 3.0 * mfp_mm, " mm"));
+  }
+  // Beyond, light that is absorbed within a patch: 1 / sigma_tr of three quarters of it and less
+  // answered up to 6 % off in sigma_s' (tests/core/fit/dipole_stress_test.cc).
+  const double decay_mm = mfp_mm / std::sqrt(3.0 * p.q);
+  if (decay_mm < 12.0 * knots.resolution_mm() && mfp_mm >= 5.0 * knots.resolution_mm()) {
+    e.reasons.push_back(sentence("the light dies off within ", decay_mm,
+                                 " mm, too short for the patches: choose a patch size below ",
+                                 decay_mm / 0.75, " mm"));
+  }
+  if (mfp_mm > 0.5 * knots.max_distance_mm()) {
+    e.reasons.push_back(
+        sentence("the mean free path, ", mfp_mm,
+                 " mm, is not small against the object: the dipole does not apply"));
+  }
+  if (p.q > 0.7) {
+    e.reasons.push_back(sentence("the albedo alpha' = ", 1.0 - p.q,
+                                 " is too low for the dipole, which wants it near 1"));
+  }
+  const double relative_std = e.sigma_s_prime_per_mm.std / e.sigma_s_prime_per_mm.value;
+  if (!std::isfinite(relative_std) || relative_std > options.max_relative_std_sigma_s) {
+    e.reasons.push_back(
+        "these shots do not determine sigma_s' (no absolute scale and no light edge "
+        "on the object, or too little light)");
+  }
+  if (!std::isfinite(e.sigma_a_per_mm.std) || !std::isfinite(e.sigma_a_per_mm.high95) ||
+      !std::isfinite(e.sigma_s_prime_per_mm.high95)) {
+    e.reasons.push_back("these shots set no upper limit to a coefficient");
+  }
+  if (e.reduced_chi2 > options.max_reduced_chi2 && e.rms_relative > options.max_rms_relative) {
+    e.reasons.push_back(sentence("the dipole does not explain the shots: residual ",
+                                 100.0 * e.rms_relative, " %, reduced chi-square ",
+                                 e.reduced_chi2));
+  } else if (e.misfit_p_value < options.misfit_p_value &&
+             e.misfit_relative > options.max_misfit_relative) {
+    e.reasons.push_back(sentence(
+        "the dipole does not explain the shots: a smooth function of distance fits better by ",
+        100.0 * e.misfit_relative,
+        " % of the image (scale, light, pose or material are not what the "
+        "rig says)"));
+  }
+}
+
+// How much of the image the recovered r explains and the dipole does not.
+// Returns its chi-square per degree of freedom, over the noise's.
+double set_misfit(const RecoveredReflectance& recovered, double l2,
+                  const std::vector<Nuisance>& fitted, const ScalePrior& scale, const Point& p,
+                  bool without_noise, Estimate& estimate) {
+  const auto rank = recovered.whitened.size();
+  // Every prior adds one term and its parameter takes one away.
+  const auto unbound = std::count_if(fitted.begin(), fitted.end(),
+                                     [](const Nuisance& n) { return !std::isfinite(n.std); });
+  const double dof = static_cast<double>(rank - 2 - (std::isfinite(scale.relative_std) ? 0 : 1) -
+                                         static_cast<Eigen::Index>(unbound));
+  if (!(dof > 0.0)) return 0.0;
+  const double noise = recovered.noise_excess();
+  const double cost = p.cost + (without_noise ? dof : 0.0);
+  const double chi2 = cost / noise;
+  estimate.misfit_p_value = chi_square_tail(chi2, dof);
+  estimate.misfit_relative = std::sqrt(std::max(0.0, chi2 - dof) / (l2 / noise));
+  return cost / dof;
+}
+
+}  // namespace
+
+void DipoleFitOptions::Check() const {
+  if (!(eta_int_over_ext > 0.0)) throw std::invalid_argument("DipoleFitOptions.eta_int_over_ext");
+  if (!(scale.relative_std >= 0.0)) throw std::invalid_argument("DipoleFitOptions.scale");
+  if (!(misfit_p_value > 0.0)) throw std::invalid_argument("DipoleFitOptions.misfit_p_value");
+}
+
+ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
+                             const DipoleSolver::Point& p, double eta_int_over_ext) {
+  const DipoleCurve curve = dipole_curve(knots, p.u, p.q, eta_int_over_ext);
+  const Eigen::VectorXd r = std::exp(p.log_s) * curve.r;
+  std::vector<ComparedImage> shots(rows.shots());
+  for_each_shot(rows, [&](std::size_t s, const ShotSystem& shot) {
+    ComparedImage& out = shots[s];
+    out.l = shot.system->l;
+    out.std_l = shot.system->std_l;
+    out.predicted = shot.system->weights * r;
+    for (std::size_t k = 0; k < shot.nuisances.size(); ++k) {
+      const auto v = static_cast<std::size_t>(shot.nuisances[k]);
+      if (v >= p.v.size()) continue;  // held
+      out.predicted += p.v[v] * shot.system->nuisance_columns.col(static_cast<Eigen::Index>(k));
+    }
+  });
+  const auto together = [&](Eigen::VectorXd ComparedImage::*part) {
+    Eigen::Index n = 0;
+    for (const ComparedImage& shot : shots) n += (shot.*part).size();
+    Eigen::VectorXd out(n);
+    Eigen::Index at = 0;
+    for (const ComparedImage& shot : shots) {
+      out.segment(at, (shot.*part).size()) = shot.*part;
+      at += (shot.*part).size();
+    }
+    return out;
+  };
+  return {together(&ComparedImage::predicted), together(&ComparedImage::l),
+          together(&ComparedImage::std_l)};
+}
+
+DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
+                     const DipoleFitOptions& options) {
+  return fit_dipole(SystemRows(system), image_information(system), knots, options);
+}
+
+DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
+                     const DistanceKnots& knots, const DipoleFitOptions& options) {
+  options.Check();
+  DipoleFit fit;
+  Estimate& estimate = fit.estimate;
+  estimate.rows = image.rows;
+  if (estimate.rows < options.min_rows) {
+    estimate.reasons.push_back(sentence("only ", estimate.rows, " patches can be used, at least ",
+                                        options.min_rows, " are needed"));
+    return fit;
+  }
+  if (!image.is_sound) {
+    estimate.reasons.push_back("the image or its prediction holds values that are not finite");
+    return fit;
+  }
+  fit.recovered = recover_reflectance(image);
+  if (options.without_noise) {
+    fit.recovered.floor_chi2 +=
+        static_cast<double>(image.rows) - static_cast<double>(fit.recovered.whitened.size());
+  }
+  const RecoveredReflectance& recovered = fit.recovered;
+  if (recovered.whitened.size() < 3) {
+    estimate.reasons.push_back("no light reaches the object in these shots");
+    return fit;
+  }
+  std::vector<Nuisance> fitted;
+  std::copy_if(rows.nuisances().begin(), rows.nuisances().end(), std::back_inserter(fitted),
+               [](const Nuisance& n) { return n.fitted; });
+  const DipoleSolver solver(recovered, knots, fitted, options.eta_int_over_ext, options.scale);
+  fit.optimum = solver.best();
+  const Point& p = fit.optimum;
+  estimate.converged = p.converged;
+  const DipoleCurve curve = dipole_curve(knots, p.u, p.q, options.eta_int_over_ext);
+  fit.image = compared_image(rows, knots, p, options.eta_int_over_ext);
+  const Residual rest = residual(fit.image.l, fit.image.predicted, fit.image.std_l);
+  const int n_parameters = options.scale.relative_std == 0.0 ? 2 : 3;
+  estimate.reduced_chi2 = rest.chi2 / (static_cast<double>(image.rows) - n_parameters) +
+                          (options.without_noise ? 1.0 : 0.0);
+  estimate.rms_relative = rest.rms_relative;
+  estimate.psnr_db = rest.psnr_db;
+  const double misfit =
+      set_misfit(recovered, image.l2, fitted, options.scale, p, options.without_noise, estimate);
+  double inflation = std::max(1.0, estimate.reduced_chi2);
+  // What the dipole misses lies in the few directions that r can explain, as the coefficients do;
+  // over all rows it would be thinned out. Taken as alike in all those directions (Birge 1932).
+  if (estimate.misfit_p_value < options.misfit_p_value) inflation = std::max(inflation, misfit);
+  // Errors of the method are at least as large as the misfit that is seen.
+  std::vector<Nuisance> nuisances = rows.nuisances();
+  for (Nuisance& n : nuisances) {
+    if (!n.fitted && estimate.misfit_p_value < options.misfit_p_value) {
+      n.std = std::max(n.std, options.misfit_margin * estimate.misfit_relative);
+    }
+  }
+  // What the image says against the rig's statements widens the answer, or refuses it.
+  const Doubts doubts =
+      doubtful_inputs(recovered, rows.nuisances(), knots, p, options.eta_int_over_ext,
+                      options.scale, recovered.noise_excess());
+  RecoveredReflectance doubted = recovered;
+  for (const auto& [doubt, name] : {std::pair{&doubts.scale, "scale"}, {&doubts.eta, "eta"}}) {
+    if (!(doubt->p_value < options.misfit_p_value)) continue;
+    doubted.sqrt_information.conservativeResize(Eigen::NoChange,
+                                                doubted.sqrt_information.cols() + 1);
+    doubted.sqrt_information.rightCols(1) = doubt->push;
+    nuisances.push_back({name, std::abs(doubt->offset), false});
+    if (doubt->image_relative > options.max_doubt_relative) {
+      estimate.reasons.push_back(sentence("the shots contradict the ", name,
+                                          " that the rig states: they would have it off by ",
+                                          doubt->offset));
+    }
+  }
+  set_uncertainty(FitUncertainty(doubted, nuisances, curve, p.u, p.q, std::exp(p.log_s),
+                                 options.scale, inflation),
+                  solver, p, inflation, estimate);
+  judge(knots, p, options, estimate);
+  return fit;
+}
+
+}  // namespace scattermeter

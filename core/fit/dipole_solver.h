@@ -1,0 +1,58 @@
+// The optimum of the dipole's chi-square.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/diffusion/distance_weights.h"
+#include "core/fit/estimate.h"
+#include "core/fit/linear_shot.h"
+#include "core/fit/recovered_reflectance.h"
+
+namespace scattermeter {
+
+// Least squares of s R(d; sigma_s', sigma_a) and the nuisances v against the recovered r in the
+// metric of r's own errors, which is the image's chi-square, with the priors of s and v. Continuous
+// in all parameters (Ceres, analytic derivatives): u = log sigma_t', q = 1 - alpha' in 0 .. 0.95,
+// log s, v.
+class DipoleSolver {
+ public:
+  struct Point {
+    double u = 0;
+    double q = 0;
+    double log_s = 0;
+    std::vector<double> v;
+    double cost = 0;  // chi-square beyond the free r's (RecoveredReflectance::floor_chi2) + priors
+    bool converged = false;
+    double sigma_t_prime_per_mm() const;
+    double sigma_s_prime_per_mm() const;
+    double sigma_a_per_mm() const;
+  };
+  enum class Coefficient { kSigmaSPrime, kSigmaA };
+
+  // fitted: the nuisances that are fitted, in the order of the columns behind the knots'. All
+  // references must outlive the solver.
+  DipoleSolver(const RecoveredReflectance& recovered, const DistanceKnots& knots,
+               const std::vector<Nuisance>& fitted, double eta_int_over_ext,
+               const ScalePrior& scale);
+
+  // Started from every minimum of a coarse set over all magnitudes that the knots can resolve, so
+  // no guess is asked for.
+  Point best() const;
+  // The optimum with one coefficient held at a value (1/mm), for a profile of the likelihood.
+  // nullopt where no point within the bounds has it or the search fails.
+  std::optional<Point> best_with(Coefficient held, double value_per_mm, const Point& start) const;
+
+  static constexpr double kMaxAbsorbed = 0.95;  // bound of q
+
+ private:
+  Point freed(const Point& from) const;  // the optimum near a point
+
+  const RecoveredReflectance& recovered_;
+  const DistanceKnots& knots_;
+  const std::vector<Nuisance>& fitted_;
+  double eta_;
+  ScalePrior scale_;
+};
+
+}  // namespace scattermeter

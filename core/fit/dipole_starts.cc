@@ -1,0 +1,57 @@
+#include "core/fit/dipole_starts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/diffusion/dipole_curve.h"
+
+namespace scattermeter {
+
+std::vector<DipoleSolver::Point> dipole_starts(const RecoveredReflectance& recovered,
+                                               const DistanceKnots& knots, double eta,
+                                               const ScalePrior& scale) {
+  using Start = DipoleSolver::Point;
+  std::vector<Start> line;
+  const int steps =
+      4 + static_cast<int>(2.0 * std::log2(knots.max_distance_mm() / knots.resolution_mm()));
+  for (int k = 0; k < steps; ++k) {
+    Start best;
+    best.u = -std::log(knots.resolution_mm()) - 0.5 * k * std::numbers::ln2;
+    best.cost = std::numeric_limits<double>::infinity();
+    for (double q : {1e-5, 1e-3, 0.01, 0.05, 0.15, 0.3, 0.5, 0.75}) {
+      const Eigen::VectorXd p =
+          recovered.sqrt_information.leftCols(knots.size()) * dipole_curve(knots, best.u, q, eta).r;
+      double s = 1.0;
+      if (scale.relative_std > 0.0) {
+        // Weighted by the prior, linear in s.
+        const double prior = 1.0 / (scale.relative_std * scale.relative_std);
+        s = (p.dot(recovered.whitened) + prior) / (p.squaredNorm() + prior);
+        if (!(s > 0.0)) continue;
+      }
+      const double cost = (s * p - recovered.whitened).squaredNorm();
+      if (cost < best.cost) {
+        best.cost = cost;
+        best.q = q;
+        best.log_s = std::log(s);
+      }
+    }
+    line.push_back(best);
+  }
+  std::vector<Start> minima;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    if (!std::isfinite(line[k].cost)) continue;
+    const bool below_last = k == 0 || line[k].cost < line[k - 1].cost;
+    const bool below_next = k + 1 == line.size() || line[k].cost <= line[k + 1].cost;
+    if (below_last && below_next) minima.push_back(line[k]);
+  }
+  if (minima.empty()) minima.push_back(line.front());
+  // The best of the fine line is nearly always the one; more than three cost time only.
+  std::sort(minima.begin(), minima.end(),
+            [](const Start& a, const Start& b) { return a.cost < b.cost; });
+  minima.resize(std::min<std::size_t>(minima.size(), 3));
+  return minima;
+}
+
+}  // namespace scattermeter

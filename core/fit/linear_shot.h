@@ -1,0 +1,59 @@
+// One channel of one shot as a linear system in r.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/diffusion/distance_weights.h"
+#include "core/view/observation.h"
+
+namespace scattermeter {
+
+// l = sum over lights of intensity * W_light r. References must outlive the struct.
+struct LinearShot {
+  struct Light {
+    const WeightMatrix* weights;  // rows as in the observation, sr
+    double intensity_W_per_sr;
+  };
+  std::vector<Light> lights;
+  const ChannelObservation* observed;
+  // Error of the prediction itself (discretisation), relative to l; joins the variance of each row.
+  double numerical_relative_std = 0;
+};
+
+// A quantity beside the material that the image depends on and that is known only to a standard
+// deviation: an LED's place, the camera's pose, eta. Counted from its nominal value.
+struct Nuisance {
+  std::string group;  // what it belongs to in the budget: "LED position", "pose", ...
+  double std = 0;     // of the prior; the prior's mean is 0
+  // True: fitted along with the material. False: held at 0, and what it may do to the answer only
+  // widens the uncertainty (errors of the method itself, whose shape is not known well enough to be
+  // fitted).
+  bool fitted = true;
+  std::string name = {};  // of this one alone ("led1.position0"); may be empty
+};
+
+// The rows that are used, as a dense system: weights (W), l (W/mm^2) and standard deviation of l.
+// l = W r + nuisance_columns * v, with v the deviations of the nuisances from nominal.
+struct DenseSystem {
+  WeightMatrix weights;
+  Eigen::VectorXd l;
+  Eigen::VectorXd std_l;
+  std::vector<Nuisance> nuisances = {};      // may be empty; those that are fitted come first
+  Eigen::MatrixXd nuisance_columns = {};     // rows x nuisances: dl / dv
+  std::vector<Eigen::Index> shot_rows = {};  // number of rows of each shot, in order
+};
+
+// Some of the rows, in ascending order, with all nuisances.
+DenseSystem selected(const DenseSystem& system, const std::vector<Eigen::Index>& rows);
+
+// The nuisances that touch the rows of one shot, ascending.
+std::vector<Eigen::Index> nuisances_of_shot(const DenseSystem& system, std::size_t shot);
+
+// The rows of one shot, and the nuisances that touch them.
+DenseSystem shot_of(const DenseSystem& system, std::size_t shot);
+
+// All used rows of the shots, one below the other. Precondition: all shots share their knots.
+DenseSystem stack(const std::vector<LinearShot>& shots);
+
+}  // namespace scattermeter

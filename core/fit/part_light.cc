@@ -1,0 +1,64 @@
+#include "core/fit/part_light.h"
+
+#include <algorithm>
+
+#include "core/base/covariance_root.h"
+
+namespace scattermeter {
+
+void PartLight::learn(const ShotParts& parts, const ScatteringImage& image,
+                      const Eigen::MatrixXd& cell_covariance, const ScatteringImage& dipole,
+                      int blocks) {
+  const double n = blocks;
+  if (blocks_ == 0.0) cell_variance_ = 0.0 * cell_covariance;
+  cell_variance_ += n * n * cell_covariance;
+  blocks_ += n;
+  const auto light = [&](const Eigen::VectorXd& l) -> Eigen::ArrayXd {
+    return parts.parts() * (parts.cells() * l);
+  };
+  const Eigen::ArrayXd own = light(image.l);
+  const Eigen::ArrayXd dipoles = light(dipole.l);
+  if (!(own.minCoeff() > 0.0 && dipoles.minCoeff() > 0.0)) return;
+  const Eigen::ArrayXd l = (own / dipoles).max(0.2).min(5.0);
+  const Eigen::ArrayXd s =
+      light(image.per_log_sigma_s) / own - light(dipole.per_log_sigma_s) / dipoles;
+  const Eigen::ArrayXd a = light(image.per_sigma_a) / own - light(dipole.per_sigma_a) / dipoles;
+  if (learnt_ == 0.0) l_ = per_log_sigma_s_ = per_sigma_a_ = Eigen::ArrayXd::Zero(own.size());
+  learnt_ += n;
+  const double share = n / learnt_;
+  l_ += share * (l - l_);
+  per_log_sigma_s_ += share * (s - per_log_sigma_s_);
+  per_sigma_a_ += share * (a - per_sigma_a_);
+}
+
+void PartLight::correct(const ShotParts& parts, ScatteringImage& dipole) const {
+  for (Eigen::Index j = 0; j < dipole.l.size() && learnt_ > 0.0; ++j) {
+    const Eigen::Index part = parts.part_of_row(j);
+    const double l = dipole.l[j];
+    const double ratio = l_[part];
+    dipole.l[j] *= ratio;
+    dipole.per_log_sigma_s[j] = ratio * (dipole.per_log_sigma_s[j] + l * per_log_sigma_s_[part]);
+    dipole.per_sigma_a[j] = ratio * (dipole.per_sigma_a[j] + l * per_sigma_a_[part]);
+  }
+}
+
+Eigen::MatrixXd PartLight::cells_alike(const ShotParts& parts) const {
+  // Cells of one shot; those of others share few paths.
+  constexpr double kCells = 64.0;
+  const double share = blocks_ / (blocks_ + std::min(kCells, static_cast<double>(parts.n_cells())));
+  Eigen::MatrixXd out = share / blocks_ * cell_variance_;
+  out.diagonal() = cell_variance_.diagonal() / blocks_;
+  return out;
+}
+
+Eigen::MatrixXd correlated_rows(const ShotParts& parts, const Eigen::VectorXd& l,
+                                const Eigen::MatrixXd& cells) {
+  const Eigen::MatrixXd of_cell = covariance_root(cells);
+  Eigen::MatrixXd out(l.size(), of_cell.cols());
+  for (Eigen::Index j = 0; j < out.rows(); ++j) {
+    out.row(j) = l[j] * of_cell.row(parts.cell_of_row(j));
+  }
+  return out;
+}
+
+}  // namespace scattermeter

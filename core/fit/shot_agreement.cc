@@ -1,0 +1,142 @@
+#include "core/fit/shot_agreement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "core/base/chi_square.h"
+#include "core/base/dense_solve.h"
+#include "core/diffusion/dipole_curve.h"
+
+namespace scattermeter {
+namespace {
+
+// Least squares in the normal form A x = b; the fall of the cost that the best x brings, b^T x.
+struct Normal {
+  Eigen::MatrixXd a;
+  Eigen::VectorXd b;
+
+  explicit Normal(Eigen::Index n) : a(Eigen::MatrixXd::Zero(n, n)), b(Eigen::VectorXd::Zero(n)) {}
+  double fall() const {
+    const Eigen::VectorXd s =
+        a.diagonal().unaryExpr([](double d) { return d > 0.0 ? 1.0 / std::sqrt(d) : 0.0; });
+    Eigen::MatrixXd scaled = s.asDiagonal() * a * s.asDiagonal();
+    // Directions that nothing determines bring no fall.
+    scaled.diagonal().array() += 1e-12;
+    const Eigen::VectorXd right = s.cwiseProduct(b);
+    return right.dot(SymmetricSolver(scaled).solve(right));
+  }
+};
+
+}  // namespace
+
+ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
+                             const std::vector<Nuisance>& nuisances, const DistanceKnots& knots,
+                             const DipoleSolver::Point& joint, double eta, const ScalePrior& scale,
+                             double noise_inflation) {
+  const auto n_shots = static_cast<Eigen::Index>(shots.size());
+  ShotAgreement out;
+  if (n_shots < 2) return out;
+  const double s = std::exp(joint.log_s);
+  const DipoleCurve curve = dipole_curve(knots, joint.u, joint.q, eta);
+  const bool scale_moves = scale.relative_std > 0.0;
+  const Eigen::Index first_nuisance = scale_moves ? 1 : 0;
+  const Eigen::Index shared = first_nuisance + static_cast<Eigen::Index>(nuisances.size());
+  Normal together(2 + shared);
+  Normal apart(2 * n_shots + shared);
+  const Eigen::Index n_knots = curve.r.size();
+  for (Eigen::Index i = 0; i < n_shots; ++i) {
+    const ShotInformation& shot = shots[static_cast<std::size_t>(i)];
+    const auto own = static_cast<Eigen::Index>(shot.nuisances.size());
+    // The shot's unknowns (r on the knots, nuisances) by those that move here, and where those
+    // stand among the shared ones.
+    Eigen::MatrixXd by = Eigen::MatrixXd::Zero(n_knots + own, 2 + first_nuisance + own);
+    by.col(0).head(n_knots) = s * curve.d_u;
+    by.col(1).head(n_knots) = s * curve.d_q;
+    std::vector<Eigen::Index> place;
+    if (scale_moves) {
+      by.col(2).head(n_knots) = s * curve.r;
+      place.push_back(0);
+    }
+    by.bottomRightCorner(own, own).setIdentity();
+    Eigen::VectorXd at = Eigen::VectorXd::Zero(n_knots + own);
+    at.head(n_knots) = s * curve.r;
+    for (Eigen::Index k = 0; k < own; ++k) {
+      const Eigen::Index v = shot.nuisances[static_cast<std::size_t>(k)];
+      place.push_back(first_nuisance + v);
+      if (static_cast<std::size_t>(v) < joint.v.size()) {
+        at[n_knots + k] = joint.v[static_cast<std::size_t>(v)];
+      }
+    }
+    const Eigen::MatrixXd moved = shot.image.information * by;
+    const Eigen::MatrixXd jj = by.transpose() * moved / noise_inflation;
+    const Eigen::VectorXd jr =
+        (by.transpose() * shot.image.right - moved.transpose() * at) / noise_inflation;
+    const auto add = [&](Normal& normal, Eigen::Index coefficients, Eigen::Index first_shared) {
+      std::vector<Eigen::Index> to = {coefficients, coefficients + 1};
+      for (const Eigen::Index p : place) to.push_back(first_shared + p);
+      normal.a(to, to) += jj;
+      normal.b(to) += jr;
+    };
+    add(together, 0, 2);
+    add(apart, 2 * i, 2 * n_shots);
+  }
+  // Priors: (value + change)^2 / std^2.
+  const auto prior = [&](Eigen::Index parameter, double value, double std) {
+    if (!std::isfinite(std)) return;
+    for (auto [normal, first] :
+         {std::pair{&together, Eigen::Index{2}}, std::pair{&apart, 2 * n_shots}}) {
+      normal->a(first + parameter, first + parameter) += 1.0 / (std * std);
+      normal->b[first + parameter] -= value / (std * std);
+    }
+  };
+  if (scale_moves) prior(0, joint.log_s, scale.relative_std);
+  for (std::size_t v = 0; v < nuisances.size(); ++v) {
+    prior(first_nuisance + static_cast<Eigen::Index>(v), v < joint.v.size() ? joint.v[v] : 0.0,
+          nuisances[v].std);
+  }
+  out.chi2 = std::max(0.0, apart.fall() - together.fall());
+  out.dof = static_cast<int>(2 * (n_shots - 1));
+  out.p_value = chi_square_tail(out.chi2, out.dof);
+  return out;
+}
+
+ShotAgreement agreement_of(const Eigen::VectorXd& answers, const Eigen::MatrixXd& covariance) {
+  const Eigen::Index n = answers.size();
+  if (n % 2 != 0 || covariance.rows() != n || covariance.cols() != n) {
+    throw std::invalid_argument("agreement_of: sizes");
+  }
+  ShotAgreement out;
+  out.dof = std::max(0, static_cast<int>(n) - 2);
+  if (out.dof == 0) return out;
+  // In units that make a row of the covariance as large as another.
+  const Eigen::VectorXd unit = covariance.diagonal().cwiseSqrt();
+  const Eigen::VectorXd x = answers.cwiseQuotient(unit);
+  const Eigen::MatrixXd c =
+      unit.cwiseInverse().asDiagonal() * covariance * unit.cwiseInverse().asDiagonal();
+  Eigen::MatrixXd common(n, 2);
+  for (Eigen::Index i = 0; i < n; ++i) common.row(i) = Eigen::RowVector2d::Unit(i % 2) / unit[i];
+  const SymmetricSolver solver(c);
+  const Eigen::MatrixXd weighed = solver.solve_columns(common);
+  const Eigen::Vector2d best =
+      SymmetricSolver(common.transpose() * weighed).solve(weighed.transpose() * x);
+  const Eigen::VectorXd rest = x - common * best;
+  out.chi2 = std::max(0.0, rest.dot(solver.solve(rest)));
+  out.p_value = chi_square_tail(out.chi2, out.dof);
+  return out;
+}
+
+void widen_by_disagreement(const ShotAgreement& agreement, Estimate& estimate) {
+  if (!agreement.disagree()) return;
+  const double birge = std::sqrt(std::max(1.0, agreement.chi2 / agreement.dof));
+  const double added = std::sqrt(birge * birge - 1.0);
+  estimate.budget.push_back({"disagreement", added * estimate.sigma_s_prime_per_mm.std,
+                             added * estimate.sigma_a_per_mm.std});
+  for (Quantity* q : {&estimate.sigma_s_prime_per_mm, &estimate.sigma_a_per_mm}) {
+    q->std *= birge;
+    q->low95 = std::max(0.0, q->value - birge * (q->value - q->low95));
+    q->high95 = q->value + birge * (q->high95 - q->value);
+  }
+}
+
+}  // namespace scattermeter

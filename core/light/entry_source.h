@@ -1,0 +1,53 @@
+// Light on its first step into a body.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "core/base/random_stream.h"
+#include "core/light/environment.h"
+#include "core/light/led.h"
+#include "core/mesh/patch_mesh.h"
+#include "core/mesh/ray_scene.h"
+
+namespace scattermeter {
+
+struct Entry {
+  Eigen::Vector3d position_mm;  // on the surface
+  Eigen::Vector3d direction;    // of flight, behind it
+  double power = 0;             // that this sample stands for
+};
+
+// The mean power over all samples is the transmitted power, in the units of IncidentLight:
+// sr per W/sr of an LED, mm^2 sr per W/(mm^2 sr) of a probe.
+class EntrySource {
+ public:
+  virtual ~EntrySource() = default;
+  // `stratum`: even over (0, 1); places follow each other over the surface in its order. Empty: a
+  // sample of no power (shadow).
+  virtual std::optional<Entry> sample(double stratum, RandomStream& random) const = 0;
+};
+
+// Light of an LED, a point or a disc of its radius, on all of the mesh that it reaches.
+// What is pointed to must outlive the sources.
+std::unique_ptr<EntrySource> led_entry(const RayScene& scene, const Led& led,
+                                       double eta_int_over_ext);
+
+// Light of one channel (0 R, 1 G, 2 B) of an environment.
+std::unique_ptr<EntrySource> environment_entry(const RayScene& scene,
+                                               const Environment& environment, int channel,
+                                               double eta_int_over_ext);
+
+// A beam of power 1 behind the surface: starts at a point on it, or spread evenly over a
+// parallelogram on it, in one direction (of flight, behind the surface).
+struct Beam {
+  Eigen::Vector3d corner_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d side1_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d side2_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = -Eigen::Vector3d::UnitZ();
+};
+std::unique_ptr<EntrySource> beam_entry(const Beam& beam);
+
+}  // namespace scattermeter

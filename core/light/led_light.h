@@ -1,0 +1,37 @@
+// An LED as a light of the scene.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "core/light/led.h"
+#include "core/light/led_uncertainty.h"
+#include "core/light/light.h"
+
+namespace scattermeter {
+
+struct LedLight final : Light {
+  Led led;
+  double position_std_mm = 0;  // in each coordinate
+  double exponent_std = 0;
+  double intensity_relative_std = 0;  // common to the three channels
+  // From `calibrate led`: in place of the three deviations above.
+  std::optional<LedUncertainty> calibrated;
+  // With a calibrated intensity: the responsivity (counts mm^2 sr/(W s), R G B) that it counts for.
+  std::optional<std::array<double, 3>> calibrated_for;
+
+  std::size_t channels() const override { return 1; }
+  const Eigen::Array3d& power() const override { return led.intensity_W_per_sr; }
+  std::vector<IncidentLight> illuminate(const PatchMesh& patches, const RayScene& scene,
+                                        double eta_int_over_ext, LightUse use) const override;
+  std::unique_ptr<EntrySource> entry(const RayScene& scene, double eta_int_over_ext,
+                                     int channel) const override;
+  std::optional<Eigen::Vector3d> position_mm() const override { return led.position_mm; }
+  std::vector<LightChange> changes(const Eigen::Vector3d& object_center_mm) const override;
+  // Position, exponent and power by themselves; with a calibration, seven independent combinations
+  // of these and the axis ("LED calibration"), and one that all LEDs share that were calibrated
+  // with the same white plane.
+  std::vector<LightNuisance> nuisances(const std::string& name, std::size_t channel) const override;
+};
+
+}  // namespace scattermeter

@@ -1,0 +1,81 @@
+// Irradiance that a light probe causes at a point.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/light/probe_tree.h"
+#include "core/light/transmitted_cosine.h"
+#include "core/mesh/ray_scene.h"
+
+namespace scattermeter {
+
+// ∫ L(w) cos Ft(eta, cos) V(w) dw at points of one facet after the other, R G B, per unit of the
+// probe's radiance. `tolerance`: aimed at for each of the parts, relative to what the facet would
+// receive if nothing stood before it. A workspace: one for each thread.
+class ProbeIrradiance {
+ public:
+  enum class Part { kSky, kBright };
+
+  // scene: may be nullptr where only open() is asked for. What is pointed to must outlive this.
+  ProbeIrradiance(const ProbeTree& tree, const RayScene* scene,
+                  const TransmittedCosine& transmitted, double tolerance);
+
+  // The facet that the calls below are about: its unit normal, and the mesh's vertices before its
+  // plane (empty: nothing can stand before it).
+  void set_facet(const Eigen::Vector3d& normal, std::vector<Eigen::Vector3d> in_front_mm);
+
+  // Of a facet with nothing before it, the same all over it.
+  const Eigen::Array3d& open(Part part) const {
+    return part == Part::kSky ? open_sky_ : open_bright_;
+  }
+  // With what stands before it. The point lies on the facet, not on its border.
+  Eigen::Array3d at(const Eigen::Vector3d& point_mm, Part part);
+  std::size_t rays() const { return rays_; }
+
+ private:
+  friend struct SkyEmitter;
+  friend struct BrightEmitter;
+  Eigen::Array3d arriving(const ProbeLight& light) const;
+  bool is_fine(const ProbeLight& light, bool bright) const;
+  Eigen::Array3d sky_energy(const ProbeCell& cell);
+  Eigen::Array3d cut_energy(const ProbeCell& cell, bool bright, int cuts) const;
+  bool dim(const Eigen::Array3d& energy) const;
+  bool visible(double x_px, double y_px);
+  bool trace(double x_px, double y_px);
+
+  const ProbeTree& tree_;
+  const RayScene* scene_;
+  const TransmittedCosine& transmitted_;
+  double tolerance_;
+  Eigen::Quaterniond world_from_probe_;
+  int wide_level_;  // cells above it are never judged as one
+
+  // Of the facet.
+  Eigen::Vector3d normal_;
+  Eigen::Vector3d normal_in_probe_;
+  std::vector<Eigen::Vector3d> in_front_mm_;
+  Eigen::Array3d open_sky_;
+  Eigen::Array3d open_bright_;
+  std::vector<Eigen::Array3d> bright_energy_;  // by bright pixel
+  // Energies of the sky's cells above the pixels, as far as they were asked for.
+  struct Known {
+    std::uint32_t facet = 0;
+    Eigen::Array3f energy;
+  };
+  std::uint32_t facet_ = 0;
+  std::vector<std::vector<Known>> known_;  // by level - 1
+
+  // Of the point: what was seen on a lattice of pixel corners, 2^shift apart.
+  Eigen::Vector3d point_mm_;
+  std::uint32_t point_ = 0;
+  int shift_;
+  std::size_t lattice_width_;
+  std::vector<std::uint32_t> lattice_;  // 2 * point + seen
+  std::size_t rays_ = 0;
+};
+
+}  // namespace scattermeter

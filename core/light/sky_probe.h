@@ -1,0 +1,26 @@
+// A light probe made from a formula.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/light/environment.h"
+
+namespace scattermeter {
+
+// A clear sky with its sun, over a ground. Not a model of the atmosphere: a light of the same
+// contrast. Radiance is in units of the zenith's green.
+struct SkyProbe {
+  int width_px = 1024;                           // even, at least 16; the height is half of it
+  Eigen::Vector3d sun_direction{0.4, 0.6, 0.7};  // any length but 0; z > 0
+  double sun_radius_rad = 0.0047;
+  double sun_radiance = 1e5;  // of the sun's disc, green
+};
+
+// Equirectangular, probe frame = world. Each pixel holds the mean over its solid angle of the sky
+// (zenith blue, three times brighter and whiter towards the horizon), of the sun's disc and of the
+// ground (a fifth of the horizon, brownish); a pixel that lies within the sun's disc holds its
+// radiance, one across its edge a share. The same digits on every call. Throws
+// std::invalid_argument outside the domain above.
+Environment make_sky_probe(const SkyProbe& sky = {});
+
+}  // namespace scattermeter

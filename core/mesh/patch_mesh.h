@@ -1,0 +1,63 @@
+// Surface patches: a mesh cut into small triangles.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace scattermeter {
+
+// A point inside a patch.
+struct PatchPoint {
+  int patch_idx = -1;
+  Eigen::Vector3d barycentric;  // weights of the patch's three vertices, sum 1
+};
+
+// The facets of a mesh, each bisected at its longest edge until every patch has an area of at most
+// size^2 and no edge longer than 2.5 size. Patches keep their facet's plane and orientation;
+// vertices on shared edges are shared.
+class PatchMesh {
+ public:
+  // Preconditions: mesh_problem(mesh) is empty, size_mm > 0. Throws std::invalid_argument for a
+  // size that is not positive, and std::length_error when more than max_patches would be needed.
+  PatchMesh(const TriangleMesh& mesh, double size_mm, std::size_t max_patches = 4'000'000);
+
+  int size() const { return static_cast<int>(patches_.size()); }
+  const std::vector<Eigen::Vector3d>& vertices_mm() const { return vertices_mm_; }
+  const std::array<int, 3>& vertex_idx(int patch) const {
+    return patches_[static_cast<std::size_t>(patch)];
+  }
+  std::array<Eigen::Vector3d, 3> corners_mm(int patch) const;
+  int facet_idx(int patch) const { return facet_idx_[static_cast<std::size_t>(patch)]; }
+  const Eigen::Vector3d& facet_normal(int facet) const {
+    return facet_normal_[static_cast<std::size_t>(facet)];
+  }
+  const Eigen::Vector3d& normal(int patch) const { return facet_normal(facet_idx(patch)); }
+  Eigen::Vector3d center_mm(int patch) const;
+  double area_mm2(int patch) const;
+  double patch_size_mm() const { return size_mm_; }
+
+  // The patch that holds a point of a facet. barycentric: weights of the facet's three vertices.
+  PatchPoint locate(int facet, const Eigen::Vector3d& barycentric) const;
+
+ private:
+  // A triangle of the bisection tree. A leaf has child < 0 and is patch -child - 1. An inner node
+  // was cut from corner `apex` to the middle m of the opposite edge (b, c); its children stand one
+  // after the other: (apex, b, m) and (apex, m, c).
+  struct Node {
+    std::int32_t child;
+    std::uint8_t apex;
+  };
+  double size_mm_;
+  std::vector<Eigen::Vector3d> vertices_mm_;
+  std::vector<std::array<int, 3>> patches_;
+  std::vector<int> facet_idx_;
+  std::vector<Eigen::Vector3d> facet_normal_;
+  std::vector<Node> nodes_;  // the first ones are the facets
+};
+
+}  // namespace scattermeter

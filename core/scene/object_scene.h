@@ -1,0 +1,38 @@
+// The objects of a scene as geometry.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/mesh/ray_scene.h"
+#include "core/mesh/triangle_mesh.h"
+#include "core/scene/scene.h"
+#include "core/view/camera_view.h"
+
+namespace scattermeter {
+
+struct ObjectScene {
+  const SceneObject* stated = nullptr;
+  std::unique_ptr<RayScene> rays;  // holds the mesh
+  Box3d box;
+  const TriangleMesh& mesh() const { return rays->mesh(); }
+  double size_mm() const { return box.size_mm().maxCoeff(); }
+  double diagonal_mm() const { return box.size_mm().norm(); }
+};
+
+// Objects by name.
+using ObjectScenes = std::map<std::string, ObjectScene>;
+
+// Checks the mesh and builds the geometry of an object of the scene, which must outlive it. Throws
+// InputError naming line, object, mesh file and what is wrong: open, inside out, in metres.
+ObjectScene object_scene(const Scene& scene, const SceneObject& object, const TriangleMesh& mesh);
+
+// Throws InputError where a light of a shot stands inside the object that it lights.
+void require_lights_outside(const Scene& scene, const ObjectScenes& objects);
+
+// Throws InputError when an object lies behind the camera, around it, or outside its frame.
+void require_in_view(const Scene& scene, const ObjectScenes& objects, const CameraView& view,
+                     const std::string& object);
+
+}  // namespace scattermeter

@@ -1,0 +1,109 @@
+// A measurement's scene as plain values: camera, objects, lights and shots.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/camera/camera_model.h"
+#include "core/camera/cfa_pattern.h"
+#include "core/camera/cfa_samples.h"
+#include "core/camera/lens_parameters.h"
+#include "core/camera/sensor_noise.h"
+#include "core/light/ambient_light.h"
+#include "core/light/distant_light.h"
+#include "core/light/led_light.h"
+
+namespace scattermeter {
+
+// What is known of the sensor. Simulation makes raws with it; of a raw that was shot, black, white
+// and filter phase are those of the raw itself.
+struct SceneSensor {
+  SensorNoise noise;
+  CfaPattern cfa;
+  std::array<int, 4> black_counts = {64, 64, 64, 64};  // as CfaPattern::phase
+  int white_counts = 4095;
+  bool nef_lossy_curve = false;
+};
+
+struct SceneCamera {
+  std::string model;  // "": any
+  CameraIntrinsics intrinsics;
+  LensRoot lens_root = LensRoot(kLensParameters, 0);
+  // Counts per (W/(mm^2 sr)) and second, R G B; absent: the scale is free.
+  std::optional<std::array<double, 3>> responsivity;
+  double responsivity_relative_std = 0.02;
+  // Standard deviation of the veiling glare that is left in the samples, as a share of the frame's
+  // mean of its colour.
+  std::array<double, kRgb> glare_std{};
+  SceneSensor sensor;
+  std::optional<double> exposure_s;  // of simulated shots; absent: chosen so that nothing clips
+  int iso = 100;
+  double f_number = 8.0;
+};
+
+struct SceneObject {
+  std::string name;
+  std::string mesh_path;  // of a closed mesh, mm; for messages and for whoever opens it
+  double eta_int_over_ext = 1.3;
+  double eta_std = 0;
+  std::optional<double> patch_size_mm;  // absent: chosen
+  int line = 0;
+};
+
+// A new kind of light is one more row here.
+using LightKind = std::variant<LedLight, DistantLight, AmbientLight>;
+
+struct SceneLight {
+  std::string name;
+  LightKind kind;
+  std::vector<std::string> files;  // that it was described by, besides the scene's own
+  int line = 0;
+
+  const Light& operator*() const;
+  const Light* operator->() const { return &**this; }
+  // The LED; null for another kind.
+  const LedLight* led() const { return std::get_if<LedLight>(&kind); }
+  LedLight* led() { return std::get_if<LedLight>(&kind); }
+  // Which of the light's channels belongs to a channel 0 .. 2 of the camera.
+  std::size_t channel_of(std::size_t channel) const {
+    return (*this)->channels() > 1 ? channel : 0;
+  }
+};
+
+struct SceneShot {
+  std::string file;  // that names the shot
+  std::string object;
+  std::string material;
+  std::vector<std::string> lights;
+  std::optional<double> exposure_s;  // of a simulated shot
+  // A bracket: further exposures of the same scene, merged with the first, in whose counts the shot
+  // is stated.
+  std::vector<std::string> more_files;
+  std::vector<double> more_exposures_s;  // of these, or empty; of a simulated shot
+  int line = 0;
+
+  std::vector<std::string> files() const;  // the first and the others
+};
+
+struct Scene {
+  std::string source;  // the file that describes it, for messages; "": made in code
+  SceneCamera camera;
+  std::vector<SceneObject> objects;
+  std::vector<SceneLight> lights;
+  std::vector<SceneShot> shots;
+
+  const SceneObject& object(const std::string& name) const;  // std::out_of_range
+  const SceneLight& light(const std::string& name) const;    // std::out_of_range
+  // Materials in the order of their first shot.
+  std::vector<std::string> materials() const;
+  // "rig.yaml:12" for messages.
+  std::string at(int line) const { return source + ":" + std::to_string(line); }
+};
+
+}  // namespace scattermeter

@@ -1,0 +1,42 @@
+#include "core/scene/seen_object.h"
+
+#include <utility>
+
+#include <oneapi/tbb/parallel_for.h>
+
+namespace scattermeter {
+
+std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& objects,
+                                      const LitObjects& lit, const std::string& object,
+                                      const PoseResult& pose) {
+  const CameraView view{scene.camera.intrinsics, pose.camera_from_world};
+  auto seen = std::make_shared<SeenObject>();
+  seen->object = &objects.at(object);
+  seen->patches = &lit.patches(object);
+  seen->camera_center_mm = view.center_in_world_mm();
+  const SampleMapOptions options;
+  const RayGrid rays = rays_around(view, seen->object->mesh(), 2 * options.guard_px);
+  seen->map = map_samples(rays, *seen->object->rays, *seen->patches,
+                          seen->object->stated->eta_int_over_ext, options);
+  for (std::size_t row = 0; row < seen->map.patch_of_row.size(); ++row) {
+    seen->sites.push_back(exit_samples(*seen->patches, seen->map.patch_of_row[row],
+                                       seen->map.mean_mm[row], seen->map.spread_mm2[row]));
+  }
+  return seen;
+}
+
+SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObjects& lit,
+                   const PoseResult& pose) {
+  SharedView view{pose, {}};
+  std::vector<std::pair<const std::string*, std::shared_ptr<const SeenObject>*>> list;
+  for (const auto& [name, object] : objects) {
+    require_in_view(scene, objects, {scene.camera.intrinsics, pose.camera_from_world}, name);
+    list.push_back({&name, &view.objects[name]});
+  }
+  tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) {
+    *list[i].second = see(scene, objects, lit, *list[i].first, pose);
+  });
+  return view;
+}
+
+}  // namespace scattermeter

@@ -1,0 +1,45 @@
+// The objects of a scene as one camera pose sees them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/camera/camera_pose.h"
+#include "core/mesh/exit_site.h"
+#include "core/mesh/patch_mesh.h"
+#include "core/scene/lit_objects.h"
+#include "core/scene/object_scene.h"
+#include "core/view/sample_map.h"
+
+namespace scattermeter {
+
+struct SeenObject {
+  const ObjectScene* object = nullptr;
+  const PatchMesh* patches = nullptr;
+  Eigen::Vector3d camera_center_mm = Eigen::Vector3d::Zero();
+  SampleMap map;
+  std::vector<ExitSite> sites;  // of the map's rows
+  // What shadows an LED, where that is more than the object itself (changed_weights()); else null.
+  const RayScene* shadows = nullptr;
+};
+
+// Precondition: require_in_view() accepts the object.
+std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& objects,
+                                      const LitObjects& lit, const std::string& object,
+                                      const PoseResult& pose);
+
+// One pose for all shots, and the objects as seen from it.
+struct SharedView {
+  PoseResult pose;
+  std::map<std::string, std::shared_ptr<const SeenObject>> objects;
+};
+
+// Throws InputError when an object is out of view.
+SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObjects& lit,
+                   const PoseResult& pose);
+
+}  // namespace scattermeter

@@ -1,0 +1,249 @@
+#include "core/transport/camera_connection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "core/material/fresnel.h"
+
+namespace scattermeter {
+namespace {
+
+// Connections are always made down to this optical depth; below, with the probability that light
+// comes up from there rather than from here.
+constexpr double kSureDepth = 0.7;
+// Of the body's size: a place this far beyond a plane is still on the body.
+constexpr double kOnBody = 1e-9;
+
+// The camera's ray through a plane to a point at a depth below it.
+struct Passage {
+  RefractedRay ray;
+  Eigen::Vector3d point;  // on the plane
+};
+Passage passage_to(const Eigen::Vector3d& x, double depth_mm, const Eigen::Vector3d& normal,
+                   const Eigen::Vector3d& foot, double height_mm, double eta) {
+  // It lies between the feet of camera and point on the plane.
+  const Eigen::Vector3d across = x + depth_mm * normal - foot;
+  const double foot_mm = across.norm();
+  const RefractedRay ray = refracted_ray(height_mm, depth_mm, foot_mm, eta);
+  if (!(foot_mm > 0.0)) return {ray, foot};
+  return {ray, foot + (ray.radius_mm / foot_mm) * across};
+}
+
+bool on_facet(const TriangleMesh& mesh, int facet, const Eigen::Vector3d& normal,
+              const Eigen::Vector3d& x) {
+  const auto& t = mesh.triangles[static_cast<std::size_t>(facet)];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Vector3d& a = mesh.vertices_mm[static_cast<std::size_t>(t[i])];
+    const Eigen::Vector3d& b = mesh.vertices_mm[static_cast<std::size_t>(t[(i + 1) % 3])];
+    if (normal.dot((b - a).cross(x - a)) < 0.0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
+                           double eta_int_over_ext) {
+  const double eta2 = eta_int_over_ext * eta_int_over_ext;
+  const double h2 = height_mm * height_mm;
+  const auto eta_d_cos = [&](double r) { return std::sqrt((eta2 - 1.0) * r * r + eta2 * h2); };
+  // The start is above the root, and f is concave: all other steps come from below.
+  double r = foot_mm / (1.0 + depth_mm / eta_d_cos(foot_mm));
+  double q = eta_d_cos(r);
+  double slope = 1.0;
+  for (int i = 0; i < 50; ++i) {
+    slope = 1.0 + depth_mm * eta2 * h2 / (q * q * q);
+    const double step = (r + depth_mm * r / q - foot_mm) / slope;
+    r = std::max(0.0, r - step);
+    q = eta_d_cos(r);
+    if (std::abs(step) <= 1e-10 * (height_mm + r)) break;
+  }
+  const double cos_inside = q / (eta_int_over_ext * std::sqrt(r * r + h2));
+  slope = 1.0 + depth_mm * eta2 * h2 / (q * q * q);
+  return {r, depth_mm / cos_inside, cos_inside, (1.0 + depth_mm / q) * slope};
+}
+
+CameraConnection::CameraConnection(const PathBoundary& boundary,
+                                   const Eigen::Vector3d& camera_in_world_mm,
+                                   const ScatteringMedium& medium, int most_walls)
+    : boundary_(boundary),
+      camera_mm_(camera_in_world_mm),
+      eta_(medium.eta_int_over_ext),
+      sigma_t_(medium.sigma_t_per_mm()),
+      most_walls_(most_walls),
+      phase_(medium.g) {
+  medium.check();
+  const std::vector<BodyPlane>& planes = boundary.body().planes;
+  if (planes.empty()) {
+    beams_ = std::make_shared<FacetBeams>(boundary.scene().mesh(), camera_mm_, eta_);
+    cone_ = std::make_shared<EscapeCone>(eta_);
+  }
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const double height_mm = -planes[k].depth_mm(camera_mm_);
+    if (!(height_mm > 0.0)) continue;
+    windows_.push_back({static_cast<int>(k), height_mm, camera_mm_ - height_mm * planes[k].normal});
+  }
+}
+
+CameraConnection CameraConnection::with(const ScatteringMedium& medium) const {
+  medium.check();
+  if (medium.eta_int_over_ext != eta_) {
+    throw std::invalid_argument(
+        "CameraConnection: eta_int_over_ext = " + std::to_string(medium.eta_int_over_ext) +
+        ", built for " + std::to_string(eta_));
+  }
+  CameraConnection other = *this;
+  other.sigma_t_ = medium.sigma_t_per_mm();
+  other.phase_ = HenyeyGreenstein(medium.g);
+  return other;
+}
+
+void CameraConnection::connect(const Vertex& vertex, RandomStream& random,
+                               std::vector<PathScore>& scores) const {
+  scores.clear();
+  const std::vector<BodyPlane>& planes = boundary_.body().planes;
+  // A connection whose path is at least b long is made where b < deepest: with probability
+  // min(1, exp(kSureDepth - sigma_t b)).
+  const double deepest_mm = (kSureDepth - std::log(random.uniform())) / sigma_t_;
+  if (beams_) return through_facets(vertex, deepest_mm, scores);
+  std::array<int, PathBoundary::kFewPlanes> near{};
+  int n_near = 0;
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    // A point of a body that is not convex may lie before some planes: those reflect nothing to it.
+    const double depth_mm = planes[k].depth_mm(vertex.x);
+    if (depth_mm < deepest_mm && depth_mm > 0.0)
+      near[static_cast<std::size_t>(n_near++)] = static_cast<int>(k);
+  }
+  if (n_near == 0) return;
+  const auto all_windows = [&](const Image& image, double bound_mm) {
+    for (const Window& w : windows_) {
+      if (image.n_walls > 0 && w.plane_idx == image.walls[image.n_walls - 1]) continue;
+      through(w, image, vertex, deepest_mm, bound_mm, scores);
+    }
+  };
+  all_windows({vertex.x, vertex.x, {-1, -1}, 0}, 0.0);
+  for (int i = 0; most_walls_ > 0 && i < n_near; ++i) {
+    const int a = near[static_cast<std::size_t>(i)];
+    const BodyPlane& wall = planes[static_cast<std::size_t>(a)];
+    const double to_wall_mm = wall.depth_mm(vertex.x);
+    const Eigen::Vector3d once = vertex.x + 2.0 * to_wall_mm * wall.normal;
+    all_windows({once, vertex.x, {a, -1}, 1}, to_wall_mm);
+    for (std::size_t b = 0; most_walls_ > 1 && b < planes.size(); ++b) {
+      if (static_cast<int>(b) == a) continue;
+      const double to_second_mm = planes[b].depth_mm(once);
+      if (!(to_second_mm > 0.0 && to_second_mm < deepest_mm)) continue;
+      all_windows({once + 2.0 * to_second_mm * planes[b].normal, once, {a, static_cast<int>(b)}, 2},
+                  std::max(to_wall_mm, to_second_mm));
+    }
+  }
+}
+
+// `least_bound_mm`: a lower bound of the path's length, of the walls.
+void CameraConnection::through(const Window& window, const Image& image, const Vertex& vertex,
+                               double deepest_mm, double least_bound_mm,
+                               std::vector<PathScore>& scores) const {
+  const std::vector<BodyPlane>& planes = boundary_.body().planes;
+  const BodyPlane& plane = planes[static_cast<std::size_t>(window.plane_idx)];
+  const double depth_mm = plane.depth_mm(image.x);
+  if (!(depth_mm > 0.0)) return;
+  const double bound_mm = std::max(depth_mm, least_bound_mm);
+  if (!(bound_mm < deepest_mm)) return;
+  const auto [ray, passage] =
+      passage_to(image.x, depth_mm, plane.normal, window.foot, window.height_mm, eta_);
+  const double beyond_mm = -kOnBody * boundary_.size_mm();
+  const auto on_body = [&](const Eigen::Vector3d& p) {
+    for (const BodyPlane& other : planes) {
+      if (other.depth_mm(p) < beyond_mm) return false;
+    }
+    return true;
+  };
+  const bool convex = boundary_.body().convex;
+  if (convex && !on_body(passage)) return;
+
+  // Back from the passage, wall by wall, to the scattering itself.
+  Eigen::Vector3d from = passage;
+  Eigen::Vector3d toward = image.x;
+  double reflectance = 1.0;
+  for (int i = image.n_walls - 1; i >= 0; --i) {
+    const BodyPlane& wall = planes[static_cast<std::size_t>(image.walls[i])];
+    const double before_mm = wall.depth_mm(from);
+    const double behind_mm = -wall.depth_mm(toward);
+    if (!(before_mm > 0.0 && behind_mm > 0.0)) return;
+    const Eigen::Vector3d way = toward - from;
+    const Eigen::Vector3d place = from + before_mm / (before_mm + behind_mm) * way;
+    if (convex ? !on_body(place) : !boundary_.reaches_plane(from, place, image.walls[i])) return;
+    reflectance *= 1.0 - fresnel_transmittance(1.0 / eta_, way.dot(wall.normal) / way.norm());
+    toward = i > 0 ? image.before_last : vertex.x;
+    from = place;
+  }
+  const Eigen::Vector3d outgoing = (from - toward).normalized();
+  if (!convex && !boundary_.clear_inside(toward, from)) return;
+  int facet = -1;
+  if (convex) {
+    facet = boundary_.facet_of_plane(window.plane_idx, passage);
+  } else {
+    facet = boundary_.facet_seen(camera_mm_, passage, window.plane_idx);
+    if (facet < 0) return;
+  }
+  push(vertex, passage, ray, facet, outgoing, reflectance, image.n_walls == 0, bound_mm, scores);
+}
+
+void CameraConnection::through_facets(const Vertex& vertex, double deepest_mm,
+                                      std::vector<PathScore>& scores) const {
+  if (boundary_.clearance_mm(vertex.x) > deepest_mm) return;
+  const RayScene& scene = boundary_.scene();
+  beams_->for_candidates(vertex.x, deepest_mm, [&](const FacetBeams::Facet& facet) {
+    const double depth_mm = facet.normal.dot(facet.foot - vertex.x);
+    if (!(depth_mm > 0.0 && depth_mm < deepest_mm)) return;
+    const auto [ray, passage] =
+        passage_to(vertex.x, depth_mm, facet.normal, facet.foot, facet.height_mm, eta_);
+    if (!(ray.length_mm < deepest_mm)) return;
+    if (!on_facet(scene.mesh(), facet.facet_idx, facet.normal, passage)) return;
+    if (!boundary_.convex() &&
+        ((!facet.surely_seen && scene.occluded(passage, facet.normal, camera_mm_)) ||
+         !boundary_.clear_inside(vertex.x, passage))) {
+      return;
+    }
+    push(vertex, passage, ray, facet.facet_idx, (passage - vertex.x).normalized(), 1.0, true,
+         ray.length_mm, scores);
+  });
+}
+
+std::optional<PathScore> CameraConnection::not_connected(const PathScore& escape) const {
+  if (!cone_ || escape.straight || escape.scatterings == 0) return std::nullopt;
+  const Eigen::Vector3d to_camera = (camera_mm_ - escape.point_mm).normalized();
+  const Eigen::Vector3d& normal = boundary_.facet_normal(escape.facet_idx);
+  const double cosine = to_camera.dot(normal);
+  if (!(cosine > 0.0) || escape.direction.dot(to_camera) < EscapeCone::kCosHalf) {
+    return std::nullopt;
+  }
+  if (!boundary_.convex() && boundary_.scene().occluded(escape.point_mm, normal, camera_mm_)) {
+    return std::nullopt;
+  }
+  PathScore score = escape;
+  score.direction = to_camera;
+  score.weight = std::numbers::pi * escape.weight / cone_->transmitting_sr(cosine);
+  return score;
+}
+
+// `bound_mm`: the lower bound of the path's length that decided whether it was made.
+void CameraConnection::push(const Vertex& vertex, const Eigen::Vector3d& passage,
+                            const RefractedRay& ray, int facet, const Eigen::Vector3d& outgoing,
+                            double reflectance, bool straight, double bound_mm,
+                            std::vector<PathScore>& scores) const {
+  const double probability = std::min(1.0, std::exp(kSureDepth - sigma_t_ * bound_mm));
+  scores.push_back({passage, (camera_mm_ - passage).normalized(), facet,
+                    std::numbers::pi / (eta_ * eta_) * vertex.weight * reflectance *
+                        phase_.per_sr(vertex.before.dot(outgoing)) *
+                        std::exp(-sigma_t_ * ray.length_mm) /
+                        (ray.cos_inside * ray.spread * probability),
+                    vertex.scatterings, vertex.length_mm + ray.length_mm, straight});
+}
+
+}  // namespace scattermeter

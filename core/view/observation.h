@@ -1,0 +1,64 @@
+// What one shot says about each visible patch.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/camera/cfa_samples.h"
+#include "core/view/sample_map.h"
+
+namespace scattermeter {
+
+// Why a patch has no say in a channel.
+enum class RowState : unsigned char {
+  kUsed = 0,
+  kNoSamples,  // no sample of the channel falls on it
+  kClipped,    // at least one of its samples is clipped
+  kFloor,      // so dark that the camera cuts its noise off at zero
+  kMirror,     // mirrors a light into the camera
+  kNoise,      // its expected light does not stand out of the noise
+  kOutlier,    // far from what all others say: dust, a scratch, a mark
+  kEdge,       // beside a silhouette, a step or a crease, for a model of whole patches
+};
+inline constexpr std::size_t kRowStates = 8;
+
+// One exposure of a bracket, in one channel.
+struct ExposurePart {
+  std::vector<double> of_row;  // what part of the row's l comes from it
+  std::size_t samples = 0;     // in rows, that hold anything of it
+};
+
+// One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), the mean over the samples of all
+// channels on the patch (those that SampleMap::mean_mm and spread_mm2 describe) of a quadratic
+// through the channel's own and those of the patches beside it (core/view/row_mean.h).
+struct ChannelObservation {
+  std::vector<double> l;         // per row, W/mm^2 for known responsivity, else up to one factor
+  std::vector<double> variance;  // of l, from the samples' variances
+  std::vector<double> variance_per_l;  // growth of the variance with l (photon noise), W/mm^2
+  std::vector<double> l_per_count;     // mean over the row: a count more in every sample, W/mm^2
+  std::vector<RowState> state;
+  std::size_t rows_used = 0;
+  std::size_t rows_clipped = 0;
+  std::size_t rows_floor = 0;
+  std::size_t samples = 0;  // in rows
+  std::size_t samples_clipped = 0;
+  double brightest_counts = 0;  // largest row mean, counts above black
+  double brightest_snr = 0;     // largest l / std over rows
+  // Mean squared second difference of neighbouring samples of one filter phase over its expectation
+  // from their variances: 1 where the noise model is right. 0 without three samples in line.
+  double noise_ratio = 0;
+  std::vector<ExposurePart> exposures;  // of a bracket, in its order; else empty
+};
+
+struct Observation {
+  std::array<ChannelObservation, kRgb> channel;
+};
+
+// Clipped samples take their row out, defect ones only themselves.
+// responsivity: counts per (W/(mm^2 sr)) and second, per channel, > 0.
+// Preconditions (std::invalid_argument): the rectangles of map and samples agree, exposure > 0.
+Observation observe(const CfaSamples& samples, const SampleMap& map,
+                    const std::array<double, kRgb>& responsivity_counts_mm2_sr_per_W_s);
+
+}  // namespace scattermeter

@@ -1,0 +1,44 @@
+// Which patches take part, beyond what the samples themselves say.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/view/observation.h"
+
+namespace scattermeter {
+
+// Leaves a used row out for the given reason; the counts follow.
+void leave_out(ChannelObservation& observation, std::size_t row, RowState reason);
+
+// Whether a smooth surface at `point_mm` mirrors a light at `light_mm` into the camera, within
+// `cone_rad` of the mirror direction. normal: unit, outwards. False where light or camera stand
+// behind the surface.
+bool mirrors(const Eigen::Vector3d& point_mm, const Eigen::Vector3d& normal,
+             const Eigen::Vector3d& camera_mm, const Eigen::Vector3d& light_mm, double cone_rad);
+
+struct RowSelectionOptions {
+  // Rows whose expected l is below this many of its deviations are left out: black level and stray
+  // light decide there.
+  double min_snr = 3.0;
+  // Rows farther from the fit than this many deviations, and than this many robust deviations of
+  // all rows (1.4826 times the median of the absolute deviations), are outliers.
+  double outlier_std = 6.0;
+  // If more than this share of the rows were outliers the model is wrong, not the rows: none is
+  // left out.
+  double max_outlier_share = 0.02;
+};
+
+// Variances by the expected light instead of the measured one (which would favour rows that are
+// dark by chance), and rows deep in noise left out. `expected`: predicted l of the used rows, in
+// order. To be called once: afterwards the variances are no longer those of the measured l.
+void expect(ChannelObservation& observation, const Eigen::VectorXd& expected,
+            const RowSelectionOptions& options = {});
+
+// Used rows that are outliers, as indices of the system. All of one length.
+std::vector<Eigen::Index> outliers(const Eigen::VectorXd& l, const Eigen::VectorXd& predicted,
+                                   const Eigen::VectorXd& std_l,
+                                   const RowSelectionOptions& options = {});
+
+}  // namespace scattermeter

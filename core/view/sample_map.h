@@ -1,0 +1,58 @@
+// Which patch each camera sample sees.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/mesh/patch_mesh.h"
+#include "core/mesh/ray_scene.h"
+
+namespace scattermeter {
+
+// Rays through the pixel centres of a rectangle of the frame.
+struct RayGrid {
+  Eigen::Vector3d origin_in_world_mm = Eigen::Vector3d::Zero();  // the camera's centre
+  int x0 = 0, y0 = 0, width = 0, height = 0;                     // px
+  std::vector<Eigen::Vector3f> directions_in_world;  // row by row, any length; NaN: no ray
+};
+
+// First hit of one ray, as far as pictures and maps need it.
+struct PixelHit {
+  std::int32_t facet_idx = -1;  // -1: background
+  PatchPoint at;                // the patch and the place in it
+  double distance_mm = 0;
+  double cos_theta = 0;  // between the direction back to the camera and the normal; > 0
+};
+
+// Of a ray in that direction (of any length) and what it hits first.
+PixelHit pixel_hit(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction);
+PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
+                     const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction);
+
+struct SampleMapOptions {
+  int guard_px = 2;  // samples this near a silhouette, a step in depth or a crease are left out
+  double min_coverage = 0.8;  // patches of which less is seen (and not guarded) have no row
+};
+
+// The patches that the camera sees, each a row of the linear system, and the samples of each row.
+struct SampleMap {
+  int x0 = 0, y0 = 0, width = 0, height = 0;
+  std::vector<std::int32_t> row_of_sample;   // -1: background, guarded or in no row
+  std::vector<float> pi_over_transmittance;  // pi / Ft(eta, w_o): l = this * L_o (paper eq. 11)
+  std::vector<int> patch_of_row;
+  std::vector<Eigen::Vector3d> mean_mm;     // mean surface point of each row's samples, world
+  std::vector<Eigen::Matrix3d> spread_mm2;  // their covariance about it
+  std::vector<double> coverage;             // seen share of each row's patch
+  std::vector<std::size_t> guarded_of_row;  // samples on the row's patch that are left out
+  std::vector<std::vector<std::int32_t>> adjacent_rows;  // of each row (core/view/adjacent_rows.h)
+  std::size_t samples_on_object = 0;
+  std::size_t samples_guarded = 0;
+  std::size_t patches_partly_seen = 0;  // seen, but for less than min_coverage
+};
+
+SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMesh& patches,
+                      double eta_int_over_ext, const SampleMapOptions& options = {});
+
+}  // namespace scattermeter

@@ -1,0 +1,68 @@
+#include "apps/bench/bench_plan.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/apps/small_rig.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Twenty rigs drawn at random: what `plan` forecasts is what measuring states.
+TEST(BenchPlan, TwentyRigs) {
+  PlanBenchOptions options;
+  options.image_width_px = 320;
+
+  const std::vector<PlanBenchRow> rows = bench_plan(options);
+  ASSERT_EQ(rows.size(), 60U);
+  const PlanBenchRatios ratios = plan_bench_ratios(rows);
+  EXPECT_GT(ratios.n, 80U);  // most of them answer
+  EXPECT_GT(ratios.median, 0.9);
+  EXPECT_LT(ratios.median, 1.1);
+  EXPECT_GT(ratios.least, 0.7);
+  EXPECT_LT(ratios.most, 1.4);
+  int differ = 0;
+  for (const PlanBenchRow& row : rows) {
+    differ += row.planned == row.measured ? 0 : 1;
+    EXPECT_EQ(row.reasons.empty(), row.planned == row.measured) << row.rig;
+    for (const std::string& reason : row.reasons) {
+      EXPECT_NE(plan_bench_table(rows).find(reason), std::string::npos);
+    }
+  }
+  EXPECT_LE(differ, 3) << plan_bench_table(rows);
+}
+
+TEST(BenchPlan, RatiosByHand) {
+  PlanBenchRow a;
+  a.forecast_sigma_s_prime = 0.02;
+  a.stated_sigma_s_prime = 0.01;
+  a.forecast_sigma_a = std::numeric_limits<double>::quiet_NaN();
+  a.stated_sigma_a = 0.1;
+  PlanBenchRow b = a;
+  b.forecast_sigma_s_prime = 0.01;
+  b.forecast_sigma_a = 0.05;
+  const PlanBenchRatios r = plan_bench_ratios({a, b});
+  EXPECT_EQ(r.n, 3U);
+  EXPECT_DOUBLE_EQ(r.median, 1.0);
+  EXPECT_DOUBLE_EQ(r.least, 0.5);
+  EXPECT_DOUBLE_EQ(r.most, 2.0);
+  EXPECT_EQ(plan_bench_ratios({}).n, 0U);
+}
+
+TEST(BenchPlan, Command) {
+  SmallRig files;
+  const Answer r =
+      run({"bench", "plan", "--rigs", "1", "--image-width", "320", "--out", files.out()});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("forecast over stated deviation"));
+  EXPECT_THAT(slurp(files.out() + "/plan.csv"), HasSubstr("sigma_a_stated_relative"));
+  EXPECT_EQ(run({"bench", "plan", "--rigs", "0"}).status, 2);
+}
+
+}  // namespace
+}  // namespace scattermeter::apps

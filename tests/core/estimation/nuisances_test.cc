@@ -1,0 +1,313 @@
+#include "core/estimation/nuisances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <gtest/gtest.h>
+
+#include "apps/instrument/instrument.h"
+#include "apps/instrument/open_shots.h"
+#include "apps/simulation/bodies_rig.h"
+#include "apps/simulation/plastics_rig.h"
+#include "apps/simulation/virtual_shots.h"
+#include "calib/lens/camera_calibration_file.h"
+#include "calib/pose/shot_pose.h"
+#include "core/camera/lens.h"
+#include "core/camera/lens_parameters.h"
+#include "core/light/incident_light.h"
+#include "core/material/dipole.h"
+
+namespace scattermeter::apps {
+namespace {
+
+double part(const Estimate& e, const std::string& cause) {
+  for (const BudgetLine& line : e.budget) {
+    if (line.cause == cause) return line.std_sigma_s_prime_per_mm;
+  }
+  return 0.0;
+}
+
+Rig one_shot() {
+  Rig rig = plastics_rig(240);
+  rig.scene.shots.resize(1);
+  return rig;
+}
+
+class CalibratedNuisances : public ::testing::Test {
+ protected:
+  CalibratedNuisances()
+      : exact_(one_shot()),
+        scenes_(bodies_scenes(exact_)),
+        shots_(exact_, scenes_, {.noise = true}) {}
+
+  Estimate measured(const Rig& rig) const { return result(rig).estimate; }
+  ChannelResult result(const Rig& rig) const {
+    MeasureOptions options;
+    options.estimate.model = "dipole";
+    Instrument instrument(rig, scenes_, options);
+    const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
+      return shots_.frame(i, 1, k);
+    };
+    return instrument.measure(capture::shots_from(rig.scene, {0}, frames)).results.at(1);
+  }
+
+  Rig exact_;
+  ObjectScenes scenes_;
+  VirtualShots shots_;
+};
+
+// A cause too small to count is left out, and nothing of the answer tells.
+TEST_F(CalibratedNuisances, WhatIsTooSmallToCountIsLeftOut) {
+  Rig open = exact_;
+  for (SceneLight& light : open.scene.lights) light.led()->position_std_mm = 0.3;
+  Rig little = open;
+  for (SceneLight& light : little.scene.lights) {
+    light.led()->exponent_std = 1e-7;
+    light.led()->intensity_relative_std = 1e-7;
+  }
+  const ChannelResult without = result(open);
+  const ChannelResult with = result(little);
+  ASSERT_TRUE(without.estimate.converged && with.estimate.converged);
+  EXPECT_EQ(with.nuisances_negligible, without.nuisances_negligible + 2);  // of the shot's LED
+  EXPECT_EQ(with.estimate.sigma_s_prime_per_mm.value, without.estimate.sigma_s_prime_per_mm.value);
+  EXPECT_EQ(with.estimate.sigma_s_prime_per_mm.std, without.estimate.sigma_s_prime_per_mm.std);
+  EXPECT_EQ(with.estimate.sigma_a_per_mm.std, without.estimate.sigma_a_per_mm.std);
+  EXPECT_GT(part(with.estimate, "LED position"), 0.0);
+  // A thousand times as much counts.
+  for (SceneLight& light : little.scene.lights) light.led()->intensity_relative_std = 1e-4;
+  const ChannelResult more = result(little);
+  EXPECT_EQ(more.nuisances_negligible, without.nuisances_negligible + 1);
+  EXPECT_GT(part(more.estimate, "LED power"), 0.0);
+}
+
+// What the three deviations of a light say, said as a covariance, gives the same answer.
+TEST_F(CalibratedNuisances, AgreeWithTheSingleDeviations) {
+  Rig single = exact_, joint = exact_;
+  for (SceneLight& light : single.scene.lights) {
+    light.led()->position_std_mm = 0.3;
+    light.led()->exponent_std = 0.05;
+    light.led()->intensity_relative_std = 0.02;
+  }
+  for (SceneLight& light : joint.scene.lights) {
+    LedUncertainty u;
+    u.tangents[0] = light.led()->led.axis.unitOrthogonal();
+    u.tangents[1] = light.led()->led.axis.cross(u.tangents[0]);
+    u.covariance.diagonal() << 0.09, 0.09, 0.09, 0, 0, 0.0025, 0.0004, 0.0004, 0.0004;
+    light.led()->calibrated = u;
+  }
+  const Estimate a = measured(single);
+  const Estimate b = measured(joint);
+  ASSERT_TRUE(a.converged && b.converged);
+  EXPECT_NEAR(a.sigma_s_prime_per_mm.value, b.sigma_s_prime_per_mm.value,
+              1e-3 * a.sigma_s_prime_per_mm.std);
+  EXPECT_NEAR(b.sigma_s_prime_per_mm.std / a.sigma_s_prime_per_mm.std, 1.0, 1e-3);
+  EXPECT_NEAR(b.sigma_a_per_mm.std / a.sigma_a_per_mm.std, 1.0, 1e-3);
+  EXPECT_GT(part(b, "LED calibration"), 0.0);
+  EXPECT_GT(part(a, "LED position"), 0.0);
+
+  // The axis counts, too.
+  for (SceneLight& light : joint.scene.lights) {
+    light.led()->calibrated->covariance(3, 3) = light.led()->calibrated->covariance(4, 4) = 0.01;
+  }
+  EXPECT_GT(measured(joint).sigma_s_prime_per_mm.std, b.sigma_s_prime_per_mm.std);
+}
+
+// Distance and power that are known together only: far less is lost than if both were open.
+TEST_F(CalibratedNuisances, CorrelationIsKept) {
+  Rig tied = exact_, open = exact_;
+  for (Rig* rig : {&tied, &open}) {
+    for (SceneLight& light : rig->scene.lights) {
+      LedUncertainty u;
+      u.tangents[0] = light.led()->led.axis.unitOrthogonal();
+      u.tangents[1] = light.led()->led.axis.cross(u.tangents[0]);
+      // 2 mm farther away along the axis, and as much brighter as makes up for it.
+      LedVector v = LedVector::Zero();
+      v.head<3>() = -2.0 * light.led()->led.axis;
+      v.tail<3>().setConstant(4.0 / light.led()->led.position_mm.norm());
+      u.covariance = v * v.transpose();
+      if (rig == &open) u.covariance = LedMatrix(u.covariance.diagonal().asDiagonal());
+      light.led()->calibrated = u;
+    }
+  }
+  const Estimate together = measured(tied);
+  const Estimate apart = measured(open);
+  ASSERT_TRUE(together.converged && apart.converged);
+  EXPECT_LT(part(together, "LED calibration"), 0.5 * part(apart, "LED calibration"));
+}
+
+// A lens of f, centre, k1 and k2, known to these deviations.
+LensRoot lens_known_to(const Eigen::VectorXd& std) {
+  return lens_root(parameter_names({true, DistortionTerms::kK1K2}),
+                   std.cwiseAbs2().asDiagonal().toDenseMatrix());
+}
+
+// One column of the nuisances against what the rig's own functions give for another lens: the pose
+// fitted anew through it, the ray of the same pixel, where that meets the facet.
+TEST_F(CalibratedNuisances, LensColumnsByDifferences) {
+  const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
+    return shots_.frame(i, 1, k);
+  };
+  for (int parameter = 0; parameter < 5; ++parameter) {
+    Rig rig = exact_;
+    Eigen::VectorXd std = Eigen::VectorXd::Zero(5);
+    std[parameter] = parameter == 0  ? 1e-3 * rig.scene.camera.intrinsics.fx_px
+                     : parameter < 3 ? 0.5
+                                     : 0.02;
+    rig.scene.camera.lens_root = lens_known_to(std);
+    const PoseResult pose = calib::pose_from_points(rig.scene, rig.pose);
+    LitObjects library(rig.scene, scenes_, std::nullopt, 0.0);
+    const SharedView view = see_all(rig.scene, scenes_, library, pose);
+    const std::vector<ObservedShot> opened = open_shots(
+        rig, capture::shots_from(rig.scene, {0}, frames), scenes_, library, view, nullptr);
+    const SeenObject& seen = *opened[0].seen;
+    const SceneLight& light = rig.scene.light(opened[0].stated->lights.at(0));
+    const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
+    const WeightMatrix weights =
+        smooth_weights(seen.sites,
+                       SourceCloud(library.light(rig.scene.shots[0].object, light.name, 0),
+                                   seen.object->box.center_mm()),
+                       knots, pair_options(knots));
+    const LightSensitivity by_shift = sensitivity(
+        seen, weights, changed_images(seen, light, 0, library, knots, {{{1.0, 0.003, 1.3}, 1.0}}),
+        {{{1.0, 0.003, 1.3}, 1.0}}, knots);
+    const ChannelObservation& o = opened[0].observation.channel[1];
+    std::vector<Eigen::Index> used;
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (o.state[j] == RowState::kUsed) used.push_back(static_cast<Eigen::Index>(j));
+    }
+    const std::vector<NuisanceColumn> columns =
+        SceneNuisances(rig.scene, 1, {{{&seen, light.name, 0}, {&by_shift, 0}}})
+            .columns(opened[0], o, used);
+    const NuisanceColumn* column = nullptr;
+    for (const NuisanceColumn& c : columns) {
+      if (c.nuisance.group != "lens" || c.change.isZero(0.0)) continue;
+      ASSERT_EQ(column, nullptr) << "one parameter, one column";
+      column = &c;
+    }
+    ASSERT_NE(column, nullptr);
+
+    const auto seen_through = [&](double by) {
+      Rig other = exact_;
+      LensParameters lens = lens_parameters(exact_.scene.camera.intrinsics);
+      lens += parameter_map({true, DistortionTerms::kK1K2}) * (by * std);
+      other.scene.camera.intrinsics = intrinsics_of(lens, exact_.scene.camera.intrinsics.width_px,
+                                                    exact_.scene.camera.intrinsics.height_px);
+      return CameraView{other.scene.camera.intrinsics,
+                        calib::pose_from_points(other.scene, other.pose).camera_from_world};
+    };
+    constexpr double kStep = 0.02;
+    const CameraView up = seen_through(kStep), down = seen_through(-kStep);
+    Eigen::Index row = 0;
+    double worst = 0.0, largest = 0.0;
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (o.state[j] != RowState::kUsed) continue;
+      const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
+      const Eigen::Vector3d& site_mm = seen.sites[j].center_mm;
+      const Eigen::Vector2d pixel =
+          project(rig.scene.camera.intrinsics, pose.camera_from_world, {site_mm})[0];
+      const auto meets = [&](const CameraView& camera) {
+        const Eigen::Vector3d origin = camera.center_in_world_mm();
+        const Eigen::Vector3d direction = camera.camera_from_world.rotation.conjugate() *
+                                          Lens(camera.intrinsics).unproject(pixel).homogeneous();
+        return (origin + normal.dot(site_mm - origin) / normal.dot(direction) * direction).eval();
+      };
+      const Eigen::Vector3d moved_mm = (meets(up) - meets(down)) / (2.0 * kStep);
+      double expected = 0.0;
+      for (std::size_t t = 0; t < 2; ++t) {
+        expected += light->power()[1] *
+                    by_shift.per_tangent_mm[t](static_cast<Eigen::Index>(j), 0) *
+                    tangents(normal)[t].dot(moved_mm);
+      }
+      worst = std::max(worst, std::abs(column->change[row] - expected));
+      largest = std::max(largest, std::abs(expected));
+      ++row;
+    }
+    ASSERT_GT(largest, 0.0);
+    EXPECT_LT(worst, 1e-3 * largest) << "parameter " << parameter;
+  }
+}
+
+// Columns of LED and pose against differences of all that is measured with: patches, sites and
+// their quadrature.
+TEST_F(CalibratedNuisances, SensitivitiesByFullDifferences) {
+  Rig rig = exact_;
+  for (SceneLight& light : rig.scene.lights) {
+    light.led()->position_std_mm = 0.3;
+    light.led()->exponent_std = 0.05;
+  }
+  LitObjects library(rig.scene, scenes_, std::nullopt, 180.0);
+  const SharedView view =
+      see_all(rig.scene, scenes_, library, calib::pose_from_points(rig.scene, rig.pose));
+  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
+  const SeenObject& seen = *view.objects.at(rig.scene.shots[0].object);
+  const SceneLight& light = rig.scene.light(rig.scene.shots[0].lights.at(0));
+  const double eta = seen.object->stated->eta_int_over_ext;
+  const auto weights = [&](const std::vector<ExitSite>& sites, const Led& led) {
+    const IncidentLight lit = illuminate(*seen.patches, *seen.object->rays, led, eta);
+    return smooth_weights(sites, SourceCloud(lit, seen.object->box.center_mm()), knots,
+                          pair_options(knots));
+  };
+  const WeightMatrix nominal = weights(seen.sites, light.led()->led);
+  const LitMedium medium{{1.0 / seen.patches->patch_size_mm(), 0.001, eta}, 1.0};
+  const LightSensitivity s = sensitivity(
+      seen, nominal,
+      changed_images(seen, changed_weights(seen, light, 0, library, knots), knots, {medium}),
+      {medium}, knots);
+  const Dipole dipole(medium.medium);
+  Eigen::VectorXd r(knots.size());
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    r[i] = dipole.reflectance_per_mm2(knots.knots_mm()[static_cast<std::size_t>(i)]);
+  }
+  const Eigen::VectorXd l = nominal * r;
+  EXPECT_LT((s.l.col(0) - l).norm(), 1e-12 * l.norm());
+  const auto expect_near = [&](const char* what, const Eigen::MatrixXd& found,
+                               const WeightMatrix& up, const WeightMatrix& down, double by,
+                               double limit) {
+    const Eigen::VectorXd change = (up - down) * r / by;
+    const double error = (found.col(0) - change).norm() / change.norm();
+    std::printf("%s: %.2f %% off\n", what, 100.0 * error);
+    EXPECT_LT(error, limit) << what;
+  };
+  for (int i = 0; i < 3; ++i) {
+    Led moved = light.led()->led;
+    moved.position_mm[i] += 1.0;
+    expect_near("LED", s.per_change[static_cast<std::size_t>(i)], weights(seen.sites, moved),
+                nominal, 1.0, 0.01);
+  }
+  const auto shifted = [&](std::size_t t, double by_mm) {
+    std::vector<ExitSite> out = seen.sites;
+    for (std::size_t j = 0; j < out.size(); ++j) {
+      const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
+      out[j] = moved(out[j], by_mm * tangents(normal)[t]);
+    }
+    return weights(out, light.led()->led);
+  };
+  const double step_mm = 0.05 * seen.patches->patch_size_mm();
+  for (std::size_t t = 0; t < 2; ++t) {
+    expect_near("site", s.per_tangent_mm[t], shifted(t, step_mm), shifted(t, -step_mm),
+                2.0 * step_mm, 0.05);
+  }
+}
+
+TEST_F(CalibratedNuisances, LensIsInTheBudget) {
+  const Estimate exact = measured(exact_);
+  Rig open = exact_, zero = exact_;
+  Eigen::VectorXd std(5);
+  std << 5e-3 * exact_.scene.camera.intrinsics.fx_px, 2.0, 2.0, 0.05, 0.0;
+  open.scene.camera.lens_root = lens_known_to(std);
+  zero.scene.camera.lens_root = lens_known_to(Eigen::VectorXd::Zero(5));
+  const Estimate with_lens = measured(open);
+  ASSERT_TRUE(exact.converged && with_lens.converged);
+  EXPECT_EQ(part(exact, "lens"), 0.0);
+  EXPECT_GT(part(with_lens, "lens"), 0.0);
+  EXPECT_GT(with_lens.sigma_s_prime_per_mm.std, exact.sigma_s_prime_per_mm.std);
+  // A covariance of zero is no lens error at all, to the last digit.
+  const Estimate same = measured(zero);
+  EXPECT_EQ(same.sigma_s_prime_per_mm.value, exact.sigma_s_prime_per_mm.value);
+  EXPECT_EQ(same.sigma_s_prime_per_mm.std, exact.sigma_s_prime_per_mm.std);
+  EXPECT_EQ(same.budget.size(), exact.budget.size());
+}
+
+}  // namespace
+}  // namespace scattermeter::apps

@@ -1,0 +1,100 @@
+#include "core/fit/part_light.h"
+
+#include <cmath>
+#include <random>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+namespace scattermeter {
+namespace {
+
+constexpr Eigen::Index kLightRows = 512;
+
+ShotParts parts_of(const Eigen::VectorXd& l) {
+  std::vector<Eigen::Vector3d> center;
+  std::vector<double> area;
+  for (Eigen::Index j = 0; j < kLightRows; ++j) {
+    center.emplace_back(static_cast<double>(j), 0.0, 0.0);
+    area.push_back(1.0 + 0.5 * static_cast<double>(j % 3));
+  }
+  return ShotParts({kLightRows}, center, area, l);
+}
+
+// Light and derivatives of its logarithm that run smoothly along x.
+ScatteringImage image(double slope, double s, double a) {
+  ScatteringImage m;
+  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(kLightRows, 0.0, 1.0);
+  m.l = (-slope * x).exp();
+  m.per_log_sigma_s = m.l.array() * s * (1.0 + x);
+  m.per_sigma_a = -m.l.array() * a * (2.0 - x);
+  m.variance = Eigen::VectorXd::Zero(kLightRows);
+  return m;
+}
+
+// The dipole's image, set right, is that of the paths to what a part's width leaves; nothing learnt
+// changes nothing.
+TEST(PartLight, SetsTheDipoleRight) {
+  const ScatteringImage truth = image(2.0, 0.4, 30.0);
+  const ShotParts parts = parts_of(truth.l);
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(parts.n_cells(), parts.n_cells());
+  ScatteringImage pilot = image(1.5, 0.1, 50.0);
+  const ScatteringImage dipole = pilot;
+  PartLight light;
+  light.correct(parts, pilot);
+  EXPECT_EQ(pilot.l, dipole.l);
+  light.learn(parts, truth, none, dipole, 16);
+  light.learn(parts, truth, none, dipole, 48);
+  EXPECT_EQ(light.blocks(), 64.0);
+  light.correct(parts, pilot);
+  const auto far = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return (a - b).norm() / b.norm();
+  };
+  EXPECT_LT(far(pilot.l, truth.l), 0.02);
+  EXPECT_LT(far(pilot.per_log_sigma_s, truth.per_log_sigma_s), 0.03);
+  EXPECT_LT(far(pilot.per_sigma_a, truth.per_sigma_a), 0.03);
+  EXPECT_GT(far(dipole.per_sigma_a, truth.per_sigma_a), 0.3);
+}
+
+// Covariances of blocks add up to that of one; from few blocks no combination of cells is free of
+// error, from many it is that of the cells.
+TEST(PartLight, CellsErrTogether) {
+  const ScatteringImage truth = image(2.0, 0.4, 30.0);
+  const ShotParts parts = parts_of(truth.l);
+  const Eigen::Index n = parts.n_cells();
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  // Of one block: a common error, and each cell's own.
+  const Eigen::MatrixXd block =
+      4e-4 * Eigen::MatrixXd::Ones(n, n) + 1e-4 * Eigen::MatrixXd::Identity(n, n);
+  const auto from = [&](int blocks) {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+    for (int b = 0; b < blocks; ++b) {
+      const double common = 0.02 * normal(random);
+      Eigen::VectorXd e(n);
+      for (double& v : e) v = common + 0.01 * normal(random);
+      sum += e * e.transpose();
+    }
+    return Eigen::MatrixXd(sum / (static_cast<double>(blocks) * blocks));
+  };
+  PartLight few;
+  few.learn(parts, truth, from(8), truth, 8);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(few.cells_alike(parts));
+  EXPECT_GT(modes.eigenvalues().minCoeff(), 1e-5);
+  PartLight many;
+  for (int i = 0; i < 40; ++i) many.learn(parts, truth, from(256), truth, 256);
+  EXPECT_LT((many.cells_alike(parts) - block).norm(), 0.05 * block.norm());
+  // Rows of a cell are off together, by as much as their light.
+  const Eigen::MatrixXd alike = correlated_rows(parts, truth.l, many.cells_alike(parts));
+  const Eigen::MatrixXd rows = alike * alike.transpose();
+  EXPECT_NEAR(rows(0, 0), truth.l[0] * truth.l[0] * many.cells_alike(parts)(0, 0), 1e-9);
+  EXPECT_NEAR(rows(0, kLightRows - 1),
+              truth.l[0] * truth.l[kLightRows - 1] *
+                  many.cells_alike(parts)(parts.cell_of_row(0), parts.cell_of_row(kLightRows - 1)),
+              1e-9);
+  many.forget();
+  EXPECT_EQ(many.blocks(), 0.0);
+}
+
+}  // namespace
+}  // namespace scattermeter

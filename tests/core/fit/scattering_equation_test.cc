@@ -1,0 +1,287 @@
+#include "core/fit/scattering_equation.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace scattermeter {
+namespace {
+
+constexpr Eigen::Index kEquationRows = 200;
+
+// A made-up image of two coefficients with exact derivatives, not linear in them.
+ScatteringImage image_of(double s, double a) {
+  ScatteringImage m;
+  m.l.resize(kEquationRows);
+  m.per_log_sigma_s.resize(kEquationRows);
+  m.per_sigma_a.resize(kEquationRows);
+  for (Eigen::Index j = 0; j < kEquationRows; ++j) {
+    const double x = 0.05 + static_cast<double>(j) / kEquationRows;
+    const double l = std::pow(s, 0.3 + 0.4 * x) * std::exp(-a * (3.0 + 40.0 * x * x));
+    m.l[j] = l;
+    m.per_log_sigma_s[j] = (0.3 + 0.4 * x) * l;
+    m.per_sigma_a[j] = -(3.0 + 40.0 * x * x) * l;
+  }
+  m.variance = Eigen::VectorXd::Constant(kEquationRows, 1e-8);
+  return m;
+}
+
+DenseSystem system_of(const Eigen::VectorXd& l, double std) {
+  DenseSystem system;
+  system.l = l;
+  system.std_l = Eigen::VectorXd::Constant(l.size(), std);
+  return system;
+}
+
+ScatteringPoint solved(const DenseSystem& system, const ScalePrior& prior, ScatteringPoint at,
+                       ScatteringEquation::Step* last = nullptr) {
+  for (int i = 0; i < 12; ++i) {
+    const ScatteringImage pilot = image_of(at.sigma_s_per_mm * 1.05, at.sigma_a_per_mm);
+    const ScatteringEquation equation(system, prior, pilot, at);
+    const Eigen::Index n = equation.projection().rows();
+    const ScatteringEquation::Step step = equation.step(
+        image_of(at.sigma_s_per_mm, at.sigma_a_per_mm), Eigen::MatrixXd::Zero(n, n), at);
+    at = step.to;
+    if (last != nullptr) *last = step;
+  }
+  return at;
+}
+
+// The root is the truth, wherever the search and its pilots stand.
+TEST(ScatteringEquation, FindsTheTruth) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  const ScatteringPoint exact = solved(system_of(truth.l, 1e-3), {0.0}, {0.7, 0.0, 1.0});
+  EXPECT_NEAR(exact.sigma_s_per_mm, 2.0, 1e-9);
+  EXPECT_NEAR(exact.sigma_a_per_mm, 0.01, 1e-11);
+  EXPECT_EQ(exact.scale, 1.0);
+  const ScatteringPoint free = solved(system_of(1.7 * truth.l, 1e-3),
+                                      {std::numeric_limits<double>::infinity()}, {3.0, 0.02, 1.0});
+  EXPECT_NEAR(free.sigma_s_per_mm, 2.0, 1e-6);
+  EXPECT_NEAR(free.sigma_a_per_mm, 0.01, 1e-7);
+  EXPECT_NEAR(free.scale, 1.7, 1e-6);
+}
+
+// Deviations of many noisy images, with Monte Carlo noise in m, are the stated ones; no bias.
+TEST(ScatteringEquation, DeviationsAreAsStated) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal;
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  const ScatteringImage pilot = image_of(2.1, 0.009);
+  const double noise = 2e-3, paths = 3e-3;
+  constexpr int kDraws = 3000;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d square = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d stated = Eigen::Matrix2d::Zero();
+  for (int i = 0; i < kDraws; ++i) {
+    DenseSystem system = system_of(truth.l, noise);
+    ScatteringImage m = truth;
+    for (Eigen::Index j = 0; j < kEquationRows; ++j) {
+      system.l[j] += noise * normal(random);
+      m.l[j] += paths * normal(random);
+    }
+    const ScatteringEquation equation(system, {0.0}, pilot, at);
+    const Eigen::MatrixXd of_paths =
+        paths * paths * equation.projection() * equation.projection().transpose();
+    const ScatteringEquation::Step step = equation.step(m, of_paths, at);
+    const Eigen::Vector2d off(std::log(step.to.sigma_s_per_mm / 2.0),
+                              step.to.sigma_a_per_mm - 0.01);
+    sum += off / kDraws;
+    square += off * off.transpose() / kDraws;
+    stated += step.covariance / kDraws;
+  }
+  // 3000 draws: 1.3 % of a deviation; four of that, and of the mean.
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const double std = std::sqrt(stated(k, k));
+    EXPECT_NEAR(std::sqrt(square(k, k)) / std, 1.0, 0.052);
+    EXPECT_LT(std::abs(sum[k]), 4.0 * std / std::sqrt(kDraws));
+  }
+}
+
+// A nuisance that the rows cannot tell apart from the medium widens the answer; the causes add up.
+TEST(ScatteringEquation, NuisancesWiden) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  DenseSystem system = system_of(truth.l, 1e-3);
+  ScatteringEquation::Step plain, wide;
+  solved(system, {0.0}, {2.0, 0.01, 1.0}, &plain);
+  system.nuisances = {{"eta", 0.05, true}};
+  system.nuisance_columns = truth.per_log_sigma_s;
+  solved(system, {0.0}, {2.0, 0.01, 1.0}, &wide);
+  EXPECT_GT(wide.covariance(0, 0), plain.covariance(0, 0));
+  EXPECT_NEAR(std::sqrt(wide.covariance(0, 0)), 0.05, 0.01);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(2, 2);
+  bool named = false;
+  for (const auto& cause : wide.causes) {
+    sum += cause.covariance;
+    named = named || cause.name == "eta";
+  }
+  EXPECT_TRUE(named);
+  EXPECT_LT((sum - wide.covariance).norm(), 1e-12 * sum.norm());
+}
+
+// The residual at the end of a step is that of the image there, and what a nuisance with a wide
+// prior makes of it can be told and taken off.
+TEST(ScatteringEquation, Residual) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  DenseSystem system = system_of(truth.l, 1e-3);
+  ScatteringImage quiet = truth;
+  quiet.variance.setZero();
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const ScatteringPoint beside{2.004, 0.01001, 1.001};
+  const ScatteringEquation equation(system, {0.0}, quiet, at);
+  EXPECT_LT(equation.residual(truth, at, at).norm(), 1e-12);
+  const ScatteringImage there = image_of(2.004, 0.01001);
+  EXPECT_LT((equation.residual(truth, at, beside) - (truth.l - 1.001 * there.l)).norm(),
+            0.005 * (truth.l - 1.001 * there.l).norm());
+  Eigen::VectorXd wave(kEquationRows);
+  for (Eigen::Index j = 0; j < kEquationRows; ++j) wave[j] = std::sin(0.1 * static_cast<double>(j));
+  system.nuisances = {{"wave", 1.0, true}};
+  system.nuisance_columns = wave;
+  const ScatteringEquation wavy(system, {0.0}, quiet, at);
+  EXPECT_LT(wavy.without_nuisances(0.3 * wave).norm(), 1e-4 * wave.norm());
+  quiet.l.conservativeResize(3);
+  EXPECT_THROW(ScatteringEquation(system, {0.0}, quiet, at), std::invalid_argument);
+}
+
+// What a nuisance and the scale's error move is what the equation answers to them.
+TEST(ScatteringEquation, Pushes) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  DenseSystem system = system_of(truth.l, 1e-3);
+  system.nuisances = {{"tilt", 0.02, true}};
+  system.nuisance_columns =
+      truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kEquationRows, -1.0, 1.0));
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const ScatteringEquation equation(system, {0.02}, truth, at);
+  ASSERT_EQ(equation.projection().rows(), 2);  // a scale with a prior is a nuisance
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(2, 2);
+  const ScatteringEquation::Step nominal = equation.step(truth, none, at);
+  ASSERT_EQ(nominal.pushes.cols(), 2);
+  DenseSystem pushed = system;
+  const ScatteringEquation same(pushed, {0.02}, truth, at);
+  pushed.l += 0.02 * system.nuisance_columns;
+  EXPECT_LT((same.step(truth, none, at).move - nominal.pushes.col(0)).norm(),
+            1e-9 * nominal.pushes.col(0).norm());
+  pushed.l = 1.02 * truth.l;
+  EXPECT_LT((same.step(truth, none, at).move - nominal.pushes.col(1)).norm(),
+            1e-9 * nominal.pushes.col(1).norm());
+  // The image says where in its prior the scale lies, as far as the medium does not answer for it.
+  EXPECT_NEAR(same.settled_log_scale(same.residual(truth, at, at)), 0.02, 0.002);
+  EXPECT_EQ(ScatteringEquation(system, {0.0}, truth, at).settled_log_scale(truth.l), 0.0);
+}
+
+// Weights that know how rows err together make the answer less uncertain, and leave it unbiased.
+TEST(ScatteringEquation, CorrelatedErrors) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  const DenseSystem system = system_of(truth.l, 1e-4);
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  Eigen::MatrixXd alike(kEquationRows, 2);
+  alike << 0.02 * truth.l,
+      0.02 * truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kEquationRows, -1, 1));
+  const auto std_of = [&](const ScatteringEquation& e) {
+    const Eigen::MatrixXd p = e.projection() * alike;
+    return std::sqrt(e.step(truth, p * p.transpose(), at).covariance(1, 1));
+  };
+  const ScatteringEquation blind(system, {0.0}, truth, at);
+  const ScatteringEquation knowing(system, {0.0}, truth, at, 1.0, alike);
+  EXPECT_LT(std_of(knowing), 0.3 * std_of(blind));
+  const ScatteringEquation::Step step = knowing.step(truth, Eigen::MatrixXd::Zero(2, 2), at);
+  EXPECT_LT(step.move.norm(), 1e-9);
+  EXPECT_THROW(ScatteringEquation(system, {0.0}, truth, at, 1.0, alike.topRows(3)),
+               std::invalid_argument);
+}
+
+// Scatter beyond the noise is a cause of its own, as correlated as the paths.
+TEST(ScatteringEquation, ScatterWidens) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  const DenseSystem system = system_of(truth.l, 1e-3);
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const ScatteringEquation equation(system, {0.0}, truth, at);
+  const Eigen::MatrixXd paths = 1e-6 * equation.projection() * equation.projection().transpose();
+  const auto plain = equation.step(truth, paths, at);
+  const auto wide = equation.step(truth, paths, at, 5.0);
+  EXPECT_LT((wide.covariance - plain.covariance -
+             4.0 * equation.step(truth, paths, at).inverse * paths * plain.inverse.transpose())
+                .norm(),
+            1e-12 * wide.covariance.norm());
+  EXPECT_EQ(wide.causes.size(), plain.causes.size() + 1);
+}
+
+// A scale that is stated wrongly shows, by as much as it is wrong, where the medium cannot make up
+// for it; a true one does not, more often than its p-value says.
+TEST(ScatteringEquation, DoubtsAScale) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  const ScatteringImage pilot = image_of(2.05, 0.0095);
+  constexpr double kNoise = 2e-3;
+  constexpr double kPaths = 1e-3;
+  constexpr double kPrior = 0.02;
+  for (const double prior : {0.0, kPrior}) {
+    for (const double off : {0.0, 0.05}) {
+      constexpr int kDraws = 1000;
+      double sum = 0.0, square = 0.0, std = 0.0;
+      int doubted = 0;
+      for (int i = 0; i < kDraws; ++i) {
+        const double drawn = off + prior * normal(random);
+        DenseSystem system = system_of(std::exp(drawn) * truth.l, kNoise);
+        ScatteringImage m = truth;
+        for (Eigen::Index j = 0; j < kEquationRows; ++j) {
+          system.l[j] += kNoise * normal(random);
+          m.l[j] += kPaths * normal(random);
+        }
+        const ScatteringEquation equation(system, {prior}, pilot, at);
+        const Eigen::RowVectorXd& form = equation.scale_form();
+        ASSERT_EQ(form.size(), kEquationRows);
+        EXPECT_NEAR(form.dot(pilot.l), 1.0, 1e-9);
+        EXPECT_NEAR(form.dot(pilot.per_log_sigma_s), 0.0, 1e-8);
+        EXPECT_NEAR(form.dot(pilot.per_sigma_a), 0.0, 1e-6);
+        const ScatteringEquation::Step step = equation.step(m, Eigen::MatrixXd::Zero(2, 2), at);
+        const ScatteringEquation::ScaleDoubt doubt = equation.scale_doubt(
+            equation.residual(m, at, step.to), kPaths * kPaths * form.squaredNorm(), 1.0);
+        sum += doubt.offset / kDraws;
+        square += (doubt.offset - off) * (doubt.offset - off) / kDraws;
+        std = doubt.std;
+        doubted += doubt.p_value < 0.01 ? 1 : 0;
+      }
+      // 1000 draws: 2.2 % of a deviation.
+      EXPECT_NEAR(std::sqrt(square) / std, 1.0, 0.1) << prior << " " << off;
+      EXPECT_NEAR(sum, off, 4.0 * std / std::sqrt(kDraws) + 0.02 * off) << prior << " " << off;
+      if (off == 0.0) {
+        EXPECT_LE(doubted, 25) << prior;  // of 1000, 10 expected
+      } else if (prior == 0.0) {
+        EXPECT_GE(doubted, 900) << std;
+      }
+    }
+  }
+  // Free, there is nothing to doubt.
+  const ScatteringEquation free(system_of(truth.l, kNoise),
+                                {std::numeric_limits<double>::infinity()}, pilot, at);
+  EXPECT_EQ(free.scale_form().size(), 0);
+  EXPECT_EQ(free.scale_doubt(truth.l, 0.0, 1.0).p_value, 1.0);
+}
+
+// The scale's place in the step: where it is doubted, the answer is as far out as it would move.
+TEST(ScatteringEquation, DoubtedScaleWidens) {
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const DenseSystem system = system_of(truth.l, 1e-3);
+  const ScatteringEquation equation(system, {0.0}, truth, at);
+  ScatteringEquation::Step step = equation.step(truth, Eigen::MatrixXd::Zero(2, 2), at);
+  const Eigen::MatrixXd before = step.covariance;
+  equation.widen_by_scale(0.05, step);
+  const DenseSystem brighter = system_of(1.05 * truth.l, 1e-3);
+  const ScatteringEquation other(brighter, {0.0}, truth, at);
+  const Eigen::VectorXd moved = other.step(truth, Eigen::MatrixXd::Zero(2, 2), at).move;
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    EXPECT_NEAR(step.covariance(k, k), before(k, k) + moved[k] * moved[k],
+                1e-6 * step.covariance(k, k));
+  }
+  EXPECT_EQ(step.causes.back().name, "doubted scale");
+}
+
+}  // namespace
+}  // namespace scattermeter
