@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -173,6 +174,18 @@ GivenShot given_shot(const py::dict& dict, const std::string& where) {
   return out;
 }
 
+// Distance of the farthest object from the camera that sees it.
+double farthest_mm(const Scene& scene, const ObjectScenes& objects,
+                   const std::vector<GivenShot>& shots) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const CameraView view{scene.camera.intrinsics, shots[i].pose.camera_from_world};
+    const Eigen::Vector3d object_mm = objects.at(scene.shots[i].object).box.center_mm();
+    out = std::max(out, (view.center_in_world_mm() - object_mm).norm());
+  }
+  return out;
+}
+
 std::string estimate_arrays(const py::dict& camera, const py::dict& objects, const py::dict& lights,
                             const std::vector<py::dict>& shots, const std::string& model,
                             std::optional<double> patch_size_mm, double time_limit_s,
@@ -210,12 +223,13 @@ std::string estimate_arrays(const py::dict& camera, const py::dict& objects, con
   apps::Measurement measurement;
   measurement.model = options.model;
   run_interruptible(progress, [&](Progress& p) {
+    require_known_names(scene);
     ObjectScenes geometry;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       geometry.emplace(scene.objects[i].name, object_scene(scene, scene.objects[i], meshes[i]));
     }
     require_lights_outside(scene, geometry);
-    LitObjects lit(scene, geometry, patch_size_mm, 0.0);
+    LitObjects lit(scene, geometry, patch_size_mm, farthest_mm(scene, geometry, given));
     std::vector<ObservedShot> observed(given.size());
     const auto responsivity =
         scene.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0});
