@@ -1,7 +1,6 @@
 // What calibration shots show of one LED.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -57,12 +56,15 @@ struct LedScene {
   std::vector<bool> ambient_subtracted;
 
   std::size_t plane_shots() const;  // one more than the largest ShadedCell::shot; 0 without cells
-};
 
-inline std::size_t LedScene::plane_shots() const {
-  std::size_t n = 0;
-  for (const ShadedCell& cell : cells) n = std::max(n, cell.shot + 1);
-  return n;
-}
+  // World position of a cell's middle.
+  Eigen::Vector3d cell_mm(const ShadedCell& cell) const;
+
+  // World position about which the data in use lie: the mean of the cells in use or, without any,
+  // of the spheres whose highlights are in use (of a sphere once per highlight). One flag per cell
+  // and per highlight; NaN where none is set.
+  Eigen::Vector3d data_center_mm(const std::vector<bool>& use_cell,
+                                 const std::vector<bool>& use_highlight) const;
+};
 
 }  // namespace scattermeter::calib
