@@ -19,7 +19,7 @@ CellModel::CellModel(const LedFrame& frame, const ShadedCell& cell)
   const Eigen::Matrix2d root = cell.spread_mm2.llt().matrixL();
   for (std::size_t k = 0; k < kPoints; ++k) {
     const Eigen::Vector2d at =
-        cell.place_mm + (k % 2 == 0 ? M_SQRT2 : -M_SQRT2) * root.col(static_cast<int>(k / 2));
+        cell.on_plane_mm + (k % 2 == 0 ? M_SQRT2 : -M_SQRT2) * root.col(static_cast<int>(k / 2));
     points_mm_[k] = plane.origin_mm + at.x() * plane.x_axis + at.y() * plane.y_axis;
   }
   shift_ = surface_shift_by_pose(frame.scene.views[cell.view].camera_from_world,

@@ -12,7 +12,8 @@ std::size_t LedScene::plane_shots() const {
 
 Eigen::Vector3d LedScene::cell_mm(const ShadedCell& cell) const {
   const WhitePlane& plane = planes[cell.plane];
-  return plane.origin_mm + cell.place_mm.x() * plane.x_axis + cell.place_mm.y() * plane.y_axis;
+  return plane.origin_mm + cell.on_plane_mm.x() * plane.x_axis +
+         cell.on_plane_mm.y() * plane.y_axis;
 }
 
 Eigen::Vector3d LedScene::data_center_mm(const std::vector<bool>& use_cell,

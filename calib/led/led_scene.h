@@ -31,12 +31,12 @@ struct SeenHighlight {
 struct ShadedCell {
   std::size_t view = 0;
   std::size_t plane = 0;
-  std::size_t shot = 0;                                  // cells of a shot share its ambient light
-  std::size_t setting = 0;                               // of LedScene::exposure_relative_std
-  int column = 0, row = 0;                               // of the plane's grid of cells
-  int channel = 0;                                       // 0 R, 1 G, 2 B
-  Eigen::Vector2d place_mm = Eigen::Vector2d::Zero();    // mean of the samples, on the plane
-  Eigen::Matrix2d spread_mm2 = Eigen::Matrix2d::Zero();  // covariance of their places
+  std::size_t shot = 0;                                   // cells of a shot share its ambient light
+  std::size_t setting = 0;                                // of LedScene::exposure_relative_std
+  int column = 0, row = 0;                                // of the plane's grid of cells
+  int channel = 0;                                        // 0 R, 1 G, 2 B
+  Eigen::Vector2d on_plane_mm = Eigen::Vector2d::Zero();  // mean of the samples, on the plane
+  Eigen::Matrix2d spread_mm2 = Eigen::Matrix2d::Zero();   // covariance of their places
   double radiance_W_per_mm2_sr = 0;
   double std_W_per_mm2_sr = 0;  // of the mean, by the noise of the samples; > 0
 };

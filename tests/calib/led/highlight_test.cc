@@ -89,7 +89,7 @@ TEST(Highlight, SaysWhyThereIsNone) {
   EXPECT_THAT(find_highlight(sphere_with({}, 1e9, 4), kSphere).problem, HasSubstr("no highlight"));
   const Spot wide{kSphere.center_px, 2500.0, 32.0};
   EXPECT_THAT(find_highlight(sphere_with({wide}, 1e9, 5), kSphere).problem,
-              HasSubstr("no compact"));
+              HasSubstr("not a compact"));
   const Spot rim{kSphere.center_px + Eigen::Vector2d(50.5, 0.0)};
   EXPECT_THAT(find_highlight(sphere_with({rim}, 1e9, 6), kSphere).problem, HasSubstr("rim"));
   EXPECT_THAT(find_highlight(CfaSamples{}, kSphere).problem, HasSubstr("out of view"));

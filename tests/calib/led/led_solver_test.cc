@@ -25,7 +25,7 @@ TEST(LedSolver, RadianceIsLambertsLaw) {
   cell.spread_mm2 *= 1e-8;
   const WhitePlane& plane = scene.planes[0];
   const Eigen::Vector3d point =
-      plane.origin_mm + Eigen::Vector3d(cell.place_mm.x(), cell.place_mm.y(), 0.0);
+      plane.origin_mm + Eigen::Vector3d(cell.on_plane_mm.x(), cell.on_plane_mm.y(), 0.0);
   const Led led = true_led();
   const double expected = plane.albedo[cell.channel] / std::numbers::pi *
                           led.intensity_W_per_sr[cell.channel] *

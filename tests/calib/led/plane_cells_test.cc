@@ -59,7 +59,7 @@ TEST(PlaneCells, MeansAreThoseOfTheirPlaces) {
   for (const ShadedCell& cell : cells.cells) {
     EXPECT_EQ(cell.view, 3U);
     EXPECT_EQ(cell.plane, 4U);
-    const double expected = (1000.0 + 5.0 * cell.place_mm.x()) / 2.0;
+    const double expected = (1000.0 + 5.0 * cell.on_plane_mm.x()) / 2.0;
     chi2 += std::pow((cell.radiance_W_per_mm2_sr - expected) / cell.std_W_per_mm2_sr, 2);
   }
   const double n = static_cast<double>(cells.cells.size());
@@ -84,7 +84,7 @@ TEST(PlaneCells, DustAndBordersAreLeftOut) {
   EXPECT_GT(cells.spots, specks);
   double worst = 0.0;
   for (const ShadedCell& cell : cells.cells) {
-    const double expected = (1000.0 + 5.0 * cell.place_mm.x()) / 2.0;
+    const double expected = (1000.0 + 5.0 * cell.on_plane_mm.x()) / 2.0;
     worst =
         std::max(worst, std::abs(cell.radiance_W_per_mm2_sr - expected) / cell.std_W_per_mm2_sr);
   }
@@ -105,7 +105,7 @@ TEST(PlaneCells, ClippedCellsAreLeftOut) {
   ASSERT_GT(cells.cells.size(), 50U);
   for (const ShadedCell& cell : cells.cells) {
     EXPECT_TRUE(std::isfinite(cell.radiance_W_per_mm2_sr));
-    EXPECT_LT(cell.place_mm.x(), 31.0);
+    EXPECT_LT(cell.on_plane_mm.x(), 31.0);
   }
 }
 
