@@ -95,24 +95,5 @@ TEST(Highlight, SaysWhyThereIsNone) {
   EXPECT_THAT(find_highlight(CfaSamples{}, kSphere).problem, HasSubstr("out of view"));
 }
 
-TEST(Highlight, SphereImageHoldsTheOutline) {
-  CameraIntrinsics k;
-  k.width_px = 600;
-  k.height_px = 400;
-  k.fx_px = k.fy_px = 1000;
-  k.cx_px = 300;
-  k.cy_px = 200;
-  const MirrorSphere sphere{{5, -3, 200}, 10.0};
-  const SphereImage image = sphere_image(k, Rigid3d{}, sphere);
-  EXPECT_NEAR(image.center_px.x(), 325.0, 1e-9);
-  // tan of the outline's angle: R / sqrt(d^2 - R^2).
-  EXPECT_NEAR(image.radius_px, 50.1, 0.3);
-  EXPECT_LE(image.x0, 325 - 50);
-  EXPECT_GE(image.x0 + image.width, 325 + 50);
-  EXPECT_EQ(image.x0 % 2, 0);
-  EXPECT_EQ(sphere_image(k, Rigid3d{}, {{500, 0, 200}, 10.0}).width, 0);
-  EXPECT_EQ(sphere_image(k, Rigid3d{}, {{0, 0, -200}, 10.0}).width, 0);
-}
-
 }  // namespace
 }  // namespace scattermeter::calib

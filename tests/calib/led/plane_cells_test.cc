@@ -49,7 +49,7 @@ CfaSamples samples_of(const WhitePlane& plane, double noise, std::uint64_t seed)
   return s;
 }
 
-TEST(PlaneCells, MeansAreThoseOfTheirPlaces) {
+TEST(PlaneCells, MeansAreThoseOfTheirPositions) {
   const WhitePlane plane = plane_of(50, 36);
   const CfaSamples samples = samples_of(plane, 10.0, 1);
   const PlaneCells cells = plane_cells(samples, led_camera(), led_camera_pose(), plane, kOne, 3, 4);
@@ -112,10 +112,6 @@ TEST(PlaneCells, ClippedCellsAreLeftOut) {
 TEST(PlaneCells, NothingOfAPlaneThatIsNotSeen) {
   WhitePlane behind = plane_of(50, 36);
   behind.y_axis = -behind.y_axis;
-  EXPECT_EQ(plane_image(led_camera(), led_camera_pose(), behind).width, 0);
-  WhitePlane away = plane_of(50, 36);
-  away.origin_mm.x() += 500;
-  EXPECT_EQ(plane_image(led_camera(), led_camera_pose(), away).width, 0);
   EXPECT_TRUE(
       plane_cells(CfaSamples{}, led_camera(), led_camera_pose(), behind, kOne, 0, 0).cells.empty());
 }
