@@ -7,8 +7,8 @@
 #include <Eigen/Cholesky>
 #include <fmt/core.h>
 
+#include "calib/led/cell_model.h"
 #include "calib/led/led_fit.h"
-#include "calib/led/led_solver.h"
 #include "calib/led/led_start.h"
 #include "core/base/middle_value.h"
 #include "core/camera/lens.h"

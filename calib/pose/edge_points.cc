@@ -4,6 +4,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "calib/pose/cell_means.h"
 #include "calib/pose/edge_strip.h"
 #include "core/base/middle_value.h"
 #include "core/camera/lens.h"
