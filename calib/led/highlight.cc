@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 #include "core/camera/lens.h"
 
 namespace scattermeter::calib {
@@ -166,12 +166,12 @@ FoundHighlight find_highlight(const CfaSamples& s, const SphereImage& sphere,
     return found;
   }
   const double disc_cells = static_cast<double>(values.size());
-  const double base = middle_value(values);
+  const double base = upper_median(values);
   for (double& v : values) v = std::abs(v - base);
   double noise2 = 0.0;
   for (float v : s.variance_counts2) noise2 += v;
   noise2 *= 4.0 / static_cast<double>(s.variance_counts2.size());
-  const double scatter = std::max(1.4826 * middle_value(values), std::sqrt(noise2));
+  const double scatter = std::max(kStdPerMad * upper_median(values), std::sqrt(noise2));
   if (!(peak - base > options.min_snr * scatter)) {
     found.problem = "no highlight on the sphere: is it hidden, or the LED off?";
     return found;
@@ -220,7 +220,7 @@ FoundHighlight find_highlight(const CfaSamples& s, const SphereImage& sphere,
       }
     });
     for (std::size_t k = 0; k < 4; ++k)
-      level[k] = around[k].empty() ? 0.0 : middle_value(around[k]);
+      level[k] = around[k].empty() ? 0.0 : upper_median(around[k]);
     each([&](const Eigen::Vector2d& p, std::size_t at) {
       const double r = (p - center).norm();
       // Samples fade out over the last one of the window: none enters or leaves as a whole.

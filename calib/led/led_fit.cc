@@ -14,7 +14,7 @@
 #include "calib/led/led_ambient.h"
 #include "calib/led/led_solver.h"
 #include "calib/led/led_start.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 #include "core/base/symmetric_eigen.h"
 
 namespace scattermeter::calib {
@@ -64,7 +64,7 @@ bool set_intensity(const LedScene& scene, const std::vector<bool>& use, Led& led
   }
   for (std::size_t c = 0; c < 3; ++c) {
     if (ratios[c].empty()) continue;
-    const double intensity = middle_value(ratios[c]);
+    const double intensity = upper_median(ratios[c]);
     if (!(intensity > 0.0)) return false;
     led.intensity_W_per_sr[static_cast<Eigen::Index>(c)] = intensity;
   }
@@ -105,8 +105,8 @@ void leave_cells_out(const LedScene& scene, const std::vector<bool>& lit,
     magnitudes.push_back(std::abs(r[i]));
     noises.push_back(predicted > 0.0 ? cell.std_W_per_mm2_sr / predicted : 1e3);
   }
-  const double bulk = 1.4826 * middle_value(magnitudes);
-  const double excess = std::max(1.0, bulk / middle_value(noises));
+  const double bulk = kStdPerMad * upper_median(magnitudes);
+  const double excess = std::max(1.0, bulk / upper_median(noises));
   // A cell that is left out takes its other channels along, and the next cells where it is off by
   // much: a shadow's edge reaches farther than it shows.
   std::set<std::tuple<std::size_t, int, int>> out;
@@ -438,7 +438,7 @@ class LedFitter {
       for (int c = 0; c < 3; ++c) {
         const auto cells = own.find({s, c});
         if (cells == own.end()) continue;
-        const double led = middle_value(cells->second);
+        const double led = upper_median(cells->second);
         const Eigen::Index at = solution_.ambient_at + 3 * static_cast<Eigen::Index>(s) + c;
         found.relative[c] = solution_.ambient[s][c] / led;
         found.relative_std[c] = std::sqrt(covariance(at, at)) * solution_.ambient_unit[s][c] / led;

@@ -8,7 +8,7 @@
 #include <Eigen/Cholesky>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -23,11 +23,6 @@ constexpr double kCutNoise = 0.3989 / 4.0;
 struct PlaneSample {
   float x_mm, y_mm, signal, variance;
 };
-
-double median_of_magnitudes(std::vector<double> values) {
-  for (double& v : values) v = std::abs(v);
-  return middle_value(std::move(values));
-}
 
 // The mean of the samples without spots; `kept` says which.
 struct CellMean {
@@ -73,7 +68,8 @@ std::optional<CellMean> robust_mean(const std::vector<PlaneSample>& samples, dou
                           slope.dot(Eigen::Vector2d(s.x_mm - sum.x(), s.y_mm - sum.y())));
     }
     const double limit =
-        kSpotStds * std::max(std::sqrt(variance / n), 1.4826 * median_of_magnitudes(residuals));
+        kSpotStds *
+        std::max(std::sqrt(variance / n), kStdPerMad * median_absolute_deviation(residuals, 0.0));
     bool changed = false;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const bool keep = std::abs(residuals[i]) <= limit;

@@ -13,7 +13,7 @@
 #include "calib/pose/edge_scatter.h"
 #include "calib/pose/edge_strip.h"
 #include "core/base/chi_square.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 #include "core/camera/lens.h"
 
 namespace scattermeter::calib {
@@ -175,8 +175,7 @@ std::vector<EdgePoint> near(const std::vector<EdgePoint>& points,
 }
 
 double robust_deviation(std::vector<double> residual) {
-  for (double& r : residual) r = std::abs(r);
-  return 1.4826 * middle_value(std::move(residual));
+  return kStdPerMad * median_absolute_deviation(std::move(residual), 0.0);
 }
 
 Silhouette failed(SilhouetteStatus status, std::string message) {

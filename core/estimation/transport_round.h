@@ -60,8 +60,8 @@ class TransportRound {
   // all (parts that are as improbable as 1 in 100 widen it by Birge's ratio).
   double scatter_within() const { return scatter_within_; }
   double scatter() const { return scatter_; }
-  // What the image has against the stated scale.
-  ScatteringEquation::ScaleDoubt scale_doubt() const;
+  // Whether the image contradicts the stated scale.
+  ScatteringEquation::ScaleTest scale_test() const;
 
   // Shots with an answer of their own (indices), and the steps to it; none for a single shot.
   std::vector<std::size_t> shots() const;
@@ -89,7 +89,7 @@ class TransportRound {
   TransportShots shots_;
   ScatteringPoint at_;
   ScatteringImage pilot_;
-  Eigen::MatrixXd alike_;  // rows that err together
+  Eigen::MatrixXd correlated_;  // rows that err together
   ScatteringEquation joint_;
   std::vector<Single> singles_;
   ScatteringImage image_;
