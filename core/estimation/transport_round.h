@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/estimation/channel_simulation.h"
+#include "core/estimation/transport_verdict.h"
 #include "core/fit/lack_of_fit.h"
 #include "core/fit/linear_shot.h"
 #include "core/fit/scattering_equation.h"
@@ -28,8 +29,6 @@ class TransportRound {
  public:
   // Shots of fewer rows have no answer of their own.
   static constexpr Eigen::Index kLeastRows = 20;
-  // Blocks of paths from which on the covariances of a shot's parts are worth something.
-  static constexpr int kLeastBlocks = 64;
 
   // pilot: smooth, not of the paths to come. expected: Monte Carlo variance of the rows to come and
   // of what else the shots err by, over the pilot's; cells: the covariance of the cells' relative

@@ -79,7 +79,7 @@ class TransportSearch {
       last = {round.image(), round.blocks(), round.scatter()};
       part_light_.learn(parts_, round.image(), round.cell_covariance(), dipole(at), round.blocks());
       const ScatteringPoint to = round.step().to;
-      if (learned && is_close(round)) {
+      if (learned && is_close(round.step(), round.blocks())) {
         if (outliers_known || !leave_outliers_out(round)) return report(round, result);
         outliers_known = true;
         last = first_look(to);
@@ -112,7 +112,8 @@ class TransportSearch {
     ChannelSimulation::Draw draw = simulation_.draw(round.projection());
     simulation_.trace(draw, round.at(), blocks);
     round.take(draw);
-    while (may_be_last && is_close(round) && !is_precise(round)) {
+    while (may_be_last && is_close(round.step(), round.blocks()) &&
+           !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
       stage_.check();
       const double per_block_s = (elapsed_s() - started_s) / round.blocks();
       const int affordable = static_cast<int>((options_.time_limit_s - elapsed_s()) / per_block_s);
@@ -195,7 +196,8 @@ class TransportSearch {
   void report(const TransportRound& round, ChannelResult& result) const {
     Estimate& estimate = result.estimate;
     estimate.reasons.clear();
-    report_step(widened_by_scale(round), estimate);
+    const ScatteringEquation::ScaleTest scale_test = round.scale_test();
+    report_step(widened_by_scale(round.equation(), scale_test, round.step()), estimate);
     const Eigen::VectorXd rest = round.residual();
     if (!has_free_scale()) {
       const double scale = std::exp(round.equation().settled_log_scale(rest));
@@ -212,7 +214,7 @@ class TransportSearch {
     if (options_.keep_rows) {
       result.rows = shot_rows(channel_, rows_, system_.l - rest, variance.cwiseSqrt());
     }
-    add_refusals(round, estimate);
+    add_refusals(round.misfit(), scale_test, round.blocks(), estimate);
     report_shots(round, result);
   }
 

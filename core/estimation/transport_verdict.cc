@@ -27,13 +27,12 @@ const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
 
 }  // namespace
 
-bool is_close(const TransportRound& round) {
+bool is_close(const ScatteringEquation::Step& step, int blocks) {
   constexpr double kShort = 0.02;
   constexpr double kOfStd = 0.15;
-  const ScatteringEquation::Step& step = round.step();
-  const double more = round.blocks() > TransportRound::kLeastBlocks ? 1.7 : 1.0;
+  const double more = blocks > kLeastBlocks ? 1.7 : 1.0;
   const Eigen::MatrixXd& paths = covariance_by(step, "Monte Carlo");
-  const double saved = 1.0 - std::min(1.0, round.blocks() / kFinalPathBlocks);
+  const double saved = 1.0 - std::min(1.0, blocks / kFinalPathBlocks);
   for (Eigen::Index k = 0; k < step.move.size(); ++k) {
     const double change = std::abs(step.move[k]) * step.size[k] / more;
     const double std = std::sqrt(step.covariance(k, k) - saved * paths(k, k)) * step.size[k];
@@ -42,17 +41,17 @@ bool is_close(const TransportRound& round) {
   return true;
 }
 
-bool is_precise(const TransportRound& round) {
+bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int blocks) {
   constexpr double kOfRest = 0.1;  // of the variance
   constexpr double kFloor[2] = {1e-3, 5e-3};
-  const double unit[2] = {1.0, std::max(round.at().sigma_a_per_mm, 1e-3)};
+  const double unit[2] = {1.0, std::max(sigma_a_per_mm, 1e-3)};
   for (Eigen::Index k = 0; k < 2; ++k) {
-    const double own = covariance_by(round.step(), "Monte Carlo")(k, k);
-    const double rest = round.step().covariance(k, k) - own;
+    const double own = covariance_by(step, "Monte Carlo")(k, k);
+    const double rest = step.covariance(k, k) - own;
     const double floor = kFloor[k] * unit[k];
     if (own > kOfRest * rest && own > floor * floor) return false;
   }
-  return round.blocks() >= TransportRound::kLeastBlocks;
+  return blocks >= kLeastBlocks;
 }
 
 void report_step(const ScatteringEquation::Step& step, Estimate& estimate) {
@@ -71,20 +70,20 @@ void report_step(const ScatteringEquation::Step& step, Estimate& estimate) {
       normal_quantity(step.to.scale, c.rows() > 2 ? std::sqrt(c(2, 2)) * step.to.scale : 0.0);
 }
 
-ScatteringEquation::Step widened_by_scale(const TransportRound& round) {
-  ScatteringEquation::Step step = round.step();
-  const ScatteringEquation::ScaleTest scale = round.scale_test();
-  if (scale.p_value < kWideningScalePValue) round.equation().widen_by_scale(scale.offset, step);
+ScatteringEquation::Step widened_by_scale(const ScatteringEquation& equation,
+                                          const ScatteringEquation::ScaleTest& scale,
+                                          ScatteringEquation::Step step) {
+  if (scale.p_value < kWideningScalePValue) equation.widen_by_scale(scale.offset, step);
   return step;
 }
 
-void add_refusals(const TransportRound& round, Estimate& estimate) {
-  if (round.blocks() < TransportRound::kLeastBlocks) {
+void add_refusals(const LackOfFit& misfit, const ScatteringEquation::ScaleTest& scale, int blocks,
+                  Estimate& estimate) {
+  if (blocks < kLeastBlocks) {
     estimate.reasons.push_back(fmt::format(
-        "the time was too short: {} blocks of paths for each light, at least {} are needed",
-        round.blocks(), TransportRound::kLeastBlocks));
+        "the time was too short: {} blocks of paths for each light, at least {} are needed", blocks,
+        kLeastBlocks));
   }
-  const LackOfFit misfit = round.misfit();
   estimate.misfit_relative = misfit.rms;
   estimate.misfit_p_value = misfit.p_value;
   if (misfit.p_value < kMisfitPValue && misfit.rms > kMisfit) {
@@ -93,7 +92,6 @@ void add_refusals(const TransportRound& round, Estimate& estimate) {
         "pose, shape or eta are not as the rig states)",
         100.0 * misfit.rms));
   }
-  const ScatteringEquation::ScaleTest scale = round.scale_test();
   if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {
     estimate.reasons.push_back(fmt::format(
         "the shots contradict the scale that the rig states: it should be at least "
