@@ -12,7 +12,7 @@
 #include "core/diffusion/dipole_curve.h"
 #include "core/estimation/estimation.h"
 #include "core/fit/dipole_fit.h"
-#include "core/fit/numerics.h"
+#include "core/fit/method_errors.h"
 #include "core/fit/quantised_system.h"
 #include "core/fit/recovered_reflectance.h"
 #include "core/fit/residual.h"
@@ -92,10 +92,11 @@ PaperBench bench_paper(const PaperBenchOptions& options) {
       1.0 / (bench.dipole.sigma_s_prime_per_mm.value + bench.dipole.sigma_a_per_mm.value);
   DenseSystem system = channel_system(rig.scene, task, rows, smooth, mean_free_path_mm);
   bench.rows = static_cast<std::size_t>(system.l.size());
-  add_numerics(knots, curve_of(bench.dipole, knots, task.eta_int_over_ext), patch_size_mm(task),
-               {bench.dipole.sigma_s_prime_per_mm.value, bench.dipole.sigma_a_per_mm.value,
-                task.eta_int_over_ext},
-               system);
+  add_method_errors(knots, curve_of(bench.dipole, knots, task.eta_int_over_ext),
+                    patch_size_mm(task),
+                    {bench.dipole.sigma_s_prime_per_mm.value, bench.dipole.sigma_a_per_mm.value,
+                     task.eta_int_over_ext},
+                    system);
   bench.smooth = smooth_reflectance(recover_reflectance(system), system.nuisances, knots);
   DipoleFitOptions fit;
   fit.eta_int_over_ext = task.eta_int_over_ext;

@@ -17,7 +17,7 @@
 #include "apps/simulation/bodies_rig.h"
 #include "apps/simulation/studio.h"
 #include "apps/simulation/virtual_shots.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 #include "core/base/progress.h"
 #include "core/base/random_stream.h"
 #include "core/mesh/bodies.h"
@@ -190,7 +190,7 @@ PlanBenchRatios plan_bench_ratios(const std::vector<PlanBenchRow>& rows) {
   const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
   out.least = *least;
   out.most = *most;
-  out.median = middle_value(ratios);
+  out.median = upper_median(ratios);
   return out;
 }
 

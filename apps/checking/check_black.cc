@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "apps/checking/check.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -24,7 +24,7 @@ std::vector<CheckItem> check_black(const CheckedRig& checked) {
       }
     }
     if (levels.empty()) continue;
-    const double usual = middle_value(levels);
+    const double usual = upper_median(levels);
     for (std::size_t i = 0; i < checked.shots.size(); ++i) {
       const capture::BackgroundLevel& b = checked.frames[i].background;
       if (b.blocks == 0) continue;

@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 
 #include "apps/checking/check.h"
-#include "core/fit/shot_departure.h"
+#include "core/fit/common_slope.h"
 
 namespace scattermeter::apps {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -73,7 +73,7 @@ std::optional<CellMean> robust_cell_mean(const std::vector<PlaneSample>& samples
       magnitudes.push_back(std::abs(residuals.back()));
     }
     const double limit = kSpotStds * std::max(std::sqrt(trend->variance_counts2),
-                                              1.4826 * middle_value(std::move(magnitudes)));
+                                              1.4826 * upper_median(std::move(magnitudes)));
     bool changed = false;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const bool keep = std::abs(residuals[i]) <= limit;

@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 
@@ -22,8 +22,8 @@ std::vector<bool> consistent_cells(const LedScene& scene, const std::vector<bool
     magnitudes.push_back(std::abs(residuals[i]));
     noises.push_back(predicted > 0.0 ? cell.std_W_per_mm2_sr / predicted : 1e3);
   }
-  const double bulk = 1.4826 * middle_value(magnitudes);
-  const double excess = std::max(1.0, bulk / middle_value(noises));
+  const double bulk = 1.4826 * upper_median(magnitudes);
+  const double excess = std::max(1.0, bulk / upper_median(noises));
   std::set<std::tuple<std::size_t, int, int>> out;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     if (!lit[i]) continue;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -111,12 +111,12 @@ Peak brightest_cell(const CfaSamples& s, const CellSums& cells, const SphereImag
   }
   peak.n_cells = values.size();
   if (values.empty()) return peak;
-  peak.base = middle_value(values);
+  peak.base = upper_median(values);
   for (double& v : values) v = std::abs(v - peak.base);
   double noise2 = 0.0;
   for (float v : s.variance_counts2) noise2 += v;
   noise2 *= 4.0 / static_cast<double>(s.variance_counts2.size());
-  peak.scatter = std::max(1.4826 * middle_value(values), std::sqrt(noise2));
+  peak.scatter = std::max(1.4826 * upper_median(values), std::sqrt(noise2));
   return peak;
 }
 
@@ -142,7 +142,7 @@ class BlobWindow {
     });
     std::array<double, 4> level{};
     for (std::size_t k = 0; k < 4; ++k) {
-      level[k] = around[k].empty() ? 0.0 : middle_value(around[k]);
+      level[k] = around[k].empty() ? 0.0 : upper_median(around[k]);
     }
     std::array<PhaseSums, 4> sums{};
     each(center, [&](const Eigen::Vector2d& p, std::size_t at) {

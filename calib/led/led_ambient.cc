@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/chi_square.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -58,7 +58,7 @@ std::vector<FittedAmbient> fitted_ambient(const LedScene& scene, const LedSolve&
     for (int c = 0; c < 3; ++c) {
       const auto cells = own.find({s, c});
       if (cells == own.end()) continue;
-      const double led = middle_value(cells->second);
+      const double led = upper_median(cells->second);
       const Eigen::Index at = solution.ambient_at + 3 * static_cast<Eigen::Index>(s) + c;
       found.relative[c] = solution.ambient[s][c] / led;
       found.relative_std[c] = std::sqrt(covariance(at, at)) * solution.ambient_unit[s][c] / led;

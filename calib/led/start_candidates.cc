@@ -4,7 +4,7 @@
 #include <array>
 
 #include "calib/led/cell_model.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -25,7 +25,7 @@ bool set_intensity(const LedScene& scene, const std::vector<bool>& use, Led& led
   }
   for (std::size_t c = 0; c < 3; ++c) {
     if (ratios[c].empty()) continue;
-    const double intensity = middle_value(ratios[c]);
+    const double intensity = upper_median(ratios[c]);
     if (!(intensity > 0.0)) return false;
     led.intensity_W_per_sr[static_cast<Eigen::Index>(c)] = intensity;
   }

@@ -11,7 +11,7 @@
 #include "calib/pose/edge_fit.h"
 #include "calib/pose/edge_scatter.h"
 #include "calib/pose/pose_prior.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -69,7 +69,7 @@ std::vector<EdgePoint> near(const std::vector<EdgePoint>& points,
 
 double robust_deviation(std::vector<double> residual) {
   for (double& r : residual) r = std::abs(r);
-  return 1.4826 * middle_value(std::move(residual));
+  return 1.4826 * upper_median(std::move(residual));
 }
 
 Silhouette failed(SilhouetteStatus status, std::string message) {

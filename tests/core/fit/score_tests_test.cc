@@ -1,4 +1,4 @@
-#include "core/fit/doubtful_input.h"
+#include "core/fit/score_tests.h"
 
 #include <cmath>
 #include <cstdio>
@@ -15,32 +15,32 @@ namespace {
 using test_support::LitPlate;
 using test_support::noisy_system;
 
-const Medium kDoubtMedium{1.2, 0.004, 1.3};
+const Medium kTestedMedium{1.2, 0.004, 1.3};
 
-struct DoubtPlate {
+struct TestedPlate {
   LitPlate plate{1.0, {0, 15, -15, 15}};
   DistanceKnots knots = plate.knots();
   WeightMatrix w = plate.weights(knots);
-  Eigen::VectorXd l = plate.image(kDoubtMedium);
+  Eigen::VectorXd l = plate.image(kTestedMedium);
 };
 
-const DoubtPlate& doubt_plate() {
-  static const DoubtPlate p;
+const TestedPlate& tested_plate() {
+  static const TestedPlate p;
   return p;
 }
 
-Doubts doubts(const DenseSystem& system, double scale_std, double eta = 1.3) {
+ScoreTests tests_of(const DenseSystem& system, double scale_std, double eta = 1.3) {
   DipoleFitOptions options;
   options.eta_int_over_ext = eta;
   options.scale.relative_std = scale_std;
-  const DipoleFit fit = fit_dipole(system, doubt_plate().knots, options);
-  return doubtful_inputs(recover_reflectance(system), system.nuisances, doubt_plate().knots,
-                         fit.optimum, eta, options.scale, 1.0);
+  const DipoleFit fit = fit_dipole(system, tested_plate().knots, options);
+  return score_tests(recover_reflectance(system), system.nuisances, tested_plate().knots,
+                     fit.optimum, eta, options.scale, 1.0);
 }
 
 // Where all is as stated p-values are even: a mean of 200 is known to 0.020, a share of 5 % to
 // 1.5 %; four of each.
-TEST(DoubtfulInput, FalseAlarmsAreAsStated) {
+TEST(ScoreTests, FalseAlarmsAreAsStated) {
   for (double scale_std : {0.0, 0.02}) {
     double scale_mean = 0.0, eta_mean = 0.0;
     int scale_low = 0, eta_low = 0;
@@ -48,8 +48,8 @@ TEST(DoubtfulInput, FalseAlarmsAreAsStated) {
     std::normal_distribution<double> normal;
     for (unsigned seed = 1; seed <= 200; ++seed) {
       const double scale = std::exp(scale_std * normal(random));
-      const Doubts d =
-          doubts(noisy_system(doubt_plate().w, scale * doubt_plate().l, 0.01, seed), scale_std);
+      const ScoreTests d =
+          tests_of(noisy_system(tested_plate().w, scale * tested_plate().l, 0.01, seed), scale_std);
       scale_mean += d.scale.p_value / 200.0;
       eta_mean += d.eta.p_value / 200.0;
       scale_low += d.scale.p_value < 0.05 ? 1 : 0;
@@ -64,30 +64,32 @@ TEST(DoubtfulInput, FalseAlarmsAreAsStated) {
   }
 }
 
-TEST(DoubtfulInput, MeasuresWhatIsOff) {
-  const Doubts scale = doubts(noisy_system(doubt_plate().w, 1.03 * doubt_plate().l, 0.002, 1), 0.0);
+TEST(ScoreTests, MeasuresWhatIsOff) {
+  const ScoreTests scale =
+      tests_of(noisy_system(tested_plate().w, 1.03 * tested_plate().l, 0.002, 1), 0.0);
   EXPECT_LT(scale.scale.p_value, 1e-6);
   EXPECT_NEAR(scale.scale.offset, std::log(1.03), 0.006);
   EXPECT_NEAR(scale.scale.image_relative, std::abs(scale.scale.offset), 1e-3);
-  const Doubts eta = doubts(noisy_system(doubt_plate().w, doubt_plate().l, 0.002, 1), 0.0, 1.27);
+  const ScoreTests eta =
+      tests_of(noisy_system(tested_plate().w, tested_plate().l, 0.002, 1), 0.0, 1.27);
   EXPECT_LT(eta.eta.p_value, 1e-6);
   EXPECT_NEAR(eta.eta.offset, 0.03, 0.006);
   // 3 % are nothing where the prior allows 5 %, and a free scale cannot be off.
   EXPECT_GT(
-      doubts(noisy_system(doubt_plate().w, 1.03 * doubt_plate().l, 0.002, 1), 0.05).scale.p_value,
+      tests_of(noisy_system(tested_plate().w, 1.03 * tested_plate().l, 0.002, 1), 0.05).scale.p_value,
       0.1);
-  EXPECT_EQ(doubts(noisy_system(doubt_plate().w, 1.03 * doubt_plate().l, 0.002, 1),
+  EXPECT_EQ(tests_of(noisy_system(tested_plate().w, 1.03 * tested_plate().l, 0.002, 1),
                    std::numeric_limits<double>::infinity())
                 .scale.p_value,
             1.0);
 }
 
 // A declared error of the method that looks like the scale is no reason to doubt the scale.
-TEST(DoubtfulInput, ForgivesWhatANuisanceExplains) {
-  DenseSystem system = noisy_system(doubt_plate().w, 1.03 * doubt_plate().l, 0.002, 1);
+TEST(ScoreTests, ForgivesWhatANuisanceExplains) {
+  DenseSystem system = noisy_system(tested_plate().w, 1.03 * tested_plate().l, 0.002, 1);
   system.nuisances = {{"method", 0.03, false}};
-  system.nuisance_columns = doubt_plate().l;
-  EXPECT_GT(doubts(system, 0.0).scale.p_value, 0.05);
+  system.nuisance_columns = tested_plate().l;
+  EXPECT_GT(tests_of(system, 0.0).scale.p_value, 0.05);
 }
 
 }  // namespace

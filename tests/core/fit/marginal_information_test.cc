@@ -1,4 +1,4 @@
-#include "core/fit/eliminated_nuisances.h"
+#include "core/fit/marginal_information.h"
 
 #include <random>
 #include <stdexcept>
@@ -29,7 +29,7 @@ NuisanceCase random_case() {
 
 // Integrating over nuisances is adding their covariance to the noise's: chi-square
 // e^T (1 + C diag(std^2) C^T)^-1 e.
-TEST(EliminatedNuisances, AreAddedNoise) {
+TEST(MarginalInformation, AreAddedNoise) {
   const NuisanceCase c = random_case();
   for (const auto& [use, n] : {std::pair{NuisanceUse::kFitted, 2}, {NuisanceUse::kAll, 3}}) {
     Eigen::MatrixXd noise = Eigen::MatrixXd::Identity(7, 7);
@@ -39,20 +39,20 @@ TEST(EliminatedNuisances, AreAddedNoise) {
       noise += push * push.transpose();
     }
     const Eigen::VectorXd e = c.recovered.sqrt_information.leftCols(5) * c.r - c.recovered.whitened;
-    const EliminatedNuisances image = eliminate_nuisances(c.recovered, c.nuisances, 5, use);
+    const MarginalInformation image = marginal_information(c.recovered, c.nuisances, 5, use);
     EXPECT_NEAR((image.kernel * c.r - image.data).squaredNorm(), e.dot(noise.inverse() * e), 1e-6);
     EXPECT_EQ(image.held.cols(), 3 - n);
   }
 }
 
-TEST(EliminatedNuisances, OfNoWidthDoNotMove) {
+TEST(MarginalInformation, OfNoWidthDoNotMove) {
   NuisanceCase c = random_case();
   for (Nuisance& v : c.nuisances) v.std = 0.0;
-  const EliminatedNuisances image =
-      eliminate_nuisances(c.recovered, c.nuisances, 5, NuisanceUse::kAll);
+  const MarginalInformation image =
+      marginal_information(c.recovered, c.nuisances, 5, NuisanceUse::kAll);
   EXPECT_EQ(image.kernel, c.recovered.sqrt_information.leftCols(5));
   EXPECT_EQ(image.data, c.recovered.whitened);
-  EXPECT_THROW(eliminate_nuisances(c.recovered, c.nuisances, 6, NuisanceUse::kAll),
+  EXPECT_THROW(marginal_information(c.recovered, c.nuisances, 6, NuisanceUse::kAll),
                std::invalid_argument);
 }
 

@@ -1,4 +1,4 @@
-#include "core/fit/numerics.h"
+#include "core/fit/method_errors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,15 +8,15 @@
 
 namespace scattermeter {
 
-double row_numerics(double patch_size_mm, double mean_free_path_mm) {
+double row_method_error(double patch_size_mm, double mean_free_path_mm) {
   constexpr double kLeast = 3e-5;
   constexpr double kAtOne = 1e-4;
   const double ratio = patch_size_mm / mean_free_path_mm;
   return std::max(kLeast, kAtOne * std::min(ratio * ratio, 16.0));
 }
 
-void add_numerics(const DistanceKnots& knots, const Eigen::VectorXd& r, double patch_size_mm,
-                  const Medium& medium, DenseSystem& system) {
+void add_method_errors(const DistanceKnots& knots, const Eigen::VectorXd& r, double patch_size_mm,
+                       const Medium& medium, DenseSystem& system) {
   constexpr double kRelativeStd = 1.5e-5;
   const double decay_per_mm =
       std::max(medium.sigma_t_prime_per_mm(), Dipole(medium).sigma_tr_per_mm());

@@ -1,4 +1,4 @@
-#include "core/fit/eliminated_nuisances.h"
+#include "core/fit/marginal_information.h"
 
 #include <stdexcept>
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace scattermeter {
 
-EliminatedNuisances eliminate_nuisances(const RecoveredReflectance& recovered,
-                                        const std::vector<Nuisance>& nuisances,
-                                        Eigen::Index n_knots, NuisanceUse use) {
+MarginalInformation marginal_information(const RecoveredReflectance& recovered,
+                                         const std::vector<Nuisance>& nuisances,
+                                         Eigen::Index n_knots, NuisanceUse use) {
   const Eigen::MatrixXd& a = recovered.sqrt_information;
   if (a.cols() != n_knots + static_cast<Eigen::Index>(nuisances.size())) {
-    throw std::invalid_argument("eliminate_nuisances: " + std::to_string(a.cols()) +
+    throw std::invalid_argument("marginal_information: " + std::to_string(a.cols()) +
                                 " columns for " + std::to_string(n_knots) + " knots and " +
                                 std::to_string(nuisances.size()) + " nuisances");
   }
@@ -44,7 +44,7 @@ EliminatedNuisances eliminate_nuisances(const RecoveredReflectance& recovered,
     }
     all = HouseholderSolver(columns).rotate_columns(all);
   }
-  // What the moving ones can answer for stands in the first n rows; the rest is r's.
+  // What the moving ones can explain is in the first n rows; the rest depends on r alone.
   return {all.bottomLeftCorner(rows, n_knots), all.col(n_knots).tail(rows),
           all.bottomRightCorner(rows, n_held)};
 }
