@@ -89,7 +89,7 @@ std::vector<std::string> simulate(const std::string& rig, const std::string& out
 
 std::string plan(const std::string& rig, bool other_shots, const py::object& progress) {
   apps::PlanOptions options;
-  options.other_shots = other_shots;
+  options.suggested_shots = other_shots;
   std::string json;
   run_interruptible(progress, [&](Progress& p) {
     json = apps::plan_json(apps::plan(apps::read_rig(rig), options, &p), "");

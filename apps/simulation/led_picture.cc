@@ -111,12 +111,8 @@ std::vector<float> led_picture(const Rig& rig, const calib::LedCalibrationShot& 
   RadianceCanvas canvas(rig.scene.camera.sensor.cfa, view);
   if (rig.pose.charuco) {
     const RayScene nothing(far_away(canvas.eye_mm));
-    std::array<int, 4> channel_of_phase{};
-    for (std::size_t p = 0; p < 4; ++p) {
-      channel_of_phase[p] = static_cast<int>(rig.scene.camera.sensor.cfa.phase[p]);
-    }
     add_board(view, *rig.pose.charuco, lit, rig.truth.ambient_irradiance_W_per_mm2, nothing,
-              channel_of_phase, canvas.pixels);
+              rig.scene.camera.sensor.cfa, canvas.pixels);
   }
   if (shot.kind != calib::LedShotKind::kSpheres) {
     paint_plane(view.intrinsics, view.camera_from_world, calibration.planes.at(shot.plane), lit,
