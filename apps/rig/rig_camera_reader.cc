@@ -1,5 +1,6 @@
 #include "apps/rig/rig_camera_reader.h"
 
+#include <array>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -72,8 +73,7 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
               "responsivity_relative_std", "radiance", "sensor", "exposure_s", "iso", "f_number"});
   SceneCamera& camera = rig.scene.camera;
   if (const auto f = field.find("model")) camera.model = f->text();
-  const YamlField size = field.at("image_size_px");
-  size.numbers(2);
+  const std::array<int, 2> size = integer_pair(field.at("image_size_px"), 2, 100'000);
   const YamlField intrinsics = field.at("intrinsics");
   camera.intrinsics = intrinsics_of(intrinsics, rig.path);
   if (intrinsics.is_scalar()) {
@@ -82,8 +82,8 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
         calib::read_camera_calibration_file(rig.intrinsics_path));
     camera.lens_root = lens_root(rig.lens->parameters, rig.lens->covariance);
   }
-  camera.intrinsics.width_px = size.items()[0].integer(2, 100'000);
-  camera.intrinsics.height_px = size.items()[1].integer(2, 100'000);
+  camera.intrinsics.width_px = size[0];
+  camera.intrinsics.height_px = size[1];
   if (const std::string problem = intrinsics_problem(camera.intrinsics); !problem.empty()) {
     intrinsics.fail(problem);
   }
@@ -104,7 +104,8 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
     }
     if (radiance->responsivity) {
       if (camera.responsivity) {
-        f->fail("holds a responsivity, and camera.responsivity_counts_mm2_sr_per_W_s another");
+        f->fail(
+            "contains a responsivity, but camera.responsivity_counts_mm2_sr_per_W_s is given, too");
       }
       camera.responsivity = radiance->responsivity;
       camera.responsivity_relative_std = radiance->responsivity_relative_std;

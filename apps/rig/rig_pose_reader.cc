@@ -1,5 +1,6 @@
 #include "apps/rig/rig_pose_reader.h"
 
+#include <array>
 #include <cmath>
 
 #include "apps/rig/rig_fields.h"
@@ -10,10 +11,9 @@ namespace {
 calib::CharucoBoard read_board(const YamlField& field) {
   field.only({"squares", "square_mm", "marker_mm", "dictionary", "origin_mm", "x_axis", "y_axis"});
   calib::CharucoBoard board;
-  const YamlField squares = field.at("squares");
-  squares.numbers(2);
-  board.squares_x = squares.items()[0].integer(2, 1000);
-  board.squares_y = squares.items()[1].integer(2, 1000);
+  const std::array<int, 2> squares = integer_pair(field.at("squares"), 2, 1000);
+  board.squares_x = squares[0];
+  board.squares_y = squares[1];
   board.square_mm = field.at("square_mm").positive();
   board.marker_mm = field.at("marker_mm").positive();
   if (const auto f = field.find("dictionary")) board.dictionary = f->text();
@@ -55,7 +55,7 @@ calib::PoseSource read_pose(const YamlField& field) {
   } else {
     pose.line = charuco->line();
     pose.charuco = read_board(*charuco);
-    pose.options.point_std_px = 0.15;  // corners of a board scatter by 0.06 to 0.14 px
+    pose.options.point_std_px = 0.15;  // the corners of boards scatter by 0.06 to 0.14 px
   }
   if (const auto f = field.find("inlier_px")) pose.options.inlier_px = f->positive();
   if (const auto f = field.find("point_std_px")) pose.options.point_std_px = f->positive();
@@ -64,11 +64,11 @@ calib::PoseSource read_pose(const YamlField& field) {
     pose.refine_by_silhouette = true;
   }
   if (const auto f = field.find("edge_std_px")) {
-    if (!pose.refine_by_silhouette) f->fail("only with refine: silhouette");
+    if (!pose.refine_by_silhouette) f->fail("is allowed only with refine: silhouette");
     pose.edge_std_px = f->positive();
   }
   if (const auto f = field.find("shot")) {
-    if (!charuco) f->fail("is the shot of a board: only with charuco");
+    if (!charuco) f->fail("is the shot of a board, which needs charuco");
     pose.board_shot = file_in_folder(*f);
   }
   const bool in_each = charuco && pose.board_shot.empty();
@@ -77,7 +77,8 @@ calib::PoseSource read_pose(const YamlField& field) {
     const std::string text = f->text();
     if (text != "true" && text != "false") f->fail("expected true or false");
     pose.per_shot = text == "true";
-    if (in_each && !pose.per_shot) f->fail("with a board every shot has a pose of its own");
+    if (in_each && !pose.per_shot)
+      f->fail("with a board in every shot, each shot has its own pose");
     if (!in_each && pose.per_shot && !pose.refine_by_silhouette) {
       f->fail("there is one pose for all shots; per_shot needs refine: silhouette");
     }

@@ -27,7 +27,7 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   return object;
 }
 
-// One file, or a bracket of several, with as many times.
+// Reads a single file with its time, or a bracket of several with as many times.
 void read_shot_files(const YamlField& field, SceneShot& shot) {
   const YamlField file = field.at("file");
   const auto exposure = field.find("exposure_s");
@@ -93,8 +93,7 @@ SceneShot read_shot(const YamlField& field, const Rig& rig) {
 void read_truth(const YamlField& field, Rig& rig) {
   field.only({"materials", "pose", "sensor", "ambient_irradiance_W_per_mm2"});
   if (const auto ambient = field.find("ambient_irradiance_W_per_mm2")) {
-    const std::array<double, 3> rgb = rgb_not_negative(*ambient);
-    rig.truth.ambient_irradiance_W_per_mm2 = {rgb[0], rgb[1], rgb[2]};
+    rig.truth.ambient_irradiance_W_per_mm2 = Eigen::Array3d(rgb_not_negative(*ambient).data());
   }
   if (const auto sensor = field.find("sensor")) rig.truth.sensor = read_sensor_truth(*sensor);
   if (const auto materials = field.find("materials")) {
@@ -108,18 +107,14 @@ void read_truth(const YamlField& field, Rig& rig) {
   }
   if (const auto pose = field.find("pose")) {
     pose->only({"position_mm", "look_at_mm", "up"});
-    CameraPlacement truth{pose->at("position_mm").vector3(), pose->at("look_at_mm").vector3()};
-    if (const auto f = pose->find("up")) truth.up = unit_vector(*f);
-    const Eigen::Vector3d forward = truth.look_at_mm - truth.position_mm;
-    if (!(forward.cross(truth.up).norm() > 1e-9 * forward.norm())) {
-      pose->fail("position_mm, look_at_mm and up do not define a camera");
-    }
-    rig.truth.pose = truth;
+    const calib::BoardViewpoint v = read_viewpoint(*pose);
+    rig.truth.pose = CameraPlacement{v.position_mm, v.look_at_mm, v.up};
   }
 }
 
-// Intensities of calibrated LEDs count for a responsivity of their own. A rig without one takes it,
-// and its scale is as well known as they are; a rig with another one is wrong.
+// The intensities of calibrated LEDs are valid for the responsivity in their files. A rig without a
+// responsivity takes it, and its scale is then as uncertain as the intensities; a rig with another
+// one is refused.
 void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
   const LedLight* first = nullptr;
   for (const SceneLight& light : rig.scene.lights) {
@@ -128,12 +123,12 @@ void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
     const YamlField field = lights.at(light.name).at("calibration");
     if (first == nullptr && !rig.scene.camera.responsivity) {
       for (const SceneLight& other : rig.scene.lights) {
-        const bool counts = other.led() != nullptr && other.led()->calibrated_for;
-        if (!counts && !other->is_fitted()) {
-          field.fail("its intensity counts for the responsivity that the file states; light " +
+        const bool has_responsivity = other.led() != nullptr && other.led()->calibrated_for;
+        if (!has_responsivity && !other->is_fitted()) {
+          field.fail("its intensity is valid for the responsivity in the file, but light " +
                      other.name +
-                     " has no such calibration, so camera.responsivity_counts_mm2_sr_per_W_s must "
-                     "say what both count for");
+                     " has no such calibration: camera.responsivity_counts_mm2_sr_per_W_s must "
+                     "state the responsivity for both");
         }
       }
       rig.scene.camera.responsivity = led->calibrated_for;
@@ -142,8 +137,8 @@ void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
     first = led;
     for (std::size_t c = 0; c < 3; ++c) {
       if (std::abs((*led->calibrated_for)[c] / (*rig.scene.camera.responsivity)[c] - 1.0) > 1e-9) {
-        field.fail("its intensity counts for a responsivity of " +
-                   std::to_string((*led->calibrated_for)[c]) + ", the camera's is " +
+        field.fail("its intensity is valid for a responsivity of " +
+                   std::to_string((*led->calibrated_for)[c]) + ", but the camera's is " +
                    std::to_string((*rig.scene.camera.responsivity)[c]) + " (" + "RGB"[c] + ")");
       }
     }
@@ -156,8 +151,7 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   const YamlField top = YamlField::load(path);
   top.only({"scattermeter_rig", "limits", "camera", "pose", "objects", "lights", "shots",
             "calibration", "truth"});
-  const YamlField version = top.at("scattermeter_rig");
-  if (version.number() != 1.0) version.fail("this program reads rigs of version 1");
+  require_version(top, "scattermeter_rig", "rigs");
   Rig rig;
   rig.path = path;
   rig.limits = read_limits(top);

@@ -16,7 +16,7 @@ class Result(Mapping[str, Any]):
     """The content of a result.json: a read-only mapping of plain dictionaries, lists and numbers.
 
     `results` has one entry per material and channel; sigma_s_prime_per_mm and sigma_a_per_mm in it
-    have value, std and interval95, all in 1/mm; None stands for what is not known.
+    have value, std and interval95, all in 1/mm; unknown numbers are None.
     """
 
     def __init__(self, content: Dict[str, Any]) -> None:
@@ -49,7 +49,7 @@ class Result(Mapping[str, Any]):
         return "\n".join(lines)
 
     def to_dict(self) -> Dict[str, Any]:
-        """The content as plain dictionaries, as json.loads() of the file gives it."""
+        """The content as plain dictionaries, as from json.loads() of the file."""
         return self._content
 
     def to_dataframe(self) -> Any:
@@ -77,7 +77,7 @@ class Result(Mapping[str, Any]):
 def read_result(path: PathLike) -> Result:
     """The content of a result.json.
 
-    Raises FileNotFoundError where there is no such file, InputError where it is no result.
+    Raises FileNotFoundError if there is no such file, InputError if it is not a result.
     """
     try:
         content = json.loads(Path(path).read_text(encoding="utf-8"))
