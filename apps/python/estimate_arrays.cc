@@ -104,7 +104,7 @@ TriangleMesh triangle_mesh(const py::dict& dict, const std::string& where) {
   return mesh;
 }
 
-// The samples of one shot: where each lies in the frame, its counts above black, their variance.
+// Reads the samples of one shot: position in the frame, counts above black, variance.
 struct GivenSamples {
   Pixels xy_px;
   Eigen::VectorXd value_counts;
@@ -128,7 +128,7 @@ CfaSamples in_rectangle(const GivenSamples& given, const SceneCamera& camera,
   const auto n = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
   out.signal_counts.assign(n, 0.0F);
   out.variance_counts2.assign(n, 1.0F);
-  out.clipped.assign(n, kSampleDefect);  // what is not given says nothing
+  out.clipped.assign(n, kSampleDefect);  // samples that are not given are unused
   for (Eigen::Index i = 0; i < given.xy_px.rows(); ++i) {
     const int x = given.xy_px(i, 0) - map.x0;
     const int y = given.xy_px(i, 1) - map.y0;

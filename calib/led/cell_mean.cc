@@ -67,13 +67,11 @@ std::optional<CellMean> robust_cell_mean(const std::vector<PlaneSample>& samples
     const std::optional<CellTrend> trend = trend_of(samples, kept, max_left_out);
     if (!trend) return std::nullopt;
     mean = trend->mean;
-    std::vector<double> residuals, magnitudes;
-    for (const PlaneSample& s : samples) {
-      residuals.push_back(trend->residual(s));
-      magnitudes.push_back(std::abs(residuals.back()));
-    }
-    const double limit = kSpotStds * std::max(std::sqrt(trend->variance_counts2),
-                                              1.4826 * upper_median(std::move(magnitudes)));
+    std::vector<double> residuals;
+    for (const PlaneSample& s : samples) residuals.push_back(trend->residual(s));
+    const double limit =
+        kSpotStds * std::max(std::sqrt(trend->variance_counts2),
+                             kStdPerMad * median_absolute_deviation(residuals, 0.0));
     bool changed = false;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const bool keep = std::abs(residuals[i]) <= limit;

@@ -22,7 +22,7 @@ std::vector<bool> consistent_cells(const LedScene& scene, const std::vector<bool
     magnitudes.push_back(std::abs(residuals[i]));
     noises.push_back(predicted > 0.0 ? cell.std_W_per_mm2_sr / predicted : 1e3);
   }
-  const double bulk = 1.4826 * upper_median(magnitudes);
+  const double bulk = kStdPerMad * upper_median(magnitudes);
   const double excess = std::max(1.0, bulk / upper_median(noises));
   std::set<std::tuple<std::size_t, int, int>> out;
   for (std::size_t i = 0; i < residuals.size(); ++i) {

@@ -9,7 +9,7 @@ namespace scattermeter::calib {
 
 // One flag per cell: lit, and neither an outlier nor beside one. A cell is an outlier if its
 // relative residual, measured / predicted - 1, exceeds `outlier_stds` times its noise, that noise
-// scaled up to the bulk of all residuals (1.4826 times their median magnitude over the median
+// scaled up to the bulk of all residuals (kStdPerMad times their median magnitude over the median
 // noise) where the bulk is wider. The other channels of an outlier go with it, and the eight
 // neighbouring cells of the shot where it is off by four times the limit: a shadow's edge reaches
 // farther than it shows. `lit` (at least one) and `predicted_W_per_mm2_sr`: one per cell; cells

@@ -116,7 +116,7 @@ Peak brightest_cell(const CfaSamples& s, const CellSums& cells, const SphereImag
   double noise2 = 0.0;
   for (float v : s.variance_counts2) noise2 += v;
   noise2 *= 4.0 / static_cast<double>(s.variance_counts2.size());
-  peak.scatter = std::max(1.4826 * upper_median(values), std::sqrt(noise2));
+  peak.scatter = std::max(kStdPerMad * upper_median(values), std::sqrt(noise2));
   return peak;
 }
 

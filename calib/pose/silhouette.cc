@@ -68,8 +68,7 @@ std::vector<EdgePoint> near(const std::vector<EdgePoint>& points,
 }
 
 double robust_deviation(std::vector<double> residual) {
-  for (double& r : residual) r = std::abs(r);
-  return 1.4826 * upper_median(std::move(residual));
+  return kStdPerMad * median_absolute_deviation(std::move(residual), 0.0);
 }
 
 Silhouette failed(SilhouetteStatus status, std::string message) {

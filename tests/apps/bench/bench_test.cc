@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/bench/answer_statistics.h"
+#include "apps/bench/estimate_statistics.h"
 #include "apps/bench/bench_noise.h"
 #include "apps/bench/bench_rig.h"
 #include "apps/bench/bench_transport.h"
@@ -23,10 +23,10 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(AnswerStatistics, ByHand) {
+TEST(EstimateStatistics, ByHand) {
   // Truth 10; answers 9 and 13, each with its deviation and interval.
-  const AnswerStatistics s =
-      answer_statistics(10.0, {{{9.0, 1.0, 7.04, 10.96}, 0.5}, {{13.0, 1.0, 11.04, 14.96}, 0.5}});
+  const EstimateStatistics s =
+      estimate_statistics(10.0, {{{9.0, 1.0, 7.04, 10.96}, 0.5}, {{13.0, 1.0, 11.04, 14.96}, 0.5}});
   EXPECT_EQ(s.n, 2U);
   EXPECT_DOUBLE_EQ(s.mean, 11.0);
   EXPECT_DOUBLE_EQ(s.bias_relative, 0.1);
@@ -38,12 +38,12 @@ TEST(AnswerStatistics, ByHand) {
   EXPECT_DOUBLE_EQ(s.rmse_over_noise_std, std::sqrt(5.0) / 0.5);
   EXPECT_DOUBLE_EQ(s.coverage95, 0.5);
   EXPECT_EQ(s.pulls, (std::vector<double>{-1.0, 3.0}));
-  EXPECT_TRUE(std::isnan(answer_statistics(1.0, {}).mean));
+  EXPECT_TRUE(std::isnan(estimate_statistics(1.0, {}).mean));
   EXPECT_TRUE(std::isnan(coefficient_of_variation({1.0})));
   EXPECT_DOUBLE_EQ(coefficient_of_variation({1.0, 3.0}), std::sqrt(2.0) / 2.0);
 }
 
-TEST(AnswerStatistics, NoiseLineOfTheBudget) {
+TEST(EstimateStatistics, NoiseLineOfTheBudget) {
   Estimate e;
   EXPECT_TRUE(std::isnan(noise_std(e).sigma_a_per_mm));
   e.budget = {{"scale", 1.0, 2.0}, {"noise", 3.0, 4.0}};
@@ -145,7 +145,7 @@ TEST(BenchRig, TwoDraws) {
   ASSERT_EQ(bench.rows.size(), 9U);
   EXPECT_EQ(bench.singles.size(), 2U * 12U * 3U);
   for (const RigBenchRow& row : bench.rows) {
-    const AnswerStatistics& s = row.sigma_s_prime_per_mm.joint;
+    const EstimateStatistics& s = row.sigma_s_prime_per_mm.joint;
     if (s.n == 0) continue;  // refused
     EXPECT_LT(std::abs(s.bias_relative), 0.2) << row.material << row.channel;
     // The rig owns up to more than the noise.

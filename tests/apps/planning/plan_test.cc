@@ -104,7 +104,7 @@ TEST(Plan, FilesHoldTheForecast) {
 }
 
 // More shots and better known quantities never tell less; the coarse forecast is no other one.
-TEST(Plan, OtherShotsHelp) {
+TEST(Plan, SuggestedShotsHelp) {
   Rig rig = body_rig("cube", 1);
   rig.scene.camera.responsivity_relative_std = 0.02;
   // A mean free path longer than the patches of 1.8 mm keeps the errors of the method small: they
@@ -114,8 +114,8 @@ TEST(Plan, OtherShotsHelp) {
   PlanOptions options;
 
   const Plan made = plan(rig, scenes, options);
-  ASSERT_EQ(made.other_shots.size(), 1U);
-  const OtherShots& other = made.other_shots[0];
+  ASSERT_EQ(made.suggested_shots.size(), 1U);
+  const SuggestedShots& other = made.suggested_shots[0];
   EXPECT_GT(other.coarse_ratio, 0.6);
   EXPECT_LT(other.coarse_ratio, 1.7);
   EXPECT_GE(other.gains.size(), 4U);
@@ -128,13 +128,13 @@ TEST(Plan, OtherShotsHelp) {
   ASSERT_EQ(other.maps.size(), 1U);
   const LedMap& map = other.maps[0];
   std::size_t answers = 0;
-  for (const LedPlace& place : map.places) {
-    EXPECT_NEAR((place.position_mm - map.center_mm).norm(), map.distance_mm, 1e-9);
-    if (!std::isfinite(place.joined)) continue;
+  for (const LedPosition& at : map.positions) {
+    EXPECT_NEAR((at.position_mm - map.center_mm).norm(), map.distance_mm, 1e-9);
+    if (!std::isfinite(at.joined)) continue;
     ++answers;
-    EXPECT_LT(place.joined, 1.02 * other.planned);
-    if (!std::isfinite(place.alone)) continue;
-    EXPECT_LT(place.joined, 1.02 * place.alone);
+    EXPECT_LT(at.joined, 1.02 * other.planned);
+    if (!std::isfinite(at.alone)) continue;
+    EXPECT_LT(at.joined, 1.02 * at.alone);
   }
   EXPECT_GT(answers, 60U);
   EXPECT_EQ(html_problem(plan_page(made, "<script>")), "");
@@ -193,14 +193,14 @@ TEST(Plan, ExposureAdvice) {
     Rig rig = body_rig("cube", 1);
     rig.scene.camera.exposure_s = exposure_s;
     PlanOptions options;
-    options.other_shots = false;
+    options.suggested_shots = false;
 
     return plan(rig, bodies_scenes(rig), options);
   };
   const Plan chosen = [] {
     const Rig rig = body_rig("cube", 1);
     PlanOptions options;
-    options.other_shots = false;
+    options.suggested_shots = false;
 
     return plan(rig, bodies_scenes(rig), options);
   }();
@@ -239,7 +239,7 @@ TEST(Plan, RadianceCalibrationWithoutItsCamera) {
   c.shutter_relative_std = 0.003;
   rig.decoding.radiance = radiance;
   PlanOptions options;
-  options.other_shots = false;
+  options.suggested_shots = false;
 
   const ObjectScenes scenes = bodies_scenes(rig);
   const Plan made = plan(rig, scenes, options);

@@ -1,4 +1,4 @@
-#include "apps/bench/answer_statistics.h"
+#include "apps/bench/estimate_statistics.h"
 
 #include <cmath>
 #include <limits>
@@ -43,13 +43,13 @@ NoiseStd noise_std(const Estimate& estimate) {
   return {kNone, kNone};
 }
 
-AnswerStatistics answer_statistics(double truth, const std::vector<DrawnAnswer>& answers) {
-  AnswerStatistics s;
-  s.n = answers.size();
+EstimateStatistics estimate_statistics(double truth, const std::vector<DrawnEstimate>& estimates) {
+  EstimateStatistics s;
+  s.n = estimates.size();
   s.truth = truth;
   std::vector<double> values, errors, stds, noise;
   double held = 0.0;
-  for (const DrawnAnswer& a : answers) {
+  for (const DrawnEstimate& a : estimates) {
     const Quantity& q = a.quantity;
     values.push_back(q.value);
     errors.push_back(q.value - truth);

@@ -1,4 +1,4 @@
-#include "apps/simulation/studio.h"
+#include "apps/simulation/synthetic_camera.h"
 
 #include <stdexcept>
 #include <vector>
@@ -47,8 +47,8 @@ double pixel_mm(const Rig& rig) {
   return rig.truth.pose->position_mm.norm() / rig.scene.camera.intrinsics.fx_px;
 }
 
-SceneLight studio_led(const std::string& name, const Eigen::Vector3d& position_mm,
-                      const Eigen::Vector3d& towards) {
+SceneLight synthetic_led(const std::string& name, const Eigen::Vector3d& position_mm,
+                         const Eigen::Vector3d& towards) {
   SceneLight light;
   light.name = name;
   light.led()->led.position_mm = position_mm;

@@ -1,4 +1,4 @@
-#include "apps/planning/other_shots.h"
+#include "apps/planning/suggested_shots.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,12 +18,12 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kStep_rad = 15.0 * kDegree;  // between places
-constexpr double kKnownScale = 0.02;          // told in place of a free one
+constexpr double kStep_rad = 15.0 * kDegree;  // between positions
+constexpr double kKnownScale = 0.02;          // assumed in place of a free scale
 constexpr const char* kOtherLed = "another LED";
 
-// Rings from the zenith to the horizon, evenly filled.
-std::vector<Eigen::Vector3d> half_sphere() {
+// Directions of the upper hemisphere: rings from the zenith to the horizon, evenly filled.
+std::vector<Eigen::Vector3d> upper_hemisphere() {
   std::vector<Eigen::Vector3d> out;
   for (int ring = 0; ring * kStep_rad < 0.501 * std::numbers::pi; ++ring) {
     const double zenith = ring * kStep_rad;
@@ -38,7 +38,7 @@ std::vector<Eigen::Vector3d> half_sphere() {
   return out;
 }
 
-// An LED like this one, turned about the middle.
+// An LED like this one, moved to this direction from the centre and aimed at the centre.
 SceneLight turned(const SceneLight& like, const Eigen::Vector3d& center_mm,
                   const Eigen::Vector3d& direction) {
   SceneLight out = like;
@@ -60,66 +60,66 @@ SceneLight turned(const SceneLight& like, const Eigen::Vector3d& center_mm,
   return out;
 }
 
-// The first LED of a shot of the object; null where there is none.
-const SceneLight* led_of(const Rig& rig, const CoarseShot& shot) {
-  for (const std::string& name : shot.rig.lights) {
+// The first LED of a shot; null if there is none.
+const SceneLight* led_of(const Rig& rig, const CandidateShot& shot) {
+  for (const std::string& name : shot.stated.lights) {
     if (rig.scene.light(name).led() != nullptr) return &rig.scene.light(name);
   }
   return nullptr;
 }
 
-// The shot under this LED in place of its own; light of the room stays.
-CoarseShot under(const Rig& rig, const CoarseShot& shot, const std::string& led,
-                 const std::string& file) {
-  CoarseShot out = shot;
-  out.rig.file = file;
-  out.rig.lights = {led};
+// The shot with its LEDs replaced by this one; ambient light stays.
+CandidateShot under(const Rig& rig, const CandidateShot& shot, const std::string& led,
+                    const std::string& file) {
+  CandidateShot out = shot;
+  out.stated.file = file;
+  out.stated.lights = {led};
   out.exposures_s.clear();
-  for (const std::string& name : shot.rig.lights) {
-    if (rig.scene.light(name)->is_fitted()) out.rig.lights.push_back(name);
+  for (const std::string& name : shot.stated.lights) {
+    if (rig.scene.light(name)->is_fitted()) out.stated.lights.push_back(name);
   }
   return out;
 }
 
-// One material on its way.
-struct Asked {
-  const OtherShotsTask* task;
-  std::vector<CoarseShot> shots;
-  LitViews lit;
-  std::optional<CoarseStd> planned;
-  OtherShots out;
+// The search for one material.
+struct MaterialSearch {
+  const SuggestionRequest* request;
+  std::vector<CandidateShot> shots;
+  ViewWeights lit;
+  std::optional<ForecastStd> planned;
+  SuggestedShots out;
 
-  double relative(const CoarseStd& of) const {
+  double relative(const ForecastStd& of) const {
     return out.planned * of.sigma_a_per_mm / planned->sigma_a_per_mm;
   }
-  void add(const std::string& what, const std::optional<CoarseStd>& with) {
+  void add(const std::string& what, const std::optional<ForecastStd>& with) {
     if (!with) return;
     out.gains.push_back({what, with->sigma_s_prime_per_mm / planned->sigma_s_prime_per_mm,
                          with->sigma_a_per_mm / planned->sigma_a_per_mm});
   }
   // The first shot of the object under an LED.
-  const CoarseShot* shot_of(const Rig& rig, const std::string& object) const {
-    for (const CoarseShot& shot : shots) {
-      if (shot.rig.object == object && led_of(rig, shot) != nullptr) return &shot;
+  const CandidateShot* shot_of(const Rig& rig, const std::string& object) const {
+    for (const CandidateShot& shot : shots) {
+      if (shot.stated.object == object && led_of(rig, shot) != nullptr) return &shot;
     }
     return nullptr;
   }
 };
 
-class OtherShotsSearch {
+class SuggestionSearch {
  public:
-  OtherShotsSearch(const Rig& rig, const ScalePrior& scale, CoarseShots& coarse)
-      : rig_(rig), scale_(scale), coarse_(coarse) {}
+  SuggestionSearch(const Rig& rig, const ScalePrior& scale, ShotForecaster& forecaster)
+      : rig_(rig), scale_(scale), forecaster_(forecaster) {}
 
-  Asked ask(const OtherShotsTask& task) {
-    Asked a{&task, coarse_.shots_of(task.material.name), {}, {}, {}};
-    a.out.material = task.material.name;
-    a.out.channel = kRgbName[task.material.channel];
-    a.out.planned = task.sigma_a_per_mm.std / task.sigma_a_per_mm.value;
-    coarse_.add_lights(a.shots, a.lit);
-    a.planned = coarse_.forecast(rig_, task.material, a.shots, a.lit, scale_);
+  MaterialSearch begin(const SuggestionRequest& request) {
+    MaterialSearch a{&request, forecaster_.shots_of(request.material.name), {}, {}, {}};
+    a.out.material = request.material.name;
+    a.out.channel = kRgbName[request.material.channel];
+    a.out.planned = request.sigma_a_per_mm.std / request.sigma_a_per_mm.value;
+    forecaster_.add_lights(a.shots, a.lit);
+    a.planned = forecaster_.forecast(rig_, request.material, a.shots, a.lit, scale_);
     if (!a.planned) return a;
-    a.out.coarse_ratio = a.planned->sigma_a_per_mm / task.sigma_a_per_mm.std;
+    a.out.coarse_ratio = a.planned->sigma_a_per_mm / request.sigma_a_per_mm.std;
     if (std::isinf(scale_.relative_std)) {
       a.add("a scale known to 2 %, which is free now", forecast(a, {kKnownScale}));
     } else if (scale_.relative_std > 0.0) {
@@ -127,16 +127,16 @@ class OtherShotsSearch {
             forecast(a, {0.5 * scale_.relative_std}));
     }
     a.add("four times the light (more exposures, or longer ones where nothing clips)",
-          coarse_.forecast(rig_, task.material, a.shots, a.lit, scale_, 0.25));
+          forecaster_.forecast(rig_, request.material, a.shots, a.lit, scale_, 0.25));
     for (const std::string& object : objects(a)) shadow(object, a);
     return a;
   }
 
-  // All materials that have shots of the object share the light on it.
-  void map(const std::string& object, std::vector<Asked>& asked, Progress* progress) {
-    std::vector<std::pair<Asked*, std::size_t>> maps;
-    for (Asked& a : asked) {
-      const CoarseShot* shot = a.shot_of(rig_, object);
+  // The maps of one object; materials with the same LED share the light on it.
+  void map(const std::string& object, std::vector<MaterialSearch>& searches, Progress* progress) {
+    std::vector<std::pair<MaterialSearch*, std::size_t>> maps;
+    for (MaterialSearch& a : searches) {
+      const CandidateShot* shot = a.shot_of(rig_, object);
       if (!a.planned || shot == nullptr) continue;
       maps.emplace_back(&a, a.out.maps.size());
       LedMap& m = a.out.maps.emplace_back();
@@ -146,60 +146,60 @@ class OtherShotsSearch {
       m.center_mm = shot->seen->object->box.center_mm();
       m.distance_mm = (like.led()->led.position_mm - m.center_mm).norm();
       m.camera_mm = shot->seen->camera_center_mm;
-      for (const CoarseShot& s : a.shots) {
-        if (s.rig.object != object) continue;
-        for (const std::string& name : s.rig.lights) {
+      for (const CandidateShot& s : a.shots) {
+        if (s.stated.object != object) continue;
+        for (const std::string& name : s.stated.lights) {
           const SceneLight& light = rig_.scene.light(name);
           if (light.led() != nullptr) m.planned_mm.push_back(light.led()->led.position_mm);
         }
       }
     }
     if (maps.empty()) return;
-    const std::vector<Eigen::Vector3d> directions = half_sphere();
-    for (const auto& [a, i] : maps) a->out.maps[i].places.resize(directions.size());
+    const std::vector<Eigen::Vector3d> directions = upper_hemisphere();
+    for (const auto& [a, i] : maps) a->out.maps[i].positions.resize(directions.size());
     ProgressStage stage(progress, "LED positions", directions.size());
     tbb::parallel_for(std::size_t{0}, directions.size(), [&](std::size_t k) {
-      // Materials that take after the same LED stand one after the other.
+      // Consecutive materials with the same LED share its weights.
       Rig rig = rig_;
       rig.scene.lights.emplace_back();
-      LitViews light;
+      ViewWeights light;
       bool lit = false;
       std::string like;
       for (const auto& [a, i] : maps) {
         LedMap& m = a->out.maps[i];
-        const CoarseShot& shot = *a->shot_of(rig_, object);
+        const CandidateShot& shot = *a->shot_of(rig_, object);
         if (m.like != like) {
           like = m.like;
           rig.scene.lights.back() = turned(rig_.scene.light(like), m.center_mm, directions[k]);
           lit =
               !shot.seen->object->rays->contains(rig.scene.lights.back().led()->led.position_mm) &&
-              coarse_.add_led(*shot.seen, rig.scene.lights.back(), light);
+              forecaster_.add_led(*shot.seen, rig.scene.lights.back(), light);
         }
-        m.places[k].position_mm = rig.scene.lights.back().led()->led.position_mm;
+        m.positions[k].position_mm = rig.scene.lights.back().led()->led.position_mm;
         if (!lit) continue;
-        LitViews all = a->lit;
+        ViewWeights all = a->lit;
         for (const auto& [key, w] : light.weights) all.weights[key] = w;
         for (const auto& [key, c] : light.changed) all.changed[key] = c;
-        std::vector<CoarseShot> shots = {under(rig, shot, kOtherLed, "one more shot")};
-        if (const auto s = coarse_.forecast(rig, a->task->material, shots, all, scale_)) {
-          m.places[k].alone = a->relative(*s);
+        std::vector<CandidateShot> shots = {under(rig, shot, kOtherLed, "one more shot")};
+        if (const auto s = forecaster_.forecast(rig, a->request->material, shots, all, scale_)) {
+          m.positions[k].alone = a->relative(*s);
         }
         shots.insert(shots.begin(), a->shots.begin(), a->shots.end());
-        if (const auto s = coarse_.forecast(rig, a->task->material, shots, all, scale_)) {
-          m.places[k].joined = a->relative(*s);
+        if (const auto s = forecaster_.forecast(rig, a->request->material, shots, all, scale_)) {
+          m.positions[k].joined = a->relative(*s);
         }
       }
       stage.step();
     });
   }
 
-  // The best place of every map as a gain; all in order.
-  void finish(Asked& a) const {
+  // Adds the best position of every map to the gains and sorts them.
+  void finish(MaterialSearch& a) const {
     for (const LedMap& m : a.out.maps) {
-      const auto better = [](const LedPlace& one, const LedPlace& other) {
+      const auto better = [](const LedPosition& one, const LedPosition& other) {
         return std::isfinite(one.joined) && !(one.joined >= other.joined);
       };
-      const auto best = std::min_element(m.places.begin(), m.places.end(), better);
+      const auto best = std::min_element(m.positions.begin(), m.positions.end(), better);
       if (!std::isfinite(best->joined)) continue;
       const Eigen::Vector3d& at = best->position_mm;
       Gain gain{fmt::format("one more shot of {}, its LED at ({:.0f}, {:.0f}, {:.0f}) mm", m.object,
@@ -213,43 +213,44 @@ class OtherShotsSearch {
   }
 
  private:
-  std::vector<std::string> objects(const Asked& a) const {
+  std::vector<std::string> objects(const MaterialSearch& a) const {
     std::vector<std::string> out;
-    for (const CoarseShot& shot : a.shots) {
-      if (std::find(out.begin(), out.end(), shot.rig.object) == out.end()) {
-        out.push_back(shot.rig.object);
+    for (const CandidateShot& shot : a.shots) {
+      if (std::find(out.begin(), out.end(), shot.stated.object) == out.end()) {
+        out.push_back(shot.stated.object);
       }
     }
     return out;
   }
 
-  std::optional<CoarseStd> forecast(const Asked& a, const ScalePrior& scale) const {
-    return coarse_.forecast(rig_, a.task->material, a.shots, a.lit, scale);
+  std::optional<ForecastStd> forecast(const MaterialSearch& a, const ScalePrior& scale) const {
+    return forecaster_.forecast(rig_, a.request->material, a.shots, a.lit, scale);
   }
 
-  // One more shot under the LED of the first, a card's edge across it: the better of two edges.
-  void shadow(const std::string& object, Asked& a) {
-    const CoarseShot* shot = a.shot_of(rig_, object);
+  // A further shot under the LED of the first with a card's shadow edge across the object: the
+  // better of two directions of the edge.
+  void shadow(const std::string& object, MaterialSearch& a) {
+    const CandidateShot* shot = a.shot_of(rig_, object);
     if (shot == nullptr) return;
     const SceneLight& led = *led_of(rig_, *shot);
-    std::optional<CoarseStd> best;
+    std::optional<ForecastStd> best;
     for (const bool upright : {true, false}) {
       const auto card = with_shadow_card(*shot->seen->object, led.led()->led.position_mm, upright);
       if (!card) return;
       auto seen = std::make_shared<SeenObject>(*shot->seen);
       seen->shadows = card.get();
-      LitViews all = a.lit;
-      if (!coarse_.add_led(*seen, led, all)) continue;
-      CoarseShot half = under(rig_, *shot, led.name, "one more shot");
-      for (const std::string& name : half.rig.lights) {
+      ViewWeights all = a.lit;
+      if (!forecaster_.add_led(*seen, led, all)) continue;
+      CandidateShot half = under(rig_, *shot, led.name, "one more shot");
+      for (const std::string& name : half.stated.lights) {
         if (name == led.name) continue;
         all.weights[{seen.get(), name, 0}] = all.weights.at({shot->seen.get(), name, 0});
         all.changed[{seen.get(), name, 0}] = all.changed.at({shot->seen.get(), name, 0});
       }
       half.seen = seen;
-      std::vector<CoarseShot> shots = a.shots;
+      std::vector<CandidateShot> shots = a.shots;
       shots.push_back(half);
-      const auto with = coarse_.forecast(rig_, a.task->material, shots, all, scale_);
+      const auto with = forecaster_.forecast(rig_, a.request->material, shots, all, scale_);
       if (with && (!best || with->sigma_a_per_mm < best->sigma_a_per_mm)) best = with;
     }
     a.add(fmt::format("one more shot of {} under {}, a card's shadow edge across its middle",
@@ -259,20 +260,21 @@ class OtherShotsSearch {
 
   const Rig& rig_;
   ScalePrior scale_;
-  CoarseShots& coarse_;
+  ShotForecaster& forecaster_;
 };
 
 }  // namespace
 
-std::vector<OtherShots> other_shots(const Rig& rig, const std::vector<OtherShotsTask>& tasks,
-                                    const ScalePrior& scale, CoarseShots& coarse,
-                                    Progress* progress) {
-  OtherShotsSearch search(rig, scale, coarse);
-  std::vector<Asked> asked;
-  for (const OtherShotsTask& task : tasks) asked.push_back(search.ask(task));
-  for (const SceneObject& object : rig.scene.objects) search.map(object.name, asked, progress);
-  std::vector<OtherShots> out;
-  for (Asked& a : asked) {
+std::vector<SuggestedShots> suggested_shots(const Rig& rig,
+                                            const std::vector<SuggestionRequest>& requests,
+                                            const ScalePrior& scale, ShotForecaster& forecaster,
+                                            Progress* progress) {
+  SuggestionSearch search(rig, scale, forecaster);
+  std::vector<MaterialSearch> searches;
+  for (const SuggestionRequest& request : requests) searches.push_back(search.begin(request));
+  for (const SceneObject& object : rig.scene.objects) search.map(object.name, searches, progress);
+  std::vector<SuggestedShots> out;
+  for (MaterialSearch& a : searches) {
     search.finish(a);
     out.push_back(a.out);
   }

@@ -1,4 +1,4 @@
-// What the benches of the command line share; one declaration per bench.
+// The subcommands of bench, and the options and files that they share.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,28 @@
 
 namespace scattermeter::apps {
 
-// What every bench takes.
+// Options of every bench.
 struct BenchOptions {
   std::string out = "bench";
   std::uint64_t seed = 1;
-  std::optional<int> image_width_px;  // absent: the bench's own
+  std::optional<int> image_width_px;  // absent: the default of the bench
 };
 
-// Prints tables, writes CSV and pictures (PNG and SVG) to the folder.
+// Sets what a bench shares with the others.
+template <class Options>
+void take_common(const BenchOptions& common, const CommandContext& context, Options& options) {
+  options.seed = common.seed;
+  options.image_width_px = common.image_width_px.value_or(options.image_width_px);
+  options.progress = context.progress;
+}
+
+// Prints tables and writes CSV files and plots (PNG and SVG) to a folder.
 class BenchFiles {
  public:
   BenchFiles(const BenchOptions& options, CommandContext& context);
   void table(const std::string& text);
   void csv(const std::string& name, const std::string& text);
-  // Tables come first: they are there even where no picture can be drawn.
+  // To be called after csv(): if gnuplot is missing, the tables are written nevertheless.
   void plot(const std::string& name, const Plot& plot);
 
  private:
