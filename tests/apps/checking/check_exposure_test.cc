@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/fixtures/apps/checked_small_rig.h"
+#include "tests/fixtures/apps/made_checked_rig.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -36,6 +37,39 @@ TEST(CheckExposure, AnLedThatWasOff) {
   EXPECT_THAT(c.answer.out, HasSubstr("whether the LED was on"));
   // The others are judged all the same.
   EXPECT_EQ(c.verdict("light of shot"), "pass");
+}
+
+TEST(CheckExposure, ByHand) {
+  MadeCheckedRig made(2);
+  for (ObservedShot& shot : made.checked.shots) {
+    for (ChannelObservation& o : shot.observation.channel) {
+      o.l = {1.0, 1.0};
+      o.samples = 200;
+      o.brightest_snr = 100.0;
+    }
+  }
+  made.checked.shots[0].observation.channel[1].samples_clipped = 2;  // 1 %, the limit
+  std::vector<CheckItem> items = check_exposure(made.checked);
+  ASSERT_EQ(items.size(), 2U);
+  EXPECT_EQ(items[0].what, "clipped");
+  EXPECT_TRUE(items[0].passed);
+  EXPECT_EQ(items[0].worst, 1.0);
+  EXPECT_EQ(items[0].where, "a.dng G");
+  EXPECT_TRUE(items[1].passed);
+  made.checked.shots[0].observation.channel[1].samples_clipped = 3;
+  made.checked.shots[1].observation.channel[2].brightest_snr = 29.9;
+  items = check_exposure(made.checked);
+  EXPECT_FALSE(items[0].passed);
+  EXPECT_EQ(items[1].what, "brightest patch");
+  EXPECT_FALSE(items[1].passed);
+  EXPECT_EQ(items[1].where, "b.dng B");
+  EXPECT_TRUE(items[1].at_least);
+  // All rows clipped: nothing is known of the brightness.
+  made.checked.shots[1].observation.channel[2].brightest_snr = 100.0;
+  made.checked.shots[1].observation.channel[0].rows_clipped = 2;
+  items = check_exposure(made.checked);
+  EXPECT_FALSE(items[1].passed);
+  EXPECT_EQ(items[1].where, "b.dng R");
 }
 
 }  // namespace
