@@ -73,7 +73,7 @@ std::string sentence(const Parts&... parts) {
 }
 
 void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& options,
-           Estimate& e) {
+                  Estimate& e) {
   const double mfp_mm = std::exp(-p.u);
   if (!e.converged) e.reasons.push_back("the fit did not converge");
   // Knots are a sixteenth of the patch apart at the source; over patches longer than three mean

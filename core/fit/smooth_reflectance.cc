@@ -194,7 +194,7 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
       tried.begin(), tried.end(),
       [](const Smoothed& a, const Smoothed& b) { return a.probability < b.probability; });
   const Eigen::MatrixXd held_moves = best.inverse_root * (best.inverse_root.transpose() *
-                                                      (best.jacobian.transpose() * image.held));
+                                                          (best.jacobian.transpose() * image.held));
   for (std::size_t k = 0; k < breaks.at.size(); ++k) {
     const Eigen::Index at = breaks.at[k];
     const Eigen::RowVectorXd f = problem.basis.row(at);

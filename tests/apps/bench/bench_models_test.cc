@@ -3,18 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/instrument/instrument.h"
-#include "apps/simulation/bodies_rig.h"
-#include "apps/simulation/volume_truth.h"
 #include "core/mesh/bodies.h"
-#include "tests/fixtures/apps/small_rig.h"
-#include "tests/fixtures/temporary_folder.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -39,71 +33,6 @@ TEST(BenchModels, SaysWhatDoesNotApply) {
   EXPECT_EQ(why_left_out(dark, cube, 0.52), "");
   EXPECT_EQ(why_left_out(dark, cube, 0.53),
             "light dies off within 0.39 mm, patches are of 0.53 mm");
-}
-
-// Shots that the dipole made of each body come back from the dipole: camera, lights and patches
-// suit the bodies. To what bench materials takes for right.
-TEST(BodiesRig, EveryBodyIsMeasured) {
-  const Medium medium{0.8, 0.01, 1.0};
-  for (const char* body : {"sphere", "slab", "scan"}) {
-    const Rig rig = bodies_rig(968, 1.3, {{"m", {medium, medium, medium}}}, {body});
-    const ObjectScenes scenes = bodies_scenes(rig);
-    const VirtualShots shots(rig, scenes, {.noise = true});
-    MeasureOptions options;
-
-    Instrument instrument(rig, scenes, options);
-    const Measurement m = instrument.measure(capture::shots_from(
-        rig.scene, capture::all_shots(rig.scene),
-        capture::SampleSource([&](std::size_t i, const SampleMap& where) {
-          return shots.ideal_samples(i, where.x0, where.y0, where.width, where.height);
-        })));
-    for (const ChannelResult& r : m.results) {
-      EXPECT_FALSE(r.refused()) << body << ": " << r.estimate.reasons.front();
-      EXPECT_NEAR(r.estimate.sigma_s_prime_per_mm.value, 0.8, 0.01 * 0.8) << body;
-      EXPECT_NEAR(r.estimate.sigma_a_per_mm.value, 0.01, 0.05 * 0.01) << body;
-    }
-  }
-}
-
-// The noise that is put on the dipole's image is that of the mean of the batches.
-TEST(VolumeTruth, DisturbsByTheNoiseOfTheMean) {
-  const Medium medium{0.7, 0.1, 1.0};
-  const Rig rig = bodies_rig(240, 1.3, {{"m", {medium, medium, medium}}}, {"cube"});
-  const ObjectScenes scenes = bodies_scenes(rig);
-  const VolumeTruth truth(rig, scenes, {.paths = 4 * 6400, .batches = 4, .seed = 3});
-  SampleMap where;  // the frame's middle
-  where.x0 = 90;
-  where.y0 = 50;
-  where.width = where.height = 60;
-  const CfaSamples mean = truth.shots()(0, where);
-  std::vector<CfaSamples> disturbed;
-  for (int b = 0; b < truth.batches(); ++b) disturbed.push_back(truth.disturbed(b)(0, where));
-  double change = 0.0, signal = 0.0;
-  for (std::size_t i = 0; i < mean.signal_counts.size(); ++i) {
-    double dipole = 0.0, square = 0.0;
-    for (const CfaSamples& d : disturbed) dipole += d.signal_counts[i] / 4.0;
-    for (const CfaSamples& d : disturbed) square += std::pow(d.signal_counts[i] - dipole, 2) / 3.0;
-    change += square;
-    signal += std::pow(dipole, 2);
-    EXPECT_EQ(mean.clipped[i], 0);
-  }
-  // Root mean square over the samples, weighed by brightness; the patches' median is not far.
-  EXPECT_GT(std::sqrt(change / signal), 0.5 * truth.patch_std());
-  EXPECT_LT(std::sqrt(change / signal), 2.0 * truth.patch_std());
-  // Four times the paths: a half.
-  const VolumeTruth finer(rig, scenes, {.paths = 4 * 4 * 6400, .batches = 4, .seed = 3});
-  EXPECT_NEAR(finer.patch_std() / truth.patch_std(), 0.5, 0.05);
-  // A seed of its own for the sensor's noise.
-  const VolumeTruth noisy(rig, scenes,
-                          {.paths = 4 * 6400, .batches = 4, .seed = 3, .noise_seed = 8});
-  const CfaSamples n = noisy.shots()(0, where);
-  double chi2 = 0.0;
-  for (std::size_t i = 0; i < n.signal_counts.size(); ++i) {
-    chi2 += std::pow(n.signal_counts[i] - mean.signal_counts[i], 2) / n.variance_counts2[i];
-  }
-  const double dof = 3600.0;  // of mean dof and standard deviation sqrt(2 dof)
-  EXPECT_NEAR(chi2, dof, 4.0 * std::sqrt(2.0 * dof));
-  EXPECT_THROW(VolumeTruth(rig, scenes, {.batches = 1}), std::invalid_argument);
 }
 
 // A cube: transport comes back to the truth within what it and the shots' own error allow; the
@@ -184,29 +113,6 @@ TEST(BenchModels, TransportIsRight) {
   options.scale_std = 0.0;
   options.bodies = {"torus"};
   EXPECT_THROW(bench_models(list, options), std::invalid_argument);
-}
-
-TEST(BenchModels, Command) {
-  const TemporaryFolder folder;
-  const Answer r = run({"bench",        "--image-width", "240",        "--out",
-                        folder / "out", "models",        "--bodies",   "slab",
-                        "--names",      "skin1",         "--channels", "R",
-                        "--models",     "dipole",        "--paths",    "20000",
-                        "--scale-std",  "0.02",          "--noise",    "on"});
-  EXPECT_EQ(r.status, 0) << r.err;
-  EXPECT_THAT(r.out, HasSubstr("skin1 R"));
-  const std::string csv = slurp(folder / "out/models.csv");
-  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 1);
-  for (const char* name : {"models_sigma_s_prime", "models_sigma_a"}) {
-    for (const char* extension : {".png", ".svg"}) {
-      EXPECT_GT(std::filesystem::file_size(folder / "out/" + name + extension), 3000U);
-    }
-  }
-  EXPECT_EQ(run({"bench", "models", "--bodies", "torus"}).status, 2);
-  EXPECT_EQ(run({"bench", "models", "--channels", "RX"}).status, 2);
-  EXPECT_EQ(run({"bench", "models", "--models", "guess"}).status, 2);
-  EXPECT_EQ(run({"bench", "models", "--names", "unobtainium"}).status, 2);
-  EXPECT_EQ(run({"bench", "models", "--materials", "/nowhere.csv"}).status, 2);
 }
 
 }  // namespace

@@ -2,16 +2,13 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "tests/fixtures/apps/small_rig.h"
 
 namespace scattermeter::apps {
 namespace {
-
-using ::testing::HasSubstr;
 
 // Twenty rigs drawn at random: what `plan` forecasts is what measuring states.
 TEST(BenchPlan, TwentyRigs) {
@@ -52,16 +49,6 @@ TEST(BenchPlan, RatiosByHand) {
   EXPECT_DOUBLE_EQ(r.least, 0.5);
   EXPECT_DOUBLE_EQ(r.most, 2.0);
   EXPECT_EQ(plan_bench_ratios({}).n, 0U);
-}
-
-TEST(BenchPlan, Command) {
-  SmallRig files;
-  const Answer r =
-      run({"bench", "plan", "--rigs", "1", "--image-width", "320", "--out", files.out()});
-  EXPECT_EQ(r.status, 0) << r.err;
-  EXPECT_THAT(r.out, HasSubstr("forecast over stated deviation"));
-  EXPECT_THAT(slurp(files.out() + "/plan.csv"), HasSubstr("sigma_a_stated_relative"));
-  EXPECT_EQ(run({"bench", "plan", "--rigs", "0"}).status, 2);
 }
 
 }  // namespace

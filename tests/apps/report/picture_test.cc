@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/report/base64.h"
-
 namespace scattermeter::apps {
 namespace {
 
@@ -35,14 +33,6 @@ TEST(Picture, Colours) {
   EXPECT_EQ(difference_colour(0.0), (PictureColour{255, 255, 255}));
   EXPECT_GT(difference_colour(0.5)[0], difference_colour(0.5)[2]);
   EXPECT_LT(difference_colour(-0.5)[0], difference_colour(-0.5)[2]);
-}
-
-// RFC 4648, section 10.
-TEST(Base64, TheStandardsOwnExamples) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/instrument/open_objects.h"
-#include "apps/report/render_pictures.h"
+#include "apps/simulation/shot_renderer.h"
 #include "capture/files/exr_file.h"
 #include "tests/fixtures/apps/made_result.h"
 #include "tests/fixtures/apps/small_rig.h"
@@ -56,29 +56,6 @@ int lit_columns(int width, const std::vector<float>& rgb) {
     if (rgb[i] > 0.0F) lit[i / 3 % lit.size()] = true;
   }
   return static_cast<int>(std::count(lit.begin(), lit.end(), true));
-}
-
-// What a shot records through its filters is what the picture shows.
-TEST(Render, ShowsWhatTheCameraSees) {
-  SmallRig small;
-  small.keep_shots("PE_pyramid_2");
-  Rig rig = read_rig(small.rig());
-  const ObjectScenes scenes = open_objects(rig);
-  ShotRenderer renderer(rig, scenes);
-  const RadiancePicture shot = renderer.render(rig.scene.shots[0]);
-  const ColourRadiance colour = renderer.render_colour(rig.scene.shots[0]);
-  ASSERT_EQ(colour.width, shot.width);
-  ASSERT_EQ(colour.height, shot.height);
-  std::size_t lit = 0;
-  for (int y = 0; y < shot.height; ++y) {
-    for (int x = 0; x < shot.width; ++x) {
-      const auto i = static_cast<std::size_t>(y * shot.width + x);
-      const int channel = renderer.channel(shot.x0 + x, shot.y0 + y);
-      ASSERT_EQ(shot.radiance[i], colour.rgb[3 * i + static_cast<std::size_t>(channel)]);
-      lit += shot.radiance[i] > 0.0F;
-    }
-  }
-  EXPECT_GT(lit, 5000U);
 }
 
 TEST(Render, WritesEveryMaterialOnEveryScene) {
@@ -174,32 +151,6 @@ TEST(Render, RefusedIsLeftOut) {
   const Answer none = run.run_with({"--material", "P/P"});
   EXPECT_EQ(none.status, 1);
   EXPECT_THAT(none.err, HasSubstr("nothing is left to render"));
-}
-
-TEST(Render, ScreenValues) {
-  EXPECT_EQ(srgb_byte(-1.0), 0);
-  EXPECT_EQ(srgb_byte(1.0), 255);
-  EXPECT_EQ(srgb_byte(7.0), 255);
-  // IEC 61966-2-1: 0.5 of the encoded range is a linear 0.214041; the straight part ends at 10.3.
-  EXPECT_EQ(srgb_byte(0.214041 * 1.001), 128);
-  EXPECT_EQ(srgb_byte(0.0031308), 10);
-  Rendering rendering;
-  rendering.scenes = {{"cube", {"led"}}};
-  RenderedPicture picture;
-  picture.radiance.width = 1000;
-  picture.radiance.height = 2;
-  // 1000 pixels lit by 1 .. 1000 in green, the others dark: 2 of them are brighter than 998.
-  for (int i = 0; i < 2000; ++i) {
-    for (float v : {0.5F, static_cast<float>(i + 1), 0.25F}) {
-      picture.radiance.rgb.push_back(i < 1000 ? v : 0.0F);
-    }
-  }
-  rendering.pictures = {picture};
-  EXPECT_EQ(white_radiance(rendering), 998.0);
-  const Picture shown = srgb_picture(picture.radiance, 998.0);
-  EXPECT_EQ(shown.at(997, 0)[1], 255);
-  EXPECT_EQ(shown.at(3, 1), (PictureColour{0, 0, 0}));
-  EXPECT_LE(contact_sheet(rendering, {"POM"}, 998.0, 400).width_px, 400);
 }
 
 }  // namespace

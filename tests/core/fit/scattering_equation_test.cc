@@ -264,7 +264,8 @@ TEST(ScatteringEquation, DoubtsAScale) {
   EXPECT_EQ(free.scale_test(truth.l, 0.0, 1.0).p_value, 1.0);
 }
 
-// The scale's place in the step: where it is significant, the answer is as far out as it would move.
+// The scale's place in the step: where it is significant, the answer is as far out as it would
+// move.
 TEST(ScatteringEquation, DoubtedScaleWidens) {
   const ScatteringImage truth = image_of(2.0, 0.01);
   const ScatteringPoint at{2.0, 0.01, 1.0};

@@ -75,11 +75,11 @@ TEST(ScoreTests, MeasuresWhatIsOff) {
   EXPECT_LT(eta.eta.p_value, 1e-6);
   EXPECT_NEAR(eta.eta.offset, 0.03, 0.006);
   // 3 % are nothing where the prior allows 5 %, and a free scale cannot be off.
-  EXPECT_GT(
-      tests_of(noisy_system(tested_plate().w, 1.03 * tested_plate().l, 0.002, 1), 0.05).scale.p_value,
-      0.1);
+  EXPECT_GT(tests_of(noisy_system(tested_plate().w, 1.03 * tested_plate().l, 0.002, 1), 0.05)
+                .scale.p_value,
+            0.1);
   EXPECT_EQ(tests_of(noisy_system(tested_plate().w, 1.03 * tested_plate().l, 0.002, 1),
-                   std::numeric_limits<double>::infinity())
+                     std::numeric_limits<double>::infinity())
                 .scale.p_value,
             1.0);
 }

@@ -262,15 +262,6 @@ TEST(BadShot, DarkAndClippedShotsRefuseTheirMaterialOnly) {
   }
 }
 
-TEST(BadRig, SimulateWantsTruth) {
-  SmallRig rig;
-  rig.write(replaced(rig.text(), "    PE: {sigma_s", "    XX: {sigma_s"));
-  const Answer r = run({"simulate", rig.rig(), "--out", rig.shots()});
-  EXPECT_EQ(r.status, 2);
-  EXPECT_THAT(r.err, HasSubstr("truth.materials.PE"));
-  EXPECT_FALSE(std::filesystem::exists(rig.shots()));
-}
-
 TEST(BadRig, ResultFolderThatCannotBeMade) {
   SmallRig rig;
   rig.keep_shots("POM_cube_1");

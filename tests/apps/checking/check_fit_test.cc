@@ -1,0 +1,91 @@
+#include "apps/checking/check_fit.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apps/checking/checked_rig.h"
+#include "tests/fixtures/apps/small_rig.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::StartsWith;
+
+// Two shots of PE and one that was in the dark, all of the cube; led2 is a tenth brighter than the
+// rig says.
+class CheckFitTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    SmallRig files;
+    files.keep_shots("_cube_");
+    const std::string pom = "POM_cube_1.dng, object: cube, material: POM, lights: [led1]";
+    files.write(replaced(files.text(), "{file: " + pom,
+                         "{file: dark.dng, object: cube, material: PE, exposure_s: 1.0e-7, "
+                         "lights: [led1]"));
+    std::string kept;
+    std::istringstream lines(files.text());
+    for (std::string line; std::getline(lines, line);) {
+      const bool other =
+          line.find("PP_") != std::string::npos || line.find("POM_") != std::string::npos;
+      if (!other) kept += line + "\n";
+    }
+    files.write(kept);
+    const std::string led2 = "axis: [70, 20, -50], exponent: 1, intensity_W_per_sr: ";
+    files.write(replaced(kept, led2 + "[0.05, 0.05, 0.05]", led2 + "[0.055, 0.055, 0.055]"));
+    files.simulate();
+    files.write(kept);
+    rig_ = new Rig(read_rig(files.rig()));
+    checked_ = new CheckedRig(open_checked_rig(*rig_, files.shots(), {}));
+  }
+  static void TearDownTestSuite() {
+    delete checked_;
+    delete rig_;
+  }
+  static Rig* rig_;
+  static CheckedRig* checked_;
+};
+Rig* CheckFitTest::rig_ = nullptr;
+CheckedRig* CheckFitTest::checked_ = nullptr;
+
+TEST_F(CheckFitTest, ATaskForEachChannelOfShotsOfUse) {
+  const std::vector<CheckedTask>& tasks = checked_->fit.tasks;
+  ASSERT_EQ(tasks.size(), 3U);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_EQ(tasks[c].material, "PE");
+    EXPECT_EQ(tasks[c].channel, c);
+    EXPECT_THAT(tasks[c].shots, ElementsAre(0, 1));  // not the dark one
+    ASSERT_TRUE(tasks[c].departures.has_value());
+    EXPECT_EQ(tasks[c].departures->power_relative.size(), 2U);
+    EXPECT_EQ(tasks[c].departures->nuisances.size(), tasks[c].nuisances.size());
+    ASSERT_EQ(tasks[c].singles.size(), 2U);
+    EXPECT_EQ(tasks[c].singles[1].file, "PE_cube_2.dng");
+  }
+}
+
+// A tenth between two shots is 4.8 % up and down from their mean: 1.1 / 1 = (1 + x) / (1 - x).
+TEST_F(CheckFitTest, SeesThePowerOfAShot) {
+  for (const CheckedTask& task : checked_->fit.tasks) {
+    const std::vector<Departure>& power = task.departures->power_relative;
+    EXPECT_NEAR(power[1].value - power[0].value, 2.0 * 0.1 / 2.1, 0.03);
+    EXPECT_LT(power[1].std, 0.02);
+    EXPECT_NEAR(task.departures->even_relative[0].value, 0.0, 0.02);
+    EXPECT_LT(task.departures->residual_relative[0], 0.05);
+  }
+}
+
+TEST_F(CheckFitTest, EachShotIsLikestToItself) {
+  const std::vector<ShotLikeness>& likeness = checked_->fit.likeness;
+  ASSERT_EQ(likeness.size(), 3U);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_LT(likeness[i].own, 0.1);
+    EXPECT_GT(likeness[i].best_other, 3.0 * likeness[i].own);
+    EXPECT_THAT(likeness[i].other, StartsWith("lit by led"));
+  }
+  EXPECT_TRUE(std::isnan(likeness[2].own));
+}
+
+}  // namespace
+}  // namespace scattermeter::apps

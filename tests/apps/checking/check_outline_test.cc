@@ -1,0 +1,79 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/apps/made_checked_rig.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CheckOutline : public ::testing::Test {
+ protected:
+  CheckOutline() : made_(2) {
+    EXPECT_TRUE(check_outline(made_.checked).empty());
+    outline_ = &made_.checked.outline.emplace();
+    outline_->shots.resize(2);
+    outline_->shots[0].found = true;
+    outline_->shots[0].shift_px = {0.3, -0.4};
+    outline_->shots[0].shift_std_px = {0.06, 0.08};
+    outline_->shots_found = 1;
+    outline_->diagnosis.agrees = true;
+    outline_->diagnosis.verdict = "the lens is longer";
+    outline_->drift_verdict = "camera moved";
+    made_.checked.shared_pose.emplace();
+  }
+  MadeCheckedRig made_;
+  calib::SilhouetteCheck* outline_ = nullptr;
+};
+
+TEST_F(CheckOutline, ShiftsOfThoseFound) {
+  const std::vector<CheckItem> items = check_outline(made_.checked);
+  ASSERT_EQ(items.size(), 2U);
+  EXPECT_EQ(items[0].what, "outline");
+  EXPECT_TRUE(items[0].passed);
+  ASSERT_EQ(items[0].details.size(), 1U);
+  EXPECT_EQ(items[0].where, "a.dng");
+  EXPECT_NEAR(items[0].worst, 0.5, 1e-12);
+  EXPECT_NEAR(items[0].details[0].std, 0.1, 1e-12);
+  EXPECT_EQ(items[1].what, "camera between shots");
+  EXPECT_TRUE(items[1].passed);
+}
+
+TEST_F(CheckOutline, ADiagnosisCountsWhereItIsLargeEnough) {
+  outline_->diagnosis.agrees = false;
+  CheckItem item = check_outline(made_.checked)[0];
+  EXPECT_FALSE(item.passed);
+  EXPECT_EQ(item.advice, "the lens is longer");
+  outline_->shots[0].shift_px = {0.1, 0.0};
+  EXPECT_TRUE(check_outline(made_.checked)[0].passed);
+  outline_->rms_px = 0.51;  // rough all over
+  EXPECT_FALSE(check_outline(made_.checked)[0].passed);
+}
+
+TEST_F(CheckOutline, Drift) {
+  outline_->drifts = true;
+  outline_->drift_px = 0.1;
+  EXPECT_TRUE(check_outline(made_.checked)[1].passed);
+  outline_->drift_px = 0.2;
+  const CheckItem item = check_outline(made_.checked)[1];
+  EXPECT_FALSE(item.passed);
+  EXPECT_EQ(item.worst, 0.2);
+  EXPECT_EQ(item.advice, "camera moved");
+  // A board moves along with the camera.
+  made_.checked.shared_pose.reset();
+  EXPECT_EQ(check_outline(made_.checked).size(), 1U);
+}
+
+TEST_F(CheckOutline, NoneFound) {
+  outline_->shots_found = 0;
+  outline_->shots[0].found = false;
+  outline_->diagnosis.agrees = false;
+  const std::vector<CheckItem> items = check_outline(made_.checked);
+  ASSERT_EQ(items.size(), 1U);
+  EXPECT_TRUE(items[0].details.empty());
+  EXPECT_TRUE(items[0].passed);
+}
+
+}  // namespace
+}  // namespace scattermeter::apps

@@ -1,0 +1,76 @@
+#include "apps/checking/checked_rig.h"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/input_error.h"
+#include "tests/fixtures/apps/small_rig.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(CheckedRig, OpensTheShotsAndFitsThem) {
+  SmallRig files;
+  files.keep_shots("PE_cube");
+  files.simulate();
+  write_file(files.shots() + "/notes.txt", std::string("x"));
+  const Rig rig = read_rig(files.rig());
+  CheckOptions options;
+  options.draw_shot = [](const capture::RawFrame& frame, const CameraView& view, const RayScene&,
+                         const SampleMap& map) {
+    return std::to_string(frame.width_px) + " " + std::to_string(view.intrinsics.width_px) + " " +
+           std::to_string(map.width > 100);
+  };
+  const CheckedRig checked = open_checked_rig(rig, files.shots(), options);
+  EXPECT_THAT(checked.notes, ElementsAre("notes.txt: not in the rig's list of shots, skipped"));
+  EXPECT_EQ(checked.folder, files.shots());
+  ASSERT_EQ(checked.shots.size(), 2U);
+  EXPECT_EQ(checked.shots[1].stated->file, "PE_cube_2.dng");
+  ASSERT_TRUE(checked.shared_pose.has_value());
+  EXPECT_EQ(checked.shared_pose->inlier.size(), 8U);
+  EXPECT_FALSE(checked.lens.has_value());
+  EXPECT_TRUE(checked.leds.empty());
+  ASSERT_TRUE(checked.outline.has_value());
+  EXPECT_EQ(checked.outline->shots_found, 2U);
+  ASSERT_EQ(checked.frames.size(), 2U);
+  for (const CheckedFrame& frame : checked.frames) {
+    EXPECT_EQ(frame.black_counts, (std::array<double, 4>{64, 64, 64, 64}));
+    EXPECT_GT(frame.background.blocks, 50U);
+    EXPECT_NEAR(frame.background.median_counts[1], 0.0, 0.5);  // nothing is lit but the cube
+    EXPECT_FALSE(frame.noise[0].empty());
+    EXPECT_EQ(frame.png, "484 484 1");
+  }
+  EXPECT_EQ(checked.fit.tasks.size(), 3U);
+  EXPECT_EQ(checked.fit.likeness.size(), 2U);
+  // The shots shall say where the LEDs stand: within 2 mm, though the rig says exactly.
+  EXPECT_EQ(checked.rig.scene.light("led1").led()->position_std_mm, 0.0);
+  EXPECT_EQ(checked.geometry->rig.scene.light("led1").led()->position_std_mm, 2.0);
+}
+
+TEST(CheckedRig, RefusesWhatMeasureRefuses) {
+  SmallRig files;
+  files.keep_shots("PE_cube");
+  std::filesystem::create_directories(files.shots());
+  const Rig rig = read_rig(files.rig());
+  EXPECT_THROW(open_checked_rig(rig, files.shots(), {}), InputError);
+}
+
+TEST(CheckedRig, NamesAShotAndItsChannel) {
+  Rig rig;
+  rig.scene.shots.resize(2);
+  rig.scene.shots[1].file = "b.dng";
+  const CheckedRig checked{rig, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  EXPECT_EQ(checked.of_shot(1, 2.5).where, "b.dng");
+  EXPECT_EQ(checked.of_shot(1, 2.5).value, 2.5);
+  EXPECT_EQ(checked.of_shot(1, 2.5).shot_idx, 1U);
+  EXPECT_EQ(checked.of_channel(1, 2, 2.5).where, "b.dng B");
+  EXPECT_THROW(checked.of_shot(2, 0.0), std::out_of_range);
+}
+
+}  // namespace
+}  // namespace scattermeter::apps

@@ -1,0 +1,105 @@
+#include "apps/simulation/simulate.h"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apps/instrument/open_objects.h"
+#include "apps/simulation/virtual_shots.h"
+#include "calib/pose/shot_pose.h"
+#include "capture/raw/raw_reader.h"
+#include "tests/fixtures/apps/small_rig.h"
+#include "tests/fixtures/apps/yaml_text.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class Simulate : public ::testing::Test {
+ protected:
+  Simulate() {
+    files_.keep_shots("PE_cube");
+    rig_ = read_rig(files_.rig());
+  }
+  std::vector<std::string> made(const SimulateOptions& options = {}) const {
+    return simulate(rig_, files_.shots(), options).paths;
+  }
+  std::string file(const std::string& name) const { return files_.shots() + "/" + name; }
+  SmallRig files_;
+  Rig rig_;
+};
+
+TEST_F(Simulate, FilesAreTheVirtualShots) {
+  SimulateOptions options;
+  options.seed = 7;
+  rig_.scene.shots[1].more_files = {"second.dng"};
+  rig_.scene.shots[1].exposure_s = 0.05;
+  rig_.scene.shots[1].more_exposures_s = {0.01};
+  EXPECT_THAT(made(options),
+              ElementsAre(file("PE_cube_1.dng"), file("PE_cube_2.dng"), file("second.dng")));
+  const ObjectScenes scenes = open_objects(rig_);
+  const VirtualShots shots(rig_, scenes, {.noise = true});
+  EXPECT_TRUE(capture::read_raw(file("PE_cube_1.dng")).samples == shots.frame(0, 7).samples);
+  EXPECT_TRUE(capture::read_raw(file("PE_cube_2.dng")).samples == shots.frame(1, 7).samples);
+  const capture::RawFrame second = capture::read_raw(file("second.dng"));
+  EXPECT_TRUE(second.samples == shots.frame(1, 7, 1).samples);
+  EXPECT_NEAR(second.exposure_s, 0.01, 1e-6);
+}
+
+// Shots of the scene and of the calibrations, either of which may be left out.
+TEST_F(Simulate, PartsOfTheRig) {
+  rig_.scene.shots.resize(1);
+  calib::BoardShots& board = rig_.calibration.camera.emplace();
+  board.board = {calib::BoardKind::kChessboard, 6, 5, 5.0, 0.0, ""};
+  board.shots.resize(1);
+  board.shots[0].file = "board.dng";
+  board.shots[0].viewpoint = {{15, 12, 200}, {15, 12, 0}, {0, 1, 0}};
+  SimulateOptions options;
+  EXPECT_THAT(made(options), ElementsAre(file("PE_cube_1.dng"), file("board.dng")));
+  options.scene = false;
+  EXPECT_THAT(made(options), ElementsAre(file("board.dng")));
+  options.calibration = false;
+  EXPECT_TRUE(made(options).empty());
+  options.scene = true;
+  EXPECT_THAT(made(options), ElementsAre(file("PE_cube_1.dng")));
+}
+
+// The board has a shot of its own and is in no other: the pose that it gives is the truth.
+TEST_F(Simulate, BoardInAShotOfItsOwn) {
+  rig_.scene.shots.resize(1);
+  calib::CharucoBoard board;
+  board.squares_x = 10;
+  board.squares_y = 8;
+  board.square_mm = 6.0;
+  board.marker_mm = 4.5;
+  board.dictionary = "DICT_4X4_100";
+  board.world_from_board.translation_mm = {-30, -22, 0};
+  rig_.pose.points.clear();
+  rig_.pose.charuco = board;
+  rig_.pose.board_shot = "board.dng";
+  EXPECT_THAT(refusal_of([&] { made(); }), HasSubstr("truth.pose: is missing"));
+  rig_.truth.pose = CameraPlacement{{0, -100, 150}, {0, 0, 9}};
+  SimulateOptions options;
+  options.noise = false;
+  EXPECT_THAT(made(options), ElementsAre(file("board.dng"), file("PE_cube_1.dng")));
+  const capture::RawFrame frame = capture::read_raw(file("board.dng"));
+  EXPECT_TRUE(frame.samples == board_frame(rig_).samples);
+  // A corner of the frame of the cube's shot, where the board would be, is black.
+  EXPECT_EQ(capture::read_raw(file("PE_cube_1.dng")).at(60, 160), 64);
+  const PoseResult pose = calib::pose_from_board(rig_.scene, rig_.pose, frame, "board.dng");
+  EXPECT_EQ(pose.status, PoseStatus::kOk);
+  EXPECT_NEAR(
+      (inverse(pose.camera_from_world).translation_mm - Eigen::Vector3d(0, -100, 150)).norm(), 0.0,
+      0.5);
+}
+
+TEST_F(Simulate, AFolderThatCannotBeMade) {
+  write_file(files_.shots(), std::string("a file"));
+  EXPECT_THAT(refusal_of([&] { made(); }), HasSubstr(files_.shots()));
+}
+
+}  // namespace
+}  // namespace scattermeter::apps
