@@ -19,10 +19,10 @@ using testing::ElementsAre;
 constexpr int kFrameWidth = 400;
 constexpr int kFrameHeight = 300;
 
-using Scene = float (*)(int x, int y);
+using LevelAt = float (*)(int x, int y);
 
 struct Shot {
-  Scene scene;
+  LevelAt scene;
   SensorModel sensor{};
   int ceiling_counts = 65535;  // the body saturates here, below its nominal white
   int ceiling_phase = -1;      // only this phase; -1: all
@@ -77,7 +77,7 @@ float facets(int x, int y) {
 // A uniform face above a slope of half a count per sample of a phase: every second difference is 1.
 float slope(int x, int y) { return y < 100 ? 3200.0F : 3000.0F + 0.25F * static_cast<float>(x); }
 
-constexpr Scene kScenes[] = {flat, wedge, dome, chart, face, facets, slope};
+constexpr LevelAt kScenes[] = {flat, wedge, dome, chart, face, facets, slope};
 
 TEST(ClipLevels, WhiteLevelOfTheFile) {
   RawFrame frame;
@@ -131,7 +131,7 @@ TEST(ClipLevels, PileOfATwelveBitBodyInAFourteenBitFile) {
 
 TEST(ClipLevels, NoiseAloneIsNoPile) {
   // 7 scenes x 8 gains and curves x 4 seeds x 4 phases; see the rule for its false alarms.
-  for (const Scene scene : kScenes) {
+  for (const LevelAt scene : kScenes) {
     // 100 electrons per count leave so little noise that hundreds of samples share the top level.
     for (const double gain : {2.0, 6.0, 40.0, 100.0}) {
       for (std::uint64_t seed = 0; seed < 4; ++seed) {
@@ -158,7 +158,7 @@ TEST(ClipLevels, CombIsNoPile) {
 }
 
 TEST(ClipLevels, FrameComputedWithoutNoiseIsNoPile) {
-  for (const Scene scene : kScenes) {
+  for (const LevelAt scene : kScenes) {
     Shot shot{scene, without_noise()};
     EXPECT_THAT(clip_levels(frame_of(shot)), Each(4095));
     shot.sensor.tone_curve = nef_lossy_curve();
