@@ -63,7 +63,7 @@ class FromScratch : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(FromScratch, CalibratesChecksAndMeasures) {
+TEST_F(FromScratch, CalibratesMeasuresAndNamesWhatChanged) {
   simulate();
   calibrate();
   const Answer checked = check();
@@ -104,12 +104,8 @@ TEST_F(FromScratch, CalibratesChecksAndMeasures) {
   for (const char* file : {"camera.yaml", "radiance.yaml", "led1.yaml", "led2.yaml"}) {
     EXPECT_THAT(inputs, HasSubstr(file));
   }
-}
 
-// What has changed since the calibration is named.
-TEST_F(FromScratch, CheckNamesWhatChanged) {
-  simulate();
-  calibrate();
+  // What has changed since the calibration is named.
   const std::string truth = slurp((*this)("truth.yaml"));
   const auto named = [&](const std::string& what) {
     const Answer a = check();

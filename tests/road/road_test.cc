@@ -308,10 +308,10 @@ TEST(Road, MisplacedLedIsInTheUncertainty) {
     honest = replaced(honest, axis, std::string("position_std_mm: 0.5, ") + axis);
   }
   rig.write(nominal);
-  rig.measure();
+  rig.measure({"--model", "dipole"});
   const Json blind = Json::parse(rig.result())["results"];
   rig.write(honest);
-  EXPECT_EQ(rig.measure().status, 0);
+  EXPECT_EQ(rig.measure({"--model", "dipole"}).status, 0);
   const Json aware = Json::parse(rig.result())["results"];
   for (std::size_t c = 0; c < 3; ++c) {
     const auto off = [&](const Json& r, const char* key, double truth) {

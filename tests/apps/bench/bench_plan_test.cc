@@ -1,24 +1,30 @@
 #include "apps/bench/bench_plan.h"
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tests/fixtures/draws.h"
+
 namespace scattermeter::apps {
 namespace {
 
-// Twenty rigs drawn at random: what `plan` forecasts is what measuring states.
-TEST(BenchPlan, TwentyRigs) {
+// Rigs drawn at random: what `plan` forecasts is what measuring states.
+TEST(BenchPlanStatistics, RandomRigs) {
   PlanBenchOptions options;
+  options.rigs = test_support::draws(5, 20);
   options.image_width_px = 320;
 
   const std::vector<PlanBenchRow> rows = bench_plan(options);
-  ASSERT_EQ(rows.size(), 60U);
+  ASSERT_EQ(rows.size(), 3U * static_cast<std::size_t>(options.rigs));
   const PlanBenchRatios ratios = plan_bench_ratios(rows);
-  EXPECT_GT(ratios.n, 80U);  // most of them answer
+  EXPECT_GT(ratios.n, rows.size() * 4U / 3U);  // most are measured, two coefficients each
+  std::printf("forecast over stated: median %.3f, %.2f to %.2f of %zu\n", ratios.median,
+              ratios.least, ratios.most, ratios.n);
   EXPECT_GT(ratios.median, 0.9);
   EXPECT_LT(ratios.median, 1.1);
   EXPECT_GT(ratios.least, 0.7);

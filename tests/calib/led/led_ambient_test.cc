@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 #include <Eigen/Cholesky>
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "tests/fixtures/calib/led_scenes.h"
+#include "tests/fixtures/draws.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -62,27 +64,26 @@ Spread place_spread(const LedSceneOptions& options, AmbientModel model, std::siz
   return out;
 }
 
-void record(const std::string& name, const Spread& s) {
-  ::testing::Test::RecordProperty(name + "_mean_mm", std::to_string(s.mean_mm.norm()));
-  ::testing::Test::RecordProperty(name + "_rms_mm", std::to_string(s.sampled_std_mm));
-  ::testing::Test::RecordProperty(name + "_predicted_mm", std::to_string(s.predicted_std_mm));
-  ::testing::Test::RecordProperty(name + "_mahalanobis", std::to_string(s.mahalanobis));
+void print(const std::string& name, const Spread& s) {
+  std::printf("%s: mean %.4f mm off, rms %.4f mm, predicted %.4f mm, chi-square %.2f of 1\n",
+              name.c_str(), s.mean_mm.norm(), s.sampled_std_mm, s.predicted_std_mm, s.mahalanobis);
 }
 
-TEST(LedAmbient, PlaceStaysUnbiasedAndAsUncertainAsItSays) {
-  constexpr std::size_t kDraws = 60;
+TEST(LedAmbientStatistics, PlaceStaysUnbiasedAndAsUncertainAsItSays) {
+  const int n = test_support::draws(15, 60);
   for (const bool spheres : {true, false}) {
     LedSceneOptions options = five_percent();
     options.spheres = spheres;
-    const Spread s = place_spread(options, AmbientModel::kWhereSeen, kDraws);
-    record(spheres ? "spheres" : "planes", s);
+    const Spread s = place_spread(options, AmbientModel::kWhereSeen, static_cast<std::size_t>(n));
+    print(spheres ? "spheres" : "planes", s);
     EXPECT_EQ(s.refused, 0U);
     // Three coordinates of 60 draws: chi^2 of 180 degrees of freedom, scattering by 10 %.
-    EXPECT_NEAR(s.mahalanobis, 1.0, 0.35) << spheres;
-    EXPECT_NEAR(s.predicted_std_mm / s.sampled_std_mm, 1.0, 0.2) << spheres;
+    EXPECT_NEAR(s.mahalanobis, 1.0, test_support::limit_at(0.35, 60, n)) << spheres;
+    EXPECT_NEAR(s.predicted_std_mm / s.sampled_std_mm, 1.0, test_support::limit_at(0.2, 60, n))
+        << spheres;
     // Told that there is none, the place is off by far more than it says, or nothing is said.
     const Spread blind = place_spread(options, AmbientModel::kNone, 8);
-    record(spheres ? "blind_spheres" : "blind_planes", blind);
+    print(spheres ? "blind_spheres" : "blind_planes", blind);
     EXPECT_TRUE(blind.refused == 8 || blind.mahalanobis > 2.0 * s.mahalanobis)
         << blind.mahalanobis << " " << blind.mean_mm.transpose();
   }

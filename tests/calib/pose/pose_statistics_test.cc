@@ -15,11 +15,12 @@
 #include "core/view/camera_view.h"
 #include "tests/fixtures/apps/charuco_rig.h"
 #include "tests/fixtures/calib/pose_scenes.h"
+#include "tests/fixtures/draws.h"
 
 namespace scattermeter::apps {
 namespace {
 
-constexpr int kDraws = 50;
+const int kDraws = test_support::draws(10, 50);
 constexpr double kMarkStd_px = 0.15;
 
 // Errors of (rotation in rad, translation in mm, both in camera axes) over the draws.
@@ -51,14 +52,14 @@ class PoseStatistics {
       const double ratio = 1 / std::sqrt((squares_[k] - n_ * mean * mean) / (n_ - 1));
       log_ratio += std::log(ratio) / 6;
       EXPECT_LT(std::abs(mean), 3.5 / ratio / std::sqrt(n_)) << k;
-      EXPECT_NEAR(ratio, 1, 0.35) << k;
+      EXPECT_NEAR(ratio, 1, test_support::limit_at(0.35, 50, kDraws)) << k;
       std::printf("%s %d: mean %+.2f stated deviations, predicted/sampled %.2f\n", name_.c_str(), k,
                   mean, ratio);
     }
     std::printf("%s: centre %.4f mm off (rms), %.4f stated; chi-square %.2f of 6; all %.2f\n",
                 name_.c_str(), std::sqrt(center_mm_ / n_), std::sqrt(stated_mm_ / n_),
                 mahalanobis_ / n_, std::exp(log_ratio));
-    EXPECT_NEAR(std::exp(log_ratio), 1, 0.2);
+    EXPECT_NEAR(std::exp(log_ratio), 1, test_support::limit_at(0.2, 50, kDraws));
   }
 
  private:
