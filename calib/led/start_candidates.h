@@ -14,7 +14,8 @@ namespace scattermeter::calib {
 // from highlights, since shading alone tells distance from power only weakly, the same at 0.75 and
 // 1.35 times the distance as well. Exponents are at least 0.5; intensities make the median cell of
 // each lit channel right, and a start is left out where the LED would not light half of a channel's
-// cells. Channels of no intensity keep it. At least one datum must be in use.
+// cells. A channel of no intensity keeps none and must have no cell in use. At least one datum must
+// be in use.
 std::vector<Led> start_candidates(const LedScene& scene, const LedSolve& what, const Led& led,
                                   bool position_is_known);
 

@@ -17,7 +17,7 @@ struct RadianceSteps {
   const RadianceFrames& open;
   capture::RadianceCalibration& calibration;
   // Of the flats, by find_response_and_noise().
-  std::vector<Block> blocks;
+  std::vector<Block> blocks = {};
   struct Light {
     double per_s = 0;  // light of a block, counts a stated second; 0: unknown
     double relative_variance = 0;

@@ -52,11 +52,11 @@ TEST(CellMean, NoneOfTooLittle) {
   ASSERT_TRUE(robust_cell_mean(samples, 0.2));
   samples.resize(kLeastCellSamples - 1);
   EXPECT_FALSE(robust_cell_mean(samples, 0.2));
-  // A quarter dust, where a fifth is the limit.
-  samples = trend(8, 0.01, 4);
-  for (std::size_t i = 0; i < 16; ++i) samples[4 * i].signal_counts += 30.0F;
-  EXPECT_FALSE(robust_cell_mean(samples, 0.2));
-  EXPECT_TRUE(robust_cell_mean(samples, 0.3));
+  // Five of 121 are dust.
+  samples = trend(11, 0.01, 4);
+  for (std::size_t i = 0; i < 5; ++i) samples[20 * i].signal_counts += 30.0F;
+  EXPECT_FALSE(robust_cell_mean(samples, 0.04));
+  EXPECT_TRUE(robust_cell_mean(samples, 0.05));
 }
 
 }  // namespace

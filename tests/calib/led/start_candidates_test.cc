@@ -46,13 +46,16 @@ TEST(StartCandidates, IntensitiesMakeTheMedianCellRight) {
   const LedScene scene = draw_led_scene(true_led(), without_errors(), 1);
   Led led = true_led();
   led.intensity_W_per_sr = {7.0, 1e-3, 0.0};
-  const std::vector<Led> starts = start_candidates(scene, all_cells(scene), led, true);
+  LedSolve lit = all_cells(scene);
+  for (std::size_t i = 0; i < scene.cells.size(); ++i) lit.use_cell[i] = scene.cells[i].channel < 2;
+  const std::vector<Led> starts = start_candidates(scene, lit, led, true);
   ASSERT_FALSE(starts.empty());
   // Everything else is the truth: so is then the intensity, to what cells of 5 x 5 points depart
   // from the model's four.
   for (int c = 0; c < 2; ++c) {
     EXPECT_NEAR(starts[0].intensity_W_per_sr[c] / true_led().intensity_W_per_sr[c], 1.0, 1e-4);
   }
+  EXPECT_EQ(starts[0].intensity_W_per_sr[2], 0.0);
 }
 
 TEST(StartCandidates, AnAxisThatPointsAwayAndAnLedBehindThePlaneAreLeftOut) {

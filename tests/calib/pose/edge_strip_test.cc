@@ -84,24 +84,5 @@ TEST(EdgeStrip, SaysWhereThereIsNone) {
   EXPECT_THROW(locate_edge(s, {20, 20}, {2, 0}), std::invalid_argument);
 }
 
-TEST(EdgeStrip, CellsAreMeans) {
-  CfaSamples s = half_plane({1, 0}, 0.2, 1000, 0, nullptr);
-  s.x0 = 1;  // cells count from the frame's corner
-  s.clipped[1 * 41 + 1] = 1;
-  const CfaSamples c = cell_means(s, 4);
-  EXPECT_EQ(c.x0, 1);
-  EXPECT_EQ(c.y0, 0);
-  EXPECT_EQ(c.width, 9);
-  EXPECT_EQ(c.height, 10);
-  EXPECT_EQ(c.channel(3, 4), 1);
-  double mean = 0;
-  for (int y = 4; y < 8; ++y) {
-    for (int x = 3; x < 7; ++x)
-      mean += static_cast<double>(s.signal_counts[static_cast<std::size_t>(y * 41 + x)]) / 16;
-  }
-  EXPECT_NEAR(static_cast<double>(c.signal_counts[9]), mean, 1e-3);
-  EXPECT_THROW(cell_means(s, 3), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace scattermeter::calib

@@ -39,33 +39,6 @@ TEST_F(SilhouetteTest, IsFoundFromAfar) {
   EXPECT_LT(s.line_std_px, 0.2);
 }
 
-// With points that agree: nearer to the truth than they, and no more certain than it is true.
-TEST_F(SilhouetteTest, GoesWithAPose) {
-  PoseResult prior;
-  prior.status = PoseStatus::kOk;
-  prior.covariance.setZero();
-  prior.covariance.diagonal().head<3>().setConstant(std::pow(1e-3, 2));
-  prior.covariance.diagonal().tail<3>().setConstant(std::pow(0.1, 2));
-  const Rigid3d off{Eigen::Quaterniond(Eigen::AngleAxisd(1e-3, Eigen::Vector3d::UnitX())),
-                    {0.1, -0.1, 0.1}};
-  const Rigid3d truth = cube_view();
-  prior.camera_from_world =
-      Rigid3d{off.rotation * truth.rotation, truth.translation_mm + off.translation_mm};
-  const Silhouette s = find_silhouette(shot(truth, 1000, 2), small_lens(), cube_view());
-  ASSERT_EQ(s.status, SilhouetteStatus::kOk) << s.message;
-  const PoseResult both = combine(s, small_lens(), prior);
-  ASSERT_EQ(both.status, PoseStatus::kOk) << both.message;
-  const Eigen::Matrix<double, 6, 1> e = pose_error(both.camera_from_world, truth);
-  for (int i = 0; i < 6; ++i) {
-    EXPECT_LT(both.covariance(i, i), prior.covariance(i, i));
-    EXPECT_LT(std::abs(e[i]), 4 * std::sqrt(both.covariance(i, i))) << i;
-  }
-  EXPECT_LT(both.rms_px, 0.2);
-  // Against points that contradict it.
-  prior.camera_from_world.translation_mm += Eigen::Vector3d(2, 0, 0);
-  EXPECT_EQ(combine(s, small_lens(), prior).status, PoseStatus::kNoConsensus);
-}
-
 TEST_F(SilhouetteTest, SaysWhatIsMissing) {
   const Silhouette dark = find_silhouette(shot(cube_view(), 0, 3), small_lens(), cube_view());
   EXPECT_EQ(dark.status, SilhouetteStatus::kNotFound);
