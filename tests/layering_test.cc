@@ -280,21 +280,6 @@ const std::set<std::string>& tested_by_the_road() {
       "calib/led/led_check",
       "calib/led/led_shots",
       "calib/pose/shot_pose",
-      "core/estimation/channel_image",
-      "core/estimation/channel_result",
-      "core/estimation/channel_rows",
-      "core/estimation/channel_simulation",
-      "core/estimation/channel_weights",
-      "core/estimation/dipole_estimator",
-      "core/estimation/estimation",
-      "core/estimation/light_sensitivity",
-      "core/estimation/material_channel",
-      "core/estimation/paper_method",
-      "core/estimation/sensitivities",
-      "core/estimation/transport_estimator",
-      "core/estimation/transport_round",
-      "core/estimation/transport_verdict",
-      "core/mesh/bodies",
   };
   return names;
 }

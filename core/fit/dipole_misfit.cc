@@ -21,6 +21,49 @@ void DipoleMisfitOptions::Check() const {
   }
 }
 
+namespace {
+
+// Departures of log R that the test looks for: splines, of a normal prior.
+struct Departures {
+  Eigen::MatrixXd on_knots;   // of a parameter of unit prior
+  Eigen::MatrixXd draws;      // the spline's parameters, of the same
+  Eigen::MatrixXd at_breaks;  // of the spline's parameters
+};
+
+Departures sought_departures(const DistanceKnots& knots, double sigma_t_per_mm, double size) {
+  // Breaks: two an octave of d^2 + z_r^2.
+  const Eigen::VectorXd t = log_squared_depth(knots, 1.0 / sigma_t_per_mm);
+  const int intervals =
+      std::max(2, static_cast<int>(std::ceil((t[t.size() - 1] - t[0]) * 2.0 / std::numbers::ln2)));
+  std::vector<double> breaks;
+  for (int i = 0; i <= intervals; ++i) {
+    breaks.push_back(t[0] + (t[t.size() - 1] - t[0]) * i / intervals);
+  }
+  const LogSpline spline(breaks);
+  const Eigen::Index n = spline.size();
+  Eigen::MatrixXd basis(t.size(), n);
+  for (Eigen::Index i = 0; i < t.size(); ++i) basis.row(i) = spline.row(t[i]);
+  // delta at the breaks and its second differences, each of the given size.
+  Eigen::MatrixXd prior(2 * intervals, n);
+  for (int i = 0; i <= intervals; ++i) {
+    prior.row(i) = spline.row(breaks[static_cast<std::size_t>(i)]);
+  }
+  for (int i = 1; i < intervals; ++i) {
+    prior.row(intervals + i) = prior.row(i - 1) - 2.0 * prior.row(i) + prior.row(i + 1);
+  }
+  const Eigen::MatrixXd at_breaks = prior.topRows(intervals + 1);
+  // The spline has two parameters more than breaks: slopes at the ends, which the prior does not
+  // see; they are left at what the natural size of theta allows.
+  prior.conservativeResize(prior.rows() + n, n);
+  prior.bottomRows(n).setIdentity();
+  const Eigen::MatrixXd draws =
+      size * HouseholderSolver(prior).r().triangularView<Eigen::Upper>().solve(
+                 Eigen::MatrixXd::Identity(n, n));
+  return {basis * draws, draws, at_breaks};
+}
+
+}  // namespace
+
 DipoleMisfit dipole_misfit(const RecoveredReflectance& recovered,
                            const std::vector<Nuisance>& nuisances, const DistanceKnots& knots,
                            const Medium& medium, double scale, const DipoleMisfitOptions& options) {
@@ -42,35 +85,7 @@ DipoleMisfit dipole_misfit(const RecoveredReflectance& recovered,
   const DipoleCurve dipole = dipole_curve(knots, std::log(sigma_t), medium.sigma_a_per_mm / sigma_t,
                                           medium.eta_int_over_ext);
 
-  // Breaks: two an octave of d^2 + z_r^2.
-  const Eigen::VectorXd t = log_squared_depth(knots, 1.0 / sigma_t);
-  const int intervals =
-      std::max(2, static_cast<int>(std::ceil((t[t.size() - 1] - t[0]) * 2.0 / std::numbers::ln2)));
-  std::vector<double> breaks;
-  for (int i = 0; i <= intervals; ++i) {
-    breaks.push_back(t[0] + (t[t.size() - 1] - t[0]) * i / intervals);
-  }
-  const LogSpline spline(breaks);
-  const Eigen::Index n = spline.size();
-  Eigen::MatrixXd basis(t.size(), n);
-  for (Eigen::Index i = 0; i < t.size(); ++i) basis.row(i) = spline.row(t[i]);
-  // delta at the breaks and its second differences, each of the sought size.
-  Eigen::MatrixXd prior(2 * intervals, n);
-  for (int i = 0; i <= intervals; ++i) {
-    prior.row(i) = spline.row(breaks[static_cast<std::size_t>(i)]);
-  }
-  for (int i = 1; i < intervals; ++i) {
-    prior.row(intervals + i) = prior.row(i - 1) - 2.0 * prior.row(i) + prior.row(i + 1);
-  }
-  const Eigen::MatrixXd at_breaks = prior.topRows(intervals + 1);
-  // The spline has two parameters more than breaks: slopes at the ends, which the prior does not
-  // see; they are left at what the natural size of theta allows.
-  prior.conservativeResize(prior.rows() + n, n);
-  prior.bottomRows(n).setIdentity();
-  const Eigen::MatrixXd draws =
-      options.sought_departure * HouseholderSolver(prior).r().triangularView<Eigen::Upper>().solve(
-                                     Eigen::MatrixXd::Identity(n, n));
-
+  const Departures sought = sought_departures(knots, sigma_t, options.sought_departure);
   // The image's rows, and the scale's prior below them.
   const bool scale_moves = options.scale.relative_std > 0.0;
   const Eigen::Index rows = image.data.size();
@@ -84,8 +99,8 @@ DipoleMisfit dipole_misfit(const RecoveredReflectance& recovered,
     own.col(2).head(rows) = image.kernel * (scale * dipole.r);
     own(rows, 2) = inverse_std;
   }
-  Eigen::MatrixXd freed = Eigen::MatrixXd::Zero(rows + 1, n);
-  freed.topRows(rows) = image.kernel * ((scale * dipole.r).asDiagonal() * (basis * draws));
+  Eigen::MatrixXd freed = Eigen::MatrixXd::Zero(rows + 1, sought.on_knots.cols());
+  freed.topRows(rows) = image.kernel * ((scale * dipole.r).asDiagonal() * sought.on_knots);
   if (!residual.allFinite() || !own.allFinite() || !freed.allFinite()) {
     out.reasons.push_back("there is no dipole to compare with");
     return out;
@@ -109,8 +124,8 @@ DipoleMisfit dipole_misfit(const RecoveredReflectance& recovered,
   out.dof = static_cast<int>(dof);
   out.p_value = chi_square_tail(out.chi2_drop, static_cast<double>(dof));
   const Eigen::VectorXd theta =
-      draws * (svd.v.leftCols(dof) * along.cwiseQuotient(svd.values.head(dof)));
-  const Eigen::VectorXd departure = at_breaks * theta;
+      sought.draws * (svd.v.leftCols(dof) * along.cwiseQuotient(svd.values.head(dof)));
+  const Eigen::VectorXd departure = sought.at_breaks * theta;
   out.log_departure = std::sqrt(departure.squaredNorm() / static_cast<double>(departure.size()));
   return out;
 }

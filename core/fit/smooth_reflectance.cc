@@ -126,6 +126,56 @@ std::vector<Smoothed> smooth(LogLinearProblem& problem, const Eigen::MatrixXd& r
   return tried;
 }
 
+// By the probabilities of the lambdas. theta_1 ... >= 0 of each makes the mean fall as well.
+struct MeanOverLambda {
+  Eigen::VectorXd theta;
+  double log10_lambda = 0;
+  double effective_parameters = 0;
+  bool converged = true;
+};
+
+MeanOverLambda mean_over_lambda(const std::vector<Smoothed>& tried) {
+  MeanOverLambda mean;
+  mean.theta = Eigen::VectorXd::Zero(tried.front().fit.theta.size());
+  for (const Smoothed& s : tried) {
+    mean.theta += s.probability * s.fit.theta;
+    mean.log10_lambda += s.probability * s.log10_lambda;
+    mean.effective_parameters += s.probability * s.effective_parameters;
+    mean.converged = mean.converged && (s.fit.converged || s.probability < 0.01);
+  }
+  return mean;
+}
+
+// Over which distances a knot averages: mean distance from it, by the magnitudes of d(log r there)
+// / d(log r at every DistanceKnot). f: the knot's row of the basis.
+double spread_mm(const Eigen::RowVectorXd& f, const Smoothed& best,
+                 const MarginalInformation& image, const Eigen::VectorXd& r_per_mm2,
+                 const DistanceKnots& knots, double distance_mm) {
+  const Eigen::ArrayXd average =
+      ((((f * best.inverse_root) * best.inverse_root.transpose()) * best.jacobian.transpose()) *
+       image.kernel)
+          .transpose()
+          .array()
+          .abs() *
+      r_per_mm2.array();
+  double spread = 0.0;
+  for (Eigen::Index j = 0; j < average.size(); ++j) {
+    spread += average[j] * std::abs(knots.knots_mm()[static_cast<std::size_t>(j)] - distance_mm);
+  }
+  return spread / std::max(average.sum(), 1e-300);
+}
+
+void add_reasons(bool converged, const ScalePrior& scale, SmoothReflectance& out) {
+  if (!converged) out.reasons.push_back("the fit of the smooth reflectance did not converge");
+  if (std::none_of(out.knots.begin(), out.knots.end(),
+                   [](const ReflectanceKnot& k) { return k.determined; })) {
+    out.reasons.push_back("these shots do not determine the reflectance at any distance");
+  }
+  if (!std::isfinite(scale.relative_std)) {
+    out.reasons.push_back("the scale is free: only the shape of the reflectance is known");
+  }
+}
+
 }  // namespace
 
 void SmoothReflectanceOptions::Check() const {
@@ -174,18 +224,10 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
   const std::vector<Smoothed> tried =
       smooth(problem, penalty_root(spline, problem.basis, t), start, recovered.floor_chi2, rows);
 
-  // Means over lambda. theta_1 ... >= 0 of each makes the mean fall as well.
-  Eigen::VectorXd theta = Eigen::VectorXd::Zero(spline.size());
-  double log10_lambda = 0.0;
-  bool converged = true;
-  for (const Smoothed& s : tried) {
-    theta += s.probability * s.fit.theta;
-    log10_lambda += s.probability * s.log10_lambda;
-    out.effective_parameters += s.probability * s.effective_parameters;
-    converged = converged && (s.fit.converged || s.probability < 0.01);
-  }
-  out.smoothing_weight = std::pow(10.0, log10_lambda);
-  out.r_per_mm2 = (problem.basis * theta).array().exp();
+  const MeanOverLambda mean = mean_over_lambda(tried);
+  out.effective_parameters = mean.effective_parameters;
+  out.smoothing_weight = std::pow(10.0, mean.log10_lambda);
+  out.r_per_mm2 = (problem.basis * mean.theta).array().exp();
   out.reduced_chi2 =
       ((image.kernel * out.r_per_mm2 - image.data).squaredNorm() + recovered.floor_chi2) /
       std::max(1.0, rows - out.effective_parameters);
@@ -204,39 +246,19 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
     double variance = (f * held_moves).squaredNorm();
     for (const Smoothed& s : tried) {
       variance += s.probability * (inflation * (f * s.inverse_root).squaredNorm() +
-                                   std::pow(f.dot(s.fit.theta - theta), 2));
+                                   std::pow(f.dot(s.fit.theta - mean.theta), 2));
     }
     knot.shape_log_std = std::sqrt(variance);
     knot.log_std = std::hypot(knot.shape_log_std, options.scale.relative_std);
     knot.low95_per_mm2 = knot.r_per_mm2 * std::exp(-1.96 * knot.log_std);
     knot.high95_per_mm2 = knot.r_per_mm2 * std::exp(1.96 * knot.log_std);
-    // d(log r here) / d(log r at every DistanceKnot).
-    const Eigen::ArrayXd average =
-        ((((f * best.inverse_root) * best.inverse_root.transpose()) * best.jacobian.transpose()) *
-         image.kernel)
-            .transpose()
-            .array()
-            .abs() *
-        out.r_per_mm2.array();
-    double spread = 0.0;
-    for (Eigen::Index j = 0; j < average.size(); ++j) {
-      spread +=
-          average[j] * std::abs(knots.knots_mm()[static_cast<std::size_t>(j)] - knot.distance_mm);
-    }
-    knot.spread_mm = spread / std::max(average.sum(), 1e-300);
+    knot.spread_mm = spread_mm(f, best, image, out.r_per_mm2, knots, knot.distance_mm);
     knot.determined = k < breaks.information.size() &&
                       breaks.information[k] >= inflation * wanted &&
                       knot.shape_log_std <= options.max_log_std;
     out.knots.push_back(knot);
   }
-  if (!converged) out.reasons.push_back("the fit of the smooth reflectance did not converge");
-  if (std::none_of(out.knots.begin(), out.knots.end(),
-                   [](const ReflectanceKnot& k) { return k.determined; })) {
-    out.reasons.push_back("these shots do not determine the reflectance at any distance");
-  }
-  if (!std::isfinite(options.scale.relative_std)) {
-    out.reasons.push_back("the scale is free: only the shape of the reflectance is known");
-  }
+  add_reasons(mean.converged, options.scale, out);
   return out;
 }
 
