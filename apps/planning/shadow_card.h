@@ -1,4 +1,4 @@
-// A card that throws half of an object into shadow.
+// A card that shadows half of an object.
 #pragma once
 
 #include <memory>
