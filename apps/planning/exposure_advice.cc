@@ -52,9 +52,9 @@ std::array<std::vector<float>, kRgb> row_counts(const Rig& rig, const LinearPict
   return out;
 }
 
-double share_of(const std::vector<float>& values, const auto& holds) {
+double share_of(const std::vector<float>& values, const auto& condition) {
   if (values.empty()) return 0.0;
-  return static_cast<double>(std::count_if(values.begin(), values.end(), holds)) /
+  return static_cast<double>(std::count_if(values.begin(), values.end(), condition)) /
          static_cast<double>(values.size());
 }
 
