@@ -34,7 +34,9 @@ TEST(ExpectedMaterials, AreTheTruthWithoutRanges) {
   rig.scene.shots.pop_back();
   const std::vector<TruthMaterials> out = expected_materials(rig, {}, {});
   ASSERT_EQ(out.size(), 1U);
-  EXPECT_EQ(out[0], rig.truth.materials);
+  ASSERT_EQ(out[0].size(), 1U);
+  EXPECT_EQ(out[0].at("known")[2].sigma_s_prime_per_mm, 2.0);
+  EXPECT_EQ(out[0].at("known")[2].sigma_a_per_mm, 0.01);
 }
 
 // The middle is geometric in sigma_s', sqrt(0.5 * 8) = 2, and arithmetic in sigma_a.

@@ -9,8 +9,8 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr double kRadius_mm = 5.0;
-constexpr double kDistance_mm = 1000.0;  // of camera and LED from the sphere
-constexpr double kFocal_px = 4000.0;
+constexpr double kDistance_mm = 8000.0;  // of camera and LED from the sphere
+constexpr double kFocal_px = 32000.0;
 constexpr double kIntensity = 3.0;
 
 // 64 px across, with a sphere of 40 px at the world's origin; it looks along +z.
@@ -29,7 +29,7 @@ Led side_led() {
   led.position_mm = {kDistance_mm, 0, 0};
   led.axis = {-1, 0, 0};
   led.exponent = 1.0;
-  led.radius_mm = 60.0;
+  led.radius_mm = 480.0;
   led.intensity_W_per_sr.setConstant(kIntensity);
   return led;
 }
@@ -74,7 +74,7 @@ TEST(SpherePainter, ReflectsTheLightOfAMirrorSphere) {
   const double base = kMirrorBaseAlbedo * kIntensity / d2 * r2 * 2.0 / (3.0 * std::numbers::pi);
   const double expected = (mirror + base) * kFocal_px * kFocal_px / d2;
   const PaintedLight light = painted({sphere_at({0, 0, 0}, kRadius_mm)}, led);
-  EXPECT_NEAR(light.sum / expected, 1.0, 0.02);
+  EXPECT_NEAR(light.sum / expected, 1.0, 0.01);
 }
 
 // The highlight of a distant lamp at 90 degrees is at r / sqrt(2) from the centre, towards the
