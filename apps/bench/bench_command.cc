@@ -32,11 +32,11 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   const auto common = std::make_shared<BenchOptions>();
   CLI::App* bench = app.add_subcommand(
       "bench",
-      "Measure the program itself on simulated shots whose truth is known.\n"
-      "Prints a table; writes CSV and pictures (PNG, SVG; drawn by gnuplot) to OUT.");
+      "Test the program itself on simulated shots with known truth.\n"
+      "Prints a table; writes CSV files and plots (PNG, SVG; drawn by gnuplot) to OUT.");
   bench->require_subcommand(1);
-  bench->add_option("--out", common->out, "folder for tables and pictures")->capture_default_str();
-  bench->add_option("--seed", common->seed, "of all that is drawn")->capture_default_str();
+  bench->add_option("--out", common->out, "folder for tables and plots")->capture_default_str();
+  bench->add_option("--seed", common->seed, "seed of all random numbers")->capture_default_str();
   bench
       ->add_option("--image-width", common->image_width_px,
                    "width in px of the simulated frames of a rig made in code (default: 968; paper "

@@ -12,20 +12,22 @@ void add_materials_bench(CLI::App& bench, CommandContext& context,
   const auto options = std::make_shared<Options>();
   CLI::App* command = bench.add_subcommand(
       "materials",
-      "Known materials on cube and pyramid under two LEDs, 12-bit raws with noise: is every answer "
-      "right, or refused?\n"
-      "Wrong: verdict ok, but off by more than 3 stated deviations and by more than 1 % (sigma_s') "
-      "or 5 % (sigma_a).\n"
-      "materials.csv: material, channel, eta, truth_*, scale_std (relative, told and drawn), "
-      "*_per_mm (answer), *_std_per_mm (stated), *_z (error in deviations), reduced_chi2, verdict "
-      "(ok, WRONG, refused), reason.");
+      "Known materials on cube and pyramid under two LEDs, 12-bit raws with noise: right, wrong or "
+      "refused?\n"
+      "Wrong: verdict ok, but with an error of more than 3 stated standard deviations and of more "
+      "than "
+      "1 % (sigma_s') or 5 % (sigma_a).\n"
+      "materials.csv: material, channel, eta, truth_*, scale_std (relative, stated and drawn), "
+      "*_per_mm (estimate), *_std_per_mm (stated), *_z (error in standard deviations), "
+      "reduced_chi2, "
+      "verdict (ok, WRONG, refused), reason.");
   command->add_option(
       "--csv", options->csv,
       "list with columns name, channel, eta, sigma_s_prime_per_mm, sigma_a_per_mm (default: four "
       "materials of Jensen et al. 2001)");
   command
       ->add_option("--scale-std", options->bench.scale_stds,
-                   "relative deviations of the scale; all materials at each")
+                   "relative standard deviations of the scale; all materials for each")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   run_if_named(*command, context, [options, common, &context] {

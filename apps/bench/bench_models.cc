@@ -28,10 +28,10 @@ namespace {
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr Quantity kNoQuantity{kMissing, kMissing, kMissing, kMissing};
 
-// One material and channel on one body, in one colour of light.
+// One material and channel on one body, with light in this channel only.
 struct Case {
   Rig truth;
-  Rig told;
+  Rig stated;
   ObjectScenes objects;
   std::size_t channel;
 };
@@ -51,9 +51,9 @@ Case make_case(const std::string& body, const ListedMaterial& material,
       }
     }
   }
-  c.told = c.truth;
-  c.told.scene.camera.responsivity_relative_std = options.scale_std;
-  for (double& r : *c.told.scene.camera.responsivity)
+  c.stated = c.truth;
+  c.stated.scene.camera.responsivity_relative_std = options.scale_std;
+  for (double& r : *c.stated.scene.camera.responsivity)
     r *= std::exp(options.scale_std * scale_error);
   return c;
 }
@@ -61,10 +61,10 @@ Case make_case(const std::string& body, const ListedMaterial& material,
 double measured_patch_mm(const Case& c, const std::string& body) {
   const double distance_mm =
       (c.truth.truth.pose->position_mm - c.objects.at(body).box.center_mm()).norm();
-  return LitObjects(c.told.scene, c.objects, std::nullopt, distance_mm).smallest_patch_mm();
+  return LitObjects(c.stated.scene, c.objects, std::nullopt, distance_mm).smallest_patch_mm();
 }
 
-// Wall and processor time since it was made.
+// Measures wall and processor time since its construction.
 class Clocks {
  public:
   void stop(ModelsBenchRow& row) const {
@@ -112,16 +112,16 @@ void judge(const ChannelResult& result, ModelsBenchRow& row) {
 
 ChannelResult measured(Instrument& instrument, const Case& c, const capture::SampleSource& source) {
   return instrument
-      .measure(capture::shots_from(c.told.scene, capture::all_shots(c.told.scene), source))
+      .measure(capture::shots_from(c.stated.scene, capture::all_shots(c.stated.scene), source))
       .results.at(c.channel);
 }
 
-// Fills the truth's errors; they stay NaN where the dipole answers nothing to the truth's own
-// image.
+// Sets the effect of the shots' Monte Carlo error; it remains NaN if the dipole does not converge
+// on the image of the truth.
 void judge_truth(const VolumeTruth& shots, const Case& c, ModelsBenchRow& row) {
   row.truth_patch_std = shots.patch_std();
   const MeasureOptions options;
-  Instrument instrument(c.told, c.objects, options);
+  Instrument instrument(c.stated, c.objects, options);
   std::vector<double> s, a;
   for (int b = 0; b < shots.batches(); ++b) {
     const Estimate e = measured(instrument, c, shots.disturbed(b)).estimate;
@@ -152,7 +152,7 @@ std::vector<ModelsBenchRow> rows_of_case(const std::string& body, const ListedMa
     }
     VolumeTruthOptions truth_options;
     truth_options.paths = options.paths;
-    // The renderer multiplies it by 1000003; transport's are below 100000.
+    // The renderer multiplies it by 1000003; seeds of transport are below 100000.
     truth_options.seed = seed % 1'000'000'000 + 1;
     if (options.noise) truth_options.noise_seed = noise_seed;
     const VolumeTruth shots(c.truth, c.objects, truth_options);
@@ -166,7 +166,7 @@ std::vector<ModelsBenchRow> rows_of_case(const std::string& body, const ListedMa
       measure_options.estimate.time_limit_s = options.time_limit_s;
       try {
         const Clocks clocks;
-        Instrument instrument(c.told, c.objects, measure_options);
+        Instrument instrument(c.stated, c.objects, measure_options);
         const ChannelResult result = measured(instrument, c, shots.shots());
         clocks.stop(row);
         judge(result, row);
@@ -192,7 +192,8 @@ std::string why_left_out(const Medium& medium, const Box3d& box, double patch_si
       1.0 / std::sqrt(3.0 * medium.sigma_a_per_mm * medium.sigma_t_prime_per_mm());
   const double thinnest_mm = box.size_mm().minCoeff();
   if (mfp_mm > thinnest_mm / 3.0) {
-    return fmt::format("mean free path {:.2f} mm, over a third of {:.0f} mm", mfp_mm, thinnest_mm);
+    return fmt::format("mean free path {:.2f} mm, more than a third of {:.0f} mm", mfp_mm,
+                       thinnest_mm);
   }
   const double resolved_mm =
       std::max(volume_patch_size_mm(mfp_mm, box.size_mm().maxCoeff()), patch_size_mm / 3.0);
@@ -200,7 +201,7 @@ std::string why_left_out(const Medium& medium, const Box3d& box, double patch_si
     return fmt::format("mean free path {:.3f} mm, patches resolve {:.3f} mm", mfp_mm, resolved_mm);
   }
   if (decay_mm < 0.75 * patch_size_mm) {
-    return fmt::format("light dies off within {:.2f} mm, patches are of {:.2f} mm", decay_mm,
+    return fmt::format("light dies off within {:.2f} mm, patches are {:.2f} mm", decay_mm,
                        patch_size_mm);
   }
   return "";
@@ -215,7 +216,7 @@ std::vector<ModelsBenchRow> bench_models(const std::vector<ListedMaterial>& list
   std::vector<ModelsBenchRow> rows;
   ProgressStage stage(options.progress, "models", options.bodies.size() * list.size());
   for (const std::string& body : options.bodies) {
-    // One stream a body, so that it does not depend on the others.
+    // One stream per body, so that it does not depend on the others.
     const auto number = std::find(body_names().begin(), body_names().end(), body);
     std::seed_seq words{options.seed & 0xFFFFFFFFU, options.seed >> 32,
                         static_cast<std::uint64_t>(number - body_names().begin())};

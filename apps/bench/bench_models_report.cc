@@ -33,7 +33,7 @@ const char* status_name(ModelsBenchStatus status) {
   throw std::invalid_argument("status_name: no such status");
 }
 
-// A number that is not there is a dash.
+// A dash if a number is missing.
 template <class... Numbers>
 std::string cell(const char* format, Numbers... numbers) {
   if (!(std::isfinite(numbers) && ...)) return "-";
@@ -48,7 +48,7 @@ std::string status_text(const ModelsBenchRow& r) {
   return fmt::format("{}{}{}", status_name(r.status), r.reason.empty() ? "" : ": ", r.reason);
 }
 
-// NaN of nothing.
+// NaN for no values.
 double median(std::vector<double> values) {
   if (values.empty()) return std::nan("");
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -99,11 +99,12 @@ std::string rows_text(const std::vector<ModelsBenchRow>& rows) {
                 "Monte Carlo error of a patch's light in the shots, median: {:.1f} to {:.1f} %\n",
                 100.0 * least, 100.0 * most);
   return table.text() + noise +
-         "error: answer / truth - 1, ± as stated by the model; truth ±: what the Monte Carlo error "
-         "of the shots is worth in an answer; z: error over both\n";
+         "error: estimate / truth - 1, ± as stated by the model; truth ±: effect of the Monte "
+         "Carlo "
+         "error of the shots on the estimate; z: error over both\n";
 }
 
-// Answers of one model on one body; the lists hold refused ones, too.
+// Estimates of one model on one body; the lists include refused ones.
 struct Summary {
   std::size_t answered = 0, refused = 0, failed = 0;
   std::vector<double> s, a, abs_s, abs_a, seconds;
@@ -152,7 +153,7 @@ std::string summary_text(const std::vector<ModelsBenchRow>& rows) {
     }
   }
   return fmt::format("\n{}", table.text()) +
-         "bias and s: medians over the answers, refused ones too\n";
+         "bias and s: medians over the estimates, including refused ones\n";
 }
 
 std::string left_out_text(const std::vector<ModelsBenchRow>& rows) {
@@ -172,20 +173,20 @@ PlotSeries guide(const std::string& name, double percent, std::size_t look, cons
   return line;
 }
 
-// The whole decades that hold a range.
+// Sets the axis to the whole decades that contain a range.
 void set_decades(PlotAxis& axis, double from, double to) {
   axis.min = std::pow(10.0, std::floor(std::log10(from)));
   axis.max = std::max(10.0 * *axis.min, std::pow(10.0, std::ceil(std::log10(to))));
 }
 
-// error: relative; truth_std: 1/mm, and truth what it is relative to.
+// error: relative; truth_std: 1/mm, to be divided by truth.
 Plot error_plot(const std::vector<ModelsBenchRow>& rows, const std::string& name,
                 double ModelsBenchRow::*error, double ModelsBenchRow::*truth_std,
                 double Medium::*truth) {
   Plot plot;
-  plot.title = fmt::format("Error of {} on shots rendered by volume Monte Carlo", name);
+  plot.title = fmt::format("Error of {} on shots rendered by volumetric Monte Carlo", name);
   plot.x = {"run time of one material and channel [s]", true};
-  plot.y = {fmt::format("|answer / truth - 1| of {} [%]", name), true};
+  plot.y = {fmt::format("|estimate / truth - 1| of {} [%]", name), true};
   plot.legend_outside = true;
   plot.width_px = 1100;
   double from_s = INFINITY, to_s = 0.0, from = 0.5, to = 10.0;

@@ -1,4 +1,4 @@
-// bench noise: is the uncertainty that the noise of the raws leaves predicted right?
+// bench noise: is the uncertainty from the noise of the raws predicted correctly?
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct NoiseBenchOptions {
   Progress* progress = nullptr;
 };
 
-// One material and channel. Answers that were refused count in `refused` and nowhere else.
+// One material and channel. Refused estimates count in `refused` only.
 struct NoiseBenchRow {
   std::string material;
   char channel = 'R';
@@ -28,9 +28,9 @@ struct NoiseBenchRow {
   double refused = 0;  // share
 };
 
-// Renders the rig's truth once, exposes it to raws in memory once a seed, and measures every set
-// jointly. Only the noise is drawn anew: rig and truth are the same throughout. Throws InputError
-// for a rig without truth; std::invalid_argument for fewer than two seeds.
+// Renders the rig's truth once, exposes it to raws in memory once per seed, and measures every set
+// jointly. Only the noise differs: rig and truth are the same for all. Throws InputError for a rig
+// without truth, std::invalid_argument for fewer than two seeds.
 std::vector<NoiseBenchRow> bench_noise(const Rig& rig, const ObjectScenes& objects,
                                        const NoiseBenchOptions& options);
 

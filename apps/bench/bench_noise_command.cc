@@ -21,7 +21,8 @@ void add_noise_bench(CLI::App& bench, CommandContext& context, const SharedBench
   CLI::App* command = bench.add_subcommand(
       "noise",
       "Noise of the raws alone: many exposures of one scene, each measured jointly.\n"
-      "Prints bias, sampled over predicted deviation, and how often the 95 % interval holds.");
+      "Prints bias, sampled over predicted standard deviation, and how often the 95 % interval "
+      "contains the truth.");
   command->add_option("--seeds", options->bench.seeds, "number of exposures")
       ->check(CLI::Range(2, 1'000'000))
       ->capture_default_str();
@@ -29,8 +30,8 @@ void add_noise_bench(CLI::App& bench, CommandContext& context, const SharedBench
                       "rig file with truth (default: three plastics, cube and pyramid, two LEDs)");
   command
       ->add_option("--scale-std", options->scale_std,
-                   "relative deviation of the scale that the fit is told (default: the rig's; 0, "
-                   "exact, without --rig)")
+                   "relative standard deviation stated for the scale (default: the rig's; without "
+                   "--rig 0, exact)")
       ->check(CLI::NonNegativeNumber);
   run_if_named(*command, context, [options, common, &context] {
     const bool own = options->rig.empty();

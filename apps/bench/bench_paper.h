@@ -1,4 +1,4 @@
-// bench paper: the paper's simulation (its table 2, figures 5 and 6), its method beside ours.
+// bench paper: the paper's simulation (its table 2, figures 5 and 6) by its method and by ours.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ namespace scattermeter::apps {
 
 struct PaperBenchOptions {
   int image_width_px = 3872;
-  std::shared_ptr<const Environment> probe;  // null: core's clear sky with its sun, over a ground
-  // Off: the samples as a sensor without noise and rounding sees them; on: one 12-bit exposure.
+  std::shared_ptr<const Environment> probe;  // null: core's clear sky with sun and ground
+  // Off: ideal samples without noise and rounding; on: one 12-bit exposure.
   bool noise = false;
   std::uint64_t seed = 1;
   Progress* progress = nullptr;
@@ -49,16 +49,16 @@ struct PaperBenchRow {
 struct PaperBench {
   Medium truth;
   double patch_mm = 0;
-  std::size_t rows = 0;  // patches that took part
+  std::size_t rows = 0;  // patches used
   std::vector<PaperBenchRow> widths;
-  Estimate dipole;           // of the whole image, no quantisation: what `measure` answers
+  Estimate dipole;           // of the whole image without quantisation, as by `measure`
   SmoothReflectance smooth;  // r without a model
 };
 
 // Renders pyramid_rig() and measures it. Throws InputError as Instrument does.
 PaperBench bench_paper(const PaperBenchOptions& options);
 
-// Largest less smallest of the answers over the widths, relative to the truth.
+// Largest minus smallest estimate over the widths, relative to the truth.
 struct WidthSpread {
   double sigma_s = 0;
   double sigma_a = 0;
@@ -69,7 +69,7 @@ WidthSpread published_spread(const PaperBench& bench);
 
 std::string paper_bench_table(const PaperBench& bench);
 std::string paper_bench_csv(const PaperBench& bench);
-// r on every knot: the paper's at its best width, and the smooth one.
+// r on every knot: by the paper's method at its best width, and the smooth one.
 std::string paper_reflectance_csv(const PaperBench& bench);
 Plot paper_psnr_plot(const PaperBench& bench);
 Plot paper_reflectance_plot(const PaperBench& bench);

@@ -23,13 +23,13 @@ void add_paper_bench(CLI::App& bench, CommandContext& context, const SharedBench
       "and "
       "ours_*: sigma_s, sigma_a and their std in 1/mm, psnr_db of the re-rendering, verdict.\n"
       "paper_reflectance.csv: curve (paper: pseudo-inverse at its best width; smooth: without a "
-      "model), distance_mm, r_per_mm2, log_std (of r), determined (1: the image tells), "
+      "model), distance_mm, r_per_mm2, log_std (of r), determined (1: by the image), "
       "truth_per_mm2.");
   command->add_option("--probe", options->probe,
-                      "light probe, .hdr or .exr (default: a sky with its sun, made in code)");
+                      "light probe, .hdr or .exr (default: a computed sky with sun)");
   command
       ->add_option("--projection", options->projection,
-                   "of the probe: equirectangular, angular_map or mirror_ball")
+                   "projection of the probe: equirectangular, angular_map or mirror_ball")
       ->transform(CLI::Transformer(std::map<std::string, ProbeProjection>{
           {"equirectangular", ProbeProjection::kEquirectangular},
           {"angular_map", ProbeProjection::kAngularMap},

@@ -1,4 +1,4 @@
-// Table, CSV and pictures of bench paper.
+// Table, CSV and plots of bench paper.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ namespace {
 using Style = PlotSeries::Style;
 
 constexpr double kTruthEta = 1.3;
-constexpr double kNearest_mm = 0.03;  // where d = 0 is drawn on a logarithmic axis
+constexpr double kNearest_mm = 0.03;  // position of d = 0 on a logarithmic axis
 
 const PaperAnswer& best_of_paper(const PaperBench& bench) {
   return std::max_element(bench.widths.begin(), bench.widths.end(),
@@ -87,8 +87,9 @@ std::string paper_bench_table(const PaperBench& bench) {
                  fmt::format("{:.3f}", bench.truth.sigma_a_per_mm), "", "", "", "", "", "", ""});
   std::string text = table.text();
   text += fmt::format(
-      "largest - smallest over the widths, of the truth, sigma_s' / sigma_a: published {}, its "
-      "method here {}, ours {}\n",
+      "largest - smallest over the widths, relative to the truth, sigma_s' / sigma_a: published "
+      "{}, "
+      "its method here {}, ours {}\n",
       spread_text(published_spread(bench)), spread_text(paper_spread(bench)),
       spread_text(our_spread(bench)));
   text += fmt::format("{} patches of {:.3g} mm; 1/mm throughout\n", bench.rows, bench.patch_mm);
@@ -174,12 +175,12 @@ Plot paper_reflectance_plot(const PaperBench& bench) {
   }
   Plot plot;
   plot.title =
-      "Recovered reflectance and the true dipole (the paper's figure 6; d = 0 stands at 0.03 mm)";
+      "Recovered reflectance and the true dipole (the paper's figure 6; d = 0 is drawn at 0.03 mm)";
   plot.x = {"distance [mm]", true, 0.025, 30.0};
   plot.y = {"r [1/mm^2]", true, 1e-7, 10.0};
   plot.series = {
       raw, dipole_series("truth", bench.truth.sigma_s_prime_per_mm, bench.truth.sigma_a_per_mm),
-      dipole_series(fmt::format("the paper's answer, {:.2f} / {:.3f}", paper.sigma_s_prime_per_mm,
+      dipole_series(fmt::format("the paper's estimate, {:.2f} / {:.3f}", paper.sigma_s_prime_per_mm,
                                 paper.sigma_a_per_mm),
                     paper.sigma_s_prime_per_mm, paper.sigma_a_per_mm),
       smooth};
@@ -204,7 +205,7 @@ Plot paper_reflectance_ratio_plot(const PaperBench& bench) {
     smooth.y_std.push_back(1.96 * k.log_std * ratio);
   }
   Plot plot;
-  plot.title = "Recovered reflectance over the true dipole (d = 0 stands at 0.03 mm)";
+  plot.title = "Recovered reflectance over the true dipole (d = 0 is drawn at 0.03 mm)";
   plot.x = {"distance [mm]", true, 0.025, 30.0};
   plot.y = {"r / R", false, 0.5, 1.5};
   plot.series = {raw, {"truth", Style::kLine, {0.025, 30.0}, {1.0, 1.0}, {}}, smooth};

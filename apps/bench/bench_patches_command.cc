@@ -22,12 +22,14 @@ void add_patches_bench(CLI::App& bench, CommandContext& context, const SharedBen
   const auto options = std::make_shared<Options>();
   CLI::App* command = bench.add_subcommand(
       "patches",
-      "The patch size, on ideal samples (no noise, no rounding) of exact scale: what it alone does "
-      "to the answer.\n"
-      "patches.csv: scene, material, channel, patch_mm, rows (patches that took part), "
-      "samples_per_patch (of the channel), *_error (answer / truth - 1), *_std (stated, of the "
-      "truth), psnr_db of the re-rendering, seconds (all channels of the scene), refusal.");
-  command->add_option("--rig", options->rig, "rig file with truth, in place of the scenes");
+      "Effect of the patch size alone on the estimates, for ideal samples (no noise, no rounding) "
+      "and "
+      "an exact scale.\n"
+      "patches.csv: scene, material, channel, patch_mm, rows (patches used), samples_per_patch (of "
+      "the channel), *_error (estimate / truth - 1), *_std (stated, relative to the truth), "
+      "psnr_db "
+      "of the re-rendering, seconds (all channels of the scene), refusal.");
+  command->add_option("--rig", options->rig, "rig file with truth, instead of the scenes");
   command
       ->add_option("--scenes", options->scenes,
                    "without --rig: sky (the pyramid under a sky), LEDs (2.19 / 0.002 per mm, cube "

@@ -1,4 +1,4 @@
-// bench plan: does the forecast of a rig agree with what measuring its shots states?
+// bench plan: comparison of the forecast for a rig with what measuring its shots states.
 #pragma once
 
 #include <cstdint>
@@ -22,24 +22,24 @@ struct PlanBenchOptions {
 // A material in a channel of one rig.
 struct PlanBenchRow {
   int rig = 0;
-  std::string setting;  // what was drawn, in words
+  std::string setting;  // the draw in words
   char channel = 'R';
-  bool planned = false;              // the forecast is no refusal
-  bool measured = false;             // nor is the measurement
-  std::vector<std::string> reasons;  // of the one that is refused, where the other is not
-  // Standard deviations over the values; NaN where there is none.
+  bool planned = false;              // the forecast is not a refusal
+  bool measured = false;             // nor is the result
+  std::vector<std::string> reasons;  // of the refused one, if the other is not
+  // Relative standard deviations; NaN if refused.
   double forecast_sigma_s_prime = 0, stated_sigma_s_prime = 0;
   double forecast_sigma_a = 0, stated_sigma_a = 0;
 };
 
-// Forecast over stated deviation, of both coefficients of all rows where both are there.
+// Ratios of forecast to stated standard deviation, of both coefficients in all rows that have both.
 struct PlanBenchRatios {
   std::size_t n = 0;
   double median = 0, least = 0, most = 0;
 };
 
-// A rig made in code by a seed: one or two bodies of one material, one to three LEDs, what is known
-// of scale, LEDs, pose marks and eta. Precondition: as set_up_camera()'s.
+// A random rig: one or two bodies of one material, one to three LEDs, uncertainties of scale, LEDs,
+// pose marks and eta. Throws std::invalid_argument as set_up_camera() does.
 struct DrawnPlanRig {
   Rig rig;
   std::string setting;

@@ -9,8 +9,8 @@ void add_plan_bench(CLI::App& bench, CommandContext& context, const SharedBenchO
   const auto options = std::make_shared<PlanBenchOptions>();
   CLI::App* command = bench.add_subcommand(
       "plan",
-      "The forecast of `plan` against what measuring then states: rigs drawn at random (bodies, "
-      "materials, LEDs, how well all is known), planned, shot with noise, measured.\n"
+      "The forecast of `plan` compared with what measuring then states: random rigs (bodies, "
+      "materials, LEDs, uncertainties) are planned, simulated with noise and measured.\n"
       "Prints both standard deviations and their ratio.");
   command->add_option("--rigs", options->rigs, "number of rigs drawn")
       ->check(CLI::Range(1, 100'000))

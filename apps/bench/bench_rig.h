@@ -1,4 +1,4 @@
-// bench rig: what errors of the rig do to the answers, and whether the uncertainty holds them.
+// bench rig: effect of errors of the rig on the estimates, and whether the uncertainty covers it.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace scattermeter::apps {
 
-// Errors are normal with these deviations, which are also what the measuring rig is told.
+// Errors are normal with these standard deviations, which the rig for measuring states as well.
 struct RigBenchOptions {
   int draws = 20;  // >= 2
   std::uint64_t seed = 1;
@@ -29,14 +29,14 @@ struct SingleShotEstimate {
   char channel = 'R';
   int draw = 0;
   bool refused = false;
-  double sigma_s_prime_per_mm = 0;  // NaN where refused
+  double sigma_s_prime_per_mm = 0;  // NaN if refused
   double sigma_a_per_mm = 0;
 };
 
 // One coefficient of a material in a channel.
 struct RigBenchQuantity {
-  // Standard deviation over mean of the answers of the material's shots, each measured alone: root
-  // mean square over the draws.
+  // Standard deviation over mean of the estimates from single shots of the material: root mean
+  // square over the draws.
   double single_shot_variation = 0;
   EstimateStatistics joint;  // all shots at once, over the draws
 };
@@ -46,7 +46,7 @@ struct RigBenchRow {
   char channel = 'R';
   RigBenchQuantity sigma_s_prime_per_mm;
   RigBenchQuantity sigma_a_per_mm;
-  double refused_single = 0;  // shares; refused answers count nowhere else
+  double refused_single = 0;  // shares; refused estimates count nowhere else
   double refused_joint = 0;
 };
 
@@ -55,9 +55,9 @@ struct RigBench {
   std::vector<SingleShotEstimate> singles;
 };
 
-// Draws rigs about plastics_rig(): the shots are rendered with LEDs displaced and of other power
-// than told, and measured with the nominal rig, whose pose points are off. One exposure a draw.
-// std::invalid_argument for fewer than two draws or a negative deviation.
+// Draws rigs around plastics_rig(): the shots are rendered with LEDs of other position and power
+// than stated, and measured with the nominal rig, whose pose points have errors. One exposure per
+// draw. Throws std::invalid_argument for fewer than two draws or a negative standard deviation.
 RigBench bench_rig(const RigBenchOptions& options);
 
 std::string rig_bench_table(const RigBench& bench);

@@ -9,8 +9,10 @@ void add_rig_bench(CLI::App& bench, CommandContext& context, const SharedBenchOp
   const auto options = std::make_shared<RigBenchOptions>();
   CLI::App* command = bench.add_subcommand(
       "rig",
-      "Errors of the rig: LED places and powers and pose points drawn from what the rig is told of "
-      "them.\nPrints how much single shots vary, and error and coverage of the joint answer.");
+      "Errors of the rig: positions and powers of the LEDs and pose points are drawn from their "
+      "stated "
+      "uncertainties.\nPrints the variation of single shots, and error and coverage of the joint "
+      "estimate.");
   command->add_option("--draws", options->draws, "number of rigs drawn")
       ->check(CLI::Range(2, 1'000'000))
       ->capture_default_str();

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 1;
 
-// The plastics' POM cube with n LEDs on two rings above it, one a shot.
+// plastics_rig() with its POM cube only, and n LEDs on two rings above it, one per shot.
 Rig ring_rig(int image_width_px, int n) {
   Rig rig = plastics_rig(image_width_px);
   const auto is_pom_cube = [](const SceneShot& s) {

@@ -1,4 +1,4 @@
-// bench shots: how measuring grows with the number of shots.
+// bench shots: run time of measuring over the number of shots.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@ namespace scattermeter::apps {
 struct ShotsBenchOptions {
   std::vector<int> shots = {1, 3, 10, 30, 100};  // > 0
   int image_width_px = 968;                      // 240 .. 3872
-  int repeats = 3;                               // runs of which the fastest is told
+  int repeats = 3;                               // runs, of which the fastest is reported
   Progress* progress = nullptr;
 };
 
 struct ShotsBenchRow {
   int shots = 0;
-  double seconds = 0;                                    // geometry to answer, all threads
+  double seconds = 0;                                    // from geometry to results, all threads
   std::vector<std::pair<std::string, double>> timing_s;  // its stages
   // Of the worst of three channels, relative to the truth.
   double error_sigma_s_prime = 0;
@@ -28,9 +28,9 @@ struct ShotsBenchRow {
   double std_sigma_a = 0;
 };
 
-// One plastic, one cube, every shot under an LED at a place of its own, by the dipole with all its
-// uncertainty; frames in memory, with noise. Rows in the order of the options. Throws
-// std::invalid_argument for options out of range.
+// Measures one plastic on a cube, each shot under an LED at its own position, by the dipole with
+// its uncertainty; the frames are in memory, with noise. Rows are in the order of the options.
+// Throws std::invalid_argument for options out of range.
 std::vector<ShotsBenchRow> bench_shots(const ShotsBenchOptions& options);
 
 std::string shots_bench_table(const std::vector<ShotsBenchRow>& rows);

@@ -10,14 +10,16 @@ void add_shots_bench(CLI::App& bench, CommandContext& context, const SharedBench
   const auto options = std::make_shared<ShotsBenchOptions>();
   CLI::App* command = bench.add_subcommand(
       "shots",
-      "Measuring one plastic from more and more shots, each under an LED of its own: run time and "
-      "errors of the answers.\n"
-      "shots.csv: shots, seconds (geometry to answer, frames in memory), *_error (the worst of "
-      "three channels, answer / truth - 1), *_std (the largest stated, of the truth), stages.");
+      "Run time and errors of measuring one plastic from more and more shots, each under its own "
+      "LED.\n"
+      "shots.csv: shots, seconds (from geometry to results, frames in memory), *_error (the worst "
+      "of "
+      "three channels, estimate / truth - 1), *_std (the largest stated, relative to the truth), "
+      "stages.");
   command->add_option("--shots", options->shots, "numbers of shots")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  command->add_option("--repeats", options->repeats, "runs of which the fastest is told")
+  command->add_option("--repeats", options->repeats, "runs, of which the fastest is reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   run_if_named(*command, context, [options, common, &context] {

@@ -46,8 +46,8 @@ Eigen::Vector3d surface_point(const std::string& body, std::mt19937_64& random) 
   return kHalf_mm * p;
 }
 
-// Light from far away in direction (1, -2, 3) and a little from everywhere: no patch is dark, so
-// that nothing is won by leaving patches out.
+// Distant light from (1, -2, 3) and some from everywhere: no patch is dark, so that none can be
+// left out.
 SumsScene sums_scene(const std::string& body, std::size_t patches, std::size_t rows,
                      std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -69,7 +69,7 @@ SumsScene sums_scene(const std::string& body, std::size_t patches, std::size_t r
   return scene;
 }
 
-// By the wall clock, the median of some runs.
+// Wall time, median over the runs.
 double median_seconds(int repeats, const std::function<void()>& run) {
   std::vector<double> seconds;
   for (int i = 0; i < repeats; ++i) {
@@ -81,7 +81,7 @@ double median_seconds(int repeats, const std::function<void()>& run) {
   return upper_median(std::move(seconds));
 }
 
-// Value and derivatives in long double, and the derivatives' absolute terms.
+// Value and derivatives in long double, and the sums of their absolute terms.
 struct LongSum {
   long double sum[3] = {}, size[3] = {};
 };
@@ -115,7 +115,7 @@ LongSum long_sum(const Medium& medium, const SumsScene& scene, const Eigen::Vect
   return out;
 }
 
-// Of a tolerance, the degree whose series are cheapest.
+// The degree with the cheapest series for a tolerance.
 int degree_for(double tolerance) { return tolerance >= 1e-3 ? 6 : 8; }
 
 double direct_nanoseconds(const SumsScene& scene, const Medium& medium, int repeats) {

@@ -1,4 +1,4 @@
-// bench sums: run time against error of the dipole's sums over many patches.
+// bench sums: run time against error of the sums of the dipole over many patches.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct SumsBenchOptions {
   std::vector<double> tolerances = {1e-2, 5e-3, 1e-3, 1e-4, 1e-5};
   double loose_tolerance = 0.25;  // of the image of three channels; 0: none
   int peer_patches = 10000;       // 0: no peer
-  int repeats = 3;                // >= 1; the median is told
+  int repeats = 3;                // >= 1; the median is reported
   std::uint64_t seed = 1;
 };
 

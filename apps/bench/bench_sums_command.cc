@@ -10,14 +10,13 @@ void add_sums_bench(CLI::App& bench, CommandContext& context, const SharedBenchO
   const auto options = std::make_shared<SumsBenchOptions>();
   CLI::App* command = bench.add_subcommand(
       "sums",
-      "The dipole's sums over many patches, and the derivatives: run time against error, over "
-      "tolerance, patches and rows, beside the direct sum of the same run; and a fit of two "
-      "coefficients with them, beside the paper's method as one would write it in C++.\n"
+      "Sums of the dipole and its derivatives over many patches: run time against error, over "
+      "tolerance, patches and rows, compared with the direct sum of the same run; and a fit of two "
+      "coefficients by them, compared with the paper's method in plain C++.\n"
       "sums.csv: body, channels, patches, rows, tolerance, tree_s and sum_s (all threads), "
       "tree_one_s and sum_one_s (one thread), direct_ns_per_pair, times_faster (one thread), "
       "median_error and worst_error* (against long double, 64 rows), certified_error, "
-      "pairs_per_row, "
-      "series_per_row. sums_peers.csv: method, seconds, errors of the answers.");
+      "pairs_per_row, series_per_row. sums_peers.csv: method, seconds, errors of the estimates.");
   command->add_option("--patches", options->patches, "numbers of patches")
       ->check(CLI::Range(100.0, 1e8))
       ->capture_default_str();
@@ -34,10 +33,10 @@ void add_sums_bench(CLI::App& bench, CommandContext& context, const SharedBenchO
       ->capture_default_str();
   command
       ->add_option("--peer-patches", options->peer_patches,
-                   "patches of the fits (the dense one holds their square in memory); 0: none")
+                   "patches of the fits (the dense one needs memory for their square); 0: none")
       ->check(CLI::Range(0, 100000))
       ->capture_default_str();
-  command->add_option("--repeats", options->repeats, "runs of which the median is told")
+  command->add_option("--repeats", options->repeats, "runs, of which the median is reported")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   run_if_named(*command, context, [options, common, &context] {

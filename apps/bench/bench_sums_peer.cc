@@ -87,7 +87,7 @@ PeerResult fit_dense(const PeerProblem& problem, double width_mm) {
                            .norm();
     }
   }
-  // Rows of W as columns, where they stand together.
+  // Rows of W as columns, so that they are contiguous.
   Eigen::MatrixXd w = Eigen::MatrixXd::Zero(knots_for(problem, width_mm), m);
   for (Eigen::Index j = 0; j < m; ++j) {
     for (Eigen::Index k = 0; k < m; ++k) {
@@ -133,12 +133,12 @@ PeerResult fit_chunked(const PeerProblem& problem, double width_mm) {
 
 PeerResult fit_sums(const PeerProblem& problem) {
   const auto start = Clock::now();
-  // Sums are then right to 1e-5 (bench sums), answers far better than the peers'.
+  // Errors of the sums are then 1e-5 (bench sums), and the estimates far better than the peers'.
   constexpr double kTolerance = 1e-2;
   const SourceClusters sources(problem.points_mm, problem.c, 6);
   const RowBlocks rows(problem.points_mm);
   std::vector<std::vector<DipoleSum>> out(1, std::vector<DipoleSum>(problem.points_mm.size()));
-  // In ln sigma_s' and sigma_a, relative residuals; steps that lead out of the domain are halved.
+  // Parameters ln sigma_s' and sigma_a, relative residuals; steps out of the domain are halved.
   Medium medium{1.0, 0.01, problem.truth.eta_int_over_ext};
   for (int i = 0; i < 30; ++i) {
     sum_dipoles(sources, rows, {&medium, 1}, out, {.tolerance = kTolerance});

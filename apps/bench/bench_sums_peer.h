@@ -1,4 +1,4 @@
-// What people would write to fit the dipole, beside what this program does, on the same numbers.
+// Plain implementations of fitting the dipole, and the one by sums over clusters, on the same data.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace scattermeter::apps {
 
-// l_j at every patch, made by direct sums of the true medium; the answers' errors are relative.
+// l_j at every patch, computed by direct sums for the true medium.
 struct PeerProblem {
   std::vector<Eigen::Vector3d> points_mm;
   std::vector<double> c;  // of each point
@@ -21,7 +21,7 @@ struct PeerProblem {
 struct PeerResult {
   std::string method;
   double seconds = 0;
-  double error_sigma_s_prime = 0;
+  double error_sigma_s_prime = 0;  // relative, like the next
   double error_sigma_a = 0;
 };
 
@@ -29,12 +29,12 @@ struct PeerResult {
 PeerProblem peer_problem(const std::vector<Eigen::Vector3d>& points_mm,
                          const std::vector<double>& c);
 
-// The paper's method as it stands: all distances in one matrix, W of knots `width_mm` apart, its
+// The paper's method as published: all distances in one matrix, W of knots `width_mm` apart, its
 // pseudo-inverse, and the grid of sigma_s 0.01 .. 3.00 and sigma_a 0 .. 0.010.
 PeerResult fit_dense(const PeerProblem& problem, double width_mm);
-// The same without the matrix of distances: a chunk of rows at a time, normal equations.
+// The same without the matrix of distances: normal equations from one chunk of rows at a time.
 PeerResult fit_chunked(const PeerProblem& problem, double width_mm);
-// Gauss-Newton on the sums over clusters and their derivatives, from a start that is far off.
+// Gauss-Newton on the sums over clusters and their derivatives, from a distant start.
 PeerResult fit_sums(const PeerProblem& problem);
 
 }  // namespace scattermeter::apps

@@ -20,8 +20,8 @@ double worst_of(const SumsBenchRow& r) {
   return *std::max_element(std::begin(r.worst_error), std::end(r.worst_error));
 }
 
-// For each scene of one channel, what is fastest among those whose errors, value and derivatives,
-// were measured to be at most 1e-4.
+// For each scene of one channel, the fastest run with measured errors, of value and derivatives, of
+// at most 1e-4.
 std::string fastest_within(const SumsBench& bench) {
   constexpr double kError = 1e-4;
   std::map<std::tuple<std::string, double, double>, const SumsBenchRow*> fastest;
@@ -41,6 +41,17 @@ std::string fastest_within(const SumsBench& bench) {
         direct_s / (r->tree_s + r->sum_s), direct_s / r->sum_s);
   }
   return text.empty() ? text : "\n" + text;
+}
+
+// Adds a point to the series of this name, which is created if necessary.
+void add_point(const std::string& name, double x, double y, Plot& plot) {
+  auto series = std::find_if(plot.series.begin(), plot.series.end(),
+                             [&](const PlotSeries& s) { return s.name == name; });
+  if (series == plot.series.end()) {
+    series = plot.series.insert(series, {name, PlotSeries::Style::kLineAndPoints, {}, {}});
+  }
+  series->x.push_back(x);
+  series->y.push_back(y);
 }
 
 }  // namespace
@@ -76,14 +87,14 @@ std::string sums_bench_table(const SumsBench& bench) {
                    fmt::format("{:.0f}", r.series_per_row)});
   }
   std::string text = table.text();
-  std::set<std::string> told;
+  std::set<std::string> lines;
   for (const SumsBenchRow& r : bench.rows) {
     const double exponent = patches_exponent(bench, r.body, r.rows, r.tolerance);
     if (!std::isfinite(exponent)) continue;
     const std::string line =
         fmt::format("time grows with patches^{:.2f} ({}, {:.0f} rows, tolerance {:.0e})\n",
                     exponent, r.body, r.rows, r.tolerance);
-    if (told.insert(line).second) text += (told.size() == 1 ? "\n" : "") + line;
+    if (lines.insert(line).second) text += (lines.size() == 1 ? "\n" : "") + line;
   }
   text += fastest_within(bench);
   if (bench.peers.empty()) return text;
@@ -136,14 +147,7 @@ Plot sums_error_plot(const SumsBench& bench) {
   for (const SumsBenchRow& r : bench.rows) {
     const std::string name = fmt::format("{}, {:.0f} patches, {:.0f} rows, {} channel{}", r.body,
                                          r.patches, r.rows, r.channels, r.channels > 1 ? "s" : "");
-    auto at = std::find_if(plot.series.begin(), plot.series.end(),
-                           [&](const PlotSeries& s) { return s.name == name; });
-    if (at == plot.series.end()) {
-      plot.series.push_back({name, PlotSeries::Style::kLineAndPoints, {}, {}});
-      at = plot.series.end() - 1;
-    }
-    at->x.push_back(1e6 * all_seconds(r) / r.rows / r.channels);
-    at->y.push_back(r.worst_error[0]);
+    add_point(name, 1e6 * all_seconds(r) / r.rows / r.channels, r.worst_error[0], plot);
   }
   return plot;
 }
@@ -158,14 +162,7 @@ Plot sums_patches_plot(const SumsBench& bench) {
     if (r.channels > 1) continue;
     const std::string name =
         fmt::format("{}, {:.0f} rows, tolerance {:.0e}", r.body, r.rows, r.tolerance);
-    auto at = std::find_if(plot.series.begin(), plot.series.end(),
-                           [&](const PlotSeries& s) { return s.name == name; });
-    if (at == plot.series.end()) {
-      plot.series.push_back({name, PlotSeries::Style::kLineAndPoints, {}, {}});
-      at = plot.series.end() - 1;
-    }
-    at->x.push_back(r.patches);
-    at->y.push_back(all_seconds(r));
+    add_point(name, r.patches, all_seconds(r), plot);
   }
   return plot;
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr double kEta = 1.3;
 constexpr double kSigmaA = 0.002;
 
-// What a user of the scores does at least.
+// The least that a user of the scores does.
 struct Sum {
   double weight = 0;
   void escape(const PathScore& s) { weight += s.weight; }

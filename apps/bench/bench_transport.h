@@ -1,4 +1,4 @@
-// bench transport: how fast the volumetric Monte Carlo is.
+// bench transport: speed of the volumetric Monte Carlo.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,7 +10,7 @@ namespace scattermeter::apps {
 
 struct TransportBenchOptions {
   std::uint64_t seed = 1;
-  double seconds = 1.0;  // of processor time a row, about
+  double seconds = 1.0;  // processor time per row, approximately
   Progress* progress = nullptr;
 };
 
@@ -18,18 +18,18 @@ struct TransportBenchOptions {
 struct TransportBenchRow {
   std::string body;
   std::int64_t triangles = 12;
-  bool by_rays = false;  // else by the planes of the convex body
+  bool by_rays = false;  // otherwise by the planes of the convex body
   double mean_free_path_mm = 0;
   bool connections = false;  // of every scattering to the camera
   double scatterings_per_path = 0;
-  double scatterings_per_s = 0;  // per second of one core's time
-  double escaped = 0;            // of what entered
-  double audit_error = 0;        // entered less all its fates, relative
+  double scatterings_per_s = 0;  // per second of processor time
+  double escaped = 0;            // of the light that entered
+  double audit_error = 0;        // entered minus accounted light, relative
   std::int64_t lost_paths = 0;
 };
 
-// Mean free paths of 0.1 to 7 mm in the cube of 12 triangles, then 12 to 786432 triangles at
-// 0.46 mm, then spheres of 320 to 327680; each with and without connections. On one thread.
+// Mean free paths of 0.1 to 7 mm in the cube of 12 triangles, then cubes of 12 to 786432 and
+// spheres of 320 to 327680 triangles at 0.46 mm; each with and without connections, on one thread.
 std::vector<TransportBenchRow> bench_transport(const TransportBenchOptions& options);
 
 std::string transport_bench_table(const std::vector<TransportBenchRow>& rows);

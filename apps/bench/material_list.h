@@ -1,4 +1,4 @@
-// Known materials, by name and channel.
+// A list of known materials by name and channel.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@ struct ListedMaterial {
   Medium medium;
 };
 
-// Reads a CSV whose header names at least name, channel, eta, sigma_s_prime_per_mm and
-// sigma_a_per_mm, in any order; other columns are passed over. Throws InputError naming file, line,
-// column and value for a missing column, a channel other than R, G, B, one given twice, different
-// eta within a name, or a number that is no number or out of range (eta in 0.5 .. 4, sigma_s' > 0,
-// sigma_a > 0).
+// Reads a CSV file with the columns name, channel, eta, sigma_s_prime_per_mm and sigma_a_per_mm in
+// any order; other columns are ignored. Throws InputError naming file, line, column and value for a
+// missing column, a channel other than R, G, B or given twice, different eta within a name, or a
+// value that is not a number or out of range (eta in 0.5 .. 4, sigma_s' > 0, sigma_a > 0).
 std::vector<ListedMaterial> read_materials(const std::string& path);
 
-// Four materials that span what is measured: marble, skim milk, skin 1, ketchup. Jensen, Marschner,
-// Levoy and Hanrahan, "A practical model for subsurface light transport" (2001), figure 5.
+// Four materials over the range of the instrument: marble, skim milk, skin 1, ketchup. Jensen,
+// Marschner, Levoy and Hanrahan, "A practical model for subsurface light transport" (2001),
+// figure 5.
 const std::vector<ListedMaterial>& well_known_materials();
 
 }  // namespace scattermeter::apps

@@ -20,8 +20,8 @@ PlotSeries histogram(const std::string& name, const std::vector<double>& pulls) 
   double total = 0.0;
   for (double pull : pulls) {
     if (std::isnan(pull)) continue;
-    const double place = std::clamp((pull + kEnd) / kBin, 0.0, kBins - 0.5);
-    counts[static_cast<std::size_t>(place)] += 1.0;
+    const double bin = std::clamp((pull + kEnd) / kBin, 0.0, kBins - 0.5);
+    counts[static_cast<std::size_t>(bin)] += 1.0;
     total += 1.0;
   }
   PlotSeries series{name, PlotSeries::Style::kLineAndPoints, {}, {}, {}};
@@ -40,7 +40,7 @@ Plot pull_plot(const std::string& title,
                const std::vector<std::pair<std::string, std::vector<double>>>& pulls) {
   Plot plot;
   plot.title = title;
-  plot.x = {"(answer - truth) / standard deviation", false, -kEnd, kEnd};
+  plot.x = {"(estimate - truth) / standard deviation", false, -kEnd, kEnd};
   plot.y = {"density", false, 0.0};
   for (const auto& [name, values] : pulls) plot.series.push_back(histogram(name, values));
   PlotSeries normal{"standard normal", PlotSeries::Style::kLine, {}, {}, {}};

@@ -1,4 +1,4 @@
-// How many standard deviations the answers are off.
+// Plot of errors in standard deviations.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace scattermeter::apps {
 
-// The distribution of named sets of pulls, (answer - truth) / standard deviation, as densities with
-// their counting errors, beside the standard normal that they follow where the uncertainty is
-// right. Bins of half a deviation from -5 to 5; what lies beyond is counted in the outermost, NaN
-// nowhere.
+// The distributions of named sets of pulls, (estimate - truth) / standard deviation, as densities
+// with counting errors, and the standard normal distribution that they follow if the uncertainty is
+// right. Bins are half a standard deviation wide, from -5 to 5; the outermost include values
+// beyond. NaN is ignored.
 Plot pull_plot(const std::string& title,
                const std::vector<std::pair<std::string, std::vector<double>>>& pulls);
 

@@ -94,6 +94,39 @@ std::vector<calib::LedCheck> checked_leds(const Rig& rig, const std::string& fol
   return out;
 }
 
+// Uncertainties of the lens that may explain shifts of the outlines.
+calib::SilhouetteCheckOptions outline_options(const CheckedRig& checked) {
+  calib::SilhouetteCheckOptions out;
+  if (!checked.lens) return out;
+  for (std::size_t i = 0; i < checked.lens->parameters.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const double std = std::sqrt(checked.lens->covariance(at, at));
+    const std::string& name = checked.lens->parameters[i];
+    if (name.starts_with("f")) {
+      out.explanation.focal_relative_std = std / checked.rig.scene.camera.intrinsics.fx_px;
+    } else if (name == "k1") {
+      out.explanation.k1_std = std;
+    }
+  }
+  return out;
+}
+
+calib::SilhouetteCheck checked_outline(const CheckedGeometry& geometry,
+                                       const capture::ShotSource& source,
+                                       const CheckedRig& checked) {
+  const Rig& rig = geometry.rig;
+  const capture::FrameSource& frames = std::get<capture::FrameSource>(source.open);
+  const calib::SilhouetteCheckOptions options = outline_options(checked);
+  if (checked.shared_pose) {
+    return calib::check_silhouettes(rig.scene, rig.pose, geometry.objects, frames, source.shot_idxs,
+                                    *checked.shared_pose, options);
+  }
+  std::vector<PoseResult> poses;
+  for (const ObservedShot& shot : checked.shots) poses.push_back(shot.pose);
+  return calib::check_silhouettes_apart(rig.scene, rig.pose, geometry.objects, frames,
+                                        source.shot_idxs, poses, options);
+}
+
 }  // namespace
 
 CheckDetail CheckedRig::of_shot(std::size_t shot_idx, double value) const {
@@ -139,30 +172,8 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
     out.frames[i] = checked_frame(frame, loose, out.shots[i], options);
     stage.step();
   });
-  calib::SilhouetteCheckOptions outline;
-  if (rig.lens) {
-    out.lens = *rig.lens;
-    for (std::size_t i = 0; i < out.lens->parameters.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      const double std = std::sqrt(out.lens->covariance(at, at));
-      const std::string& name = out.lens->parameters[i];
-      if (name.starts_with("f")) {
-        outline.explanation.focal_relative_std = std / rig.scene.camera.intrinsics.fx_px;
-      } else if (name == "k1") {
-        outline.explanation.k1_std = std;
-      }
-    }
-  }
-  const capture::FrameSource& frames = std::get<capture::FrameSource>(source.open);
-  if (out.shared_pose) {
-    out.outline = calib::check_silhouettes(loose.scene, loose.pose, geometry->objects, frames,
-                                           source.shot_idxs, *out.shared_pose, outline);
-  } else {
-    std::vector<PoseResult> poses;
-    for (const ObservedShot& shot : out.shots) poses.push_back(shot.pose);
-    out.outline = calib::check_silhouettes_apart(loose.scene, loose.pose, geometry->objects, frames,
-                                                 source.shot_idxs, poses, outline);
-  }
+  if (rig.lens) out.lens = *rig.lens;
+  out.outline = checked_outline(*geometry, source, out);
   out.leds = checked_leds(rig, shots_folder);
   out.fit = fit_for_check(loose, source, out.shots, *geometry->lit, view, options.progress);
   if (!rig.scene.camera.responsivity) {

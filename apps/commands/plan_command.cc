@@ -34,6 +34,27 @@ std::optional<ExpectedRange> range_of(const std::vector<double>& values, const c
   return range;
 }
 
+// Writes two maps for each material and object and adds their paths to `written`.
+void write_maps(const Plan& plan, const std::string& folder, std::vector<std::string>& written,
+                CommandContext& context) {
+  int maps = 0;
+  for (const SuggestedShots& shots : plan.suggested_shots) {
+    for (const LedMap& map : shots.maps) {
+      for (const bool joined : {true, false}) {
+        const std::string path = fmt::format("{}/plan_map_{}.png", folder, ++maps);
+        try {
+          write_plot(led_map_plot(shots, map, joined).plot, path);
+          written.push_back(path);
+        } catch (const std::invalid_argument&) {
+          // Nothing to draw: no position has a forecast.
+        } catch (const InputError& e) {
+          context.err << "note: " << e.what() << "\n";
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void add_plan_command(CLI::App& app, CommandContext& context) {
@@ -79,22 +100,7 @@ void add_plan_command(CLI::App& app, CommandContext& context) {
     std::vector<std::string> written = {options->out + "/plan.json", options->out + "/plan.html"};
     capture::write_text_file(written[0], plan_json(made, context.command_line));
     capture::write_text_file(written[1], plan_page(made, context.command_line));
-    int maps = 0;
-    for (const SuggestedShots& o : made.suggested_shots) {
-      for (const LedMap& map : o.maps) {
-        for (const bool joined : {true, false}) {
-          const std::string path = fmt::format("{}/plan_map_{}.png", options->out, ++maps);
-          try {
-            write_plot(led_map_plot(o, map, joined).plot, path);
-            written.push_back(path);
-          } catch (const std::invalid_argument&) {
-            // Nothing to draw: no position has a forecast.
-          } catch (const InputError& e) {
-            context.err << "note: " << e.what() << "\n";
-          }
-        }
-      }
-    }
+    write_maps(made, options->out, written, context);
     if (!context.quiet) {
       context.out << "written:";
       for (const std::string& path : written) context.out << " " << path;

@@ -120,7 +120,7 @@ int run_render(const RenderArguments& a, CommandContext& context) {
     return 1;
   }
   const Rendering rendering = render(rig, materials, options);
-  if (context.peers != nullptr && context.peers->place() > 0) return 0;
+  if (context.peers != nullptr && context.peers->rank() > 0) return 0;
   write_rendering(rendering, materials, a.model, a.out);
   if (!context.quiet) {
     context.out << rendering.pictures.size() << " pictures (EXR and PNG), sheet.png and "

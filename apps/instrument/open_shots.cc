@@ -1,5 +1,6 @@
 #include "apps/instrument/open_shots.h"
 
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,81 +15,120 @@
 #include "core/base/progress.h"
 
 namespace scattermeter::apps {
+namespace {
+
+class ShotOpener {
+ public:
+  ShotOpener(const Rig& rig, const capture::ShotSource& source, const ObjectScenes& objects,
+             const LitObjects& lit, const std::optional<SharedView>& shared)
+      : rig_(rig),
+        source_(source),
+        objects_(objects),
+        lit_(lit),
+        shared_(shared),
+        frames_(std::get_if<capture::FrameSource>(&source.open)),
+        responsivity_(
+            rig.scene.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0})) {
+    if (!shared && frames_ == nullptr) {
+      throw std::invalid_argument("open_shots: samples without a pose from the rig's points");
+    }
+    if (!shared && !rig.pose.charuco) points_ = calib::pose_from_points(rig.scene, rig.pose);
+  }
+
+  ObservedShot open(std::size_t i) const {
+    ObservedShot shot;
+    shot.stated = &rig_.scene.shots.at(source_.shot_idxs[i]);
+    if (shared_) {
+      shot.pose = shared_->pose;
+      shot.seen = shared_->objects.at(shot.stated->object);
+    }
+    const bool may_be_kept = source_.cache != nullptr && shared_ && frames_ != nullptr;
+    std::string key;
+    if (may_be_kept) {
+      key =
+          capture::shot_key(rig_.scene, rig_.decoding, shot, source_.names.at(i), *source_.digests);
+      if (take_kept(key, shot)) return shot;
+    }
+    const CfaSamples samples = frames_ != nullptr ? decoded(i, shot) : given(i, shot);
+    shot.exposure_s = samples.exposure_s;
+    shot.observation = observe(samples, shot.seen->map, responsivity_);
+    if (may_be_kept) source_.cache->keep(key, shot);
+    return shot;
+  }
+
+ private:
+  bool take_kept(const std::string& key, ObservedShot& shot) const {
+    std::optional<DecodedShot> kept = source_.cache->find(key);
+    if (!kept || kept->observation.channel[0].l.size() != shot.seen->map.patch_of_row.size()) {
+      return false;
+    }
+    static_cast<DecodedShot&>(shot) = std::move(*kept);
+    return true;
+  }
+
+  CfaSamples given(std::size_t i, ObservedShot& shot) const {
+    shot.iso = rig_.scene.camera.iso;
+    shot.f_number = rig_.scene.camera.f_number;
+    return std::get<capture::SampleSource>(source_.open)(source_.shot_idxs[i], shot.seen->map);
+  }
+
+  CfaSamples decoded(std::size_t i, ObservedShot& shot) const {
+    const std::vector<capture::RawFrame> exposures =
+        capture::frames_of(*shot.stated, source_.shot_idxs[i], *frames_);
+    const std::vector<std::string>& names = source_.names.at(i);
+    shot.iso = exposures.front().iso;
+    shot.f_number = exposures.front().f_number;
+    if (!shared_) find_own_pose(i, exposures.front(), shot);
+    const SampleMap& map = shot.seen->map;
+    capture::ShotSamples out =
+        capture::shot_samples(rig_.scene, rig_.decoding, *shot.stated, exposures, names, map.x0,
+                              map.y0, map.width, map.height);
+    for (const capture::RawFrame& f : exposures) {
+      shot.samples_outside += f.samples.size() - static_cast<std::size_t>(map.width) *
+                                                     static_cast<std::size_t>(map.height);
+    }
+    shot.exposures = std::move(out.exposures);
+    shot.frame_mean_counts = out.frame_mean_counts;
+    return std::move(out.samples);
+  }
+
+  // From points or a board, then, if the rig asks for it, from the silhouette.
+  void find_own_pose(std::size_t i, const capture::RawFrame& frame, ObservedShot& shot) const {
+    const std::string& name = source_.names.at(i).at(0);
+    shot.pose = points_ ? *points_ : calib::pose_from_board(rig_.scene, rig_.pose, frame, name);
+    if (rig_.pose.refine_by_silhouette) {
+      shot.pose = calib::pose_from_silhouette(rig_.scene, rig_.pose, objects_, shot.pose,
+                                              source_.shot_idxs[i], frame, name);
+    }
+    require_in_view(rig_.scene, objects_,
+                    {rig_.scene.camera.intrinsics, shot.pose.camera_from_world},
+                    shot.stated->object);
+    shot.seen = see(rig_.scene, objects_, lit_, shot.stated->object, shot.pose);
+    shot.has_own_pose = true;
+  }
+
+  const Rig& rig_;
+  const capture::ShotSource& source_;
+  const ObjectScenes& objects_;
+  const LitObjects& lit_;
+  const std::optional<SharedView>& shared_;
+  const capture::FrameSource* frames_;  // null: the source delivers samples
+  // With a free scale, the unit of light is a count per second.
+  std::array<double, 3> responsivity_;
+  // From which each shot's own silhouette starts; absent with a board or a common pose.
+  std::optional<PoseResult> points_;
+};
+
+}  // namespace
 
 std::vector<ObservedShot> open_shots(const Rig& rig, const capture::ShotSource& source,
                                      const ObjectScenes& objects, const LitObjects& lit,
                                      const std::optional<SharedView>& shared, Progress* progress) {
-  const capture::FrameSource* frames = std::get_if<capture::FrameSource>(&source.open);
-  if (!shared && frames == nullptr) {
-    throw std::invalid_argument("open_shots: samples without a pose from the rig's points");
-  }
-  // With a free scale, the unit of light is a count per second.
-  const std::array<double, 3> responsivity =
-      rig.scene.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0});
-  // The pose from which each shot's own silhouette starts if there is no board.
-  std::optional<PoseResult> points;
-  if (!shared && !rig.pose.charuco) points = calib::pose_from_points(rig.scene, rig.pose);
+  const ShotOpener opener(rig, source, objects, lit, shared);
   std::vector<ObservedShot> shots(source.shot_idxs.size());
   ProgressStage stage(progress, "reading shots", shots.size());
   tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) {
-    ObservedShot& shot = shots[i];
-    const std::size_t idx = source.shot_idxs[i];
-    shot.stated = &rig.scene.shots.at(idx);
-    if (shared) {
-      shot.pose = shared->pose;
-      shot.seen = shared->objects.at(shot.stated->object);
-    }
-    const bool may_be_kept = source.cache != nullptr && shared && frames != nullptr;
-    std::string key;
-    if (may_be_kept) {
-      key = capture::shot_key(rig.scene, rig.decoding, shot, source.names.at(i), *source.digests);
-      if (std::optional<DecodedShot> kept = source.cache->find(key);
-          kept && kept->observation.channel[0].l.size() == shot.seen->map.patch_of_row.size()) {
-        static_cast<DecodedShot&>(shot) = std::move(*kept);
-        stage.step();
-        return;
-      }
-    }
-    CfaSamples samples;
-    if (frames != nullptr) {
-      const std::vector<capture::RawFrame> exposures =
-          capture::frames_of(*shot.stated, idx, *frames);
-      const capture::RawFrame& frame = exposures.front();
-      const std::vector<std::string>& names = source.names.at(i);
-      shot.iso = frame.iso;
-      shot.f_number = frame.f_number;
-      if (!shared) {
-        shot.pose =
-            points ? *points : calib::pose_from_board(rig.scene, rig.pose, frame, names.at(0));
-        if (rig.pose.refine_by_silhouette) {
-          shot.pose = calib::pose_from_silhouette(rig.scene, rig.pose, objects, shot.pose, idx,
-                                                  frame, names.at(0));
-        }
-        require_in_view(rig.scene, objects,
-                        {rig.scene.camera.intrinsics, shot.pose.camera_from_world},
-                        shot.stated->object);
-        shot.seen = see(rig.scene, objects, lit, shot.stated->object, shot.pose);
-        shot.has_own_pose = true;
-      }
-      const SampleMap& map = shot.seen->map;
-      capture::ShotSamples of_shot =
-          capture::shot_samples(rig.scene, rig.decoding, *shot.stated, exposures, names, map.x0,
-                                map.y0, map.width, map.height);
-      for (const capture::RawFrame& f : exposures) {
-        shot.samples_outside += f.samples.size() - static_cast<std::size_t>(map.width) *
-                                                       static_cast<std::size_t>(map.height);
-      }
-      shot.exposures = std::move(of_shot.exposures);
-      shot.frame_mean_counts = of_shot.frame_mean_counts;
-      samples = std::move(of_shot.samples);
-    } else {
-      shot.iso = rig.scene.camera.iso;
-      shot.f_number = rig.scene.camera.f_number;
-      samples = std::get<capture::SampleSource>(source.open)(idx, shot.seen->map);
-    }
-    shot.exposure_s = samples.exposure_s;
-    shot.observation = observe(samples, shot.seen->map, responsivity);
-    if (may_be_kept) source.cache->keep(key, shot);
+    shots[i] = opener.open(i);
     stage.step();
   });
   return shots;

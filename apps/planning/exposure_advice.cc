@@ -52,9 +52,9 @@ std::array<std::vector<float>, kRgb> row_counts(const Rig& rig, const LinearPict
   return out;
 }
 
-double share_of(const std::vector<float>& values, const auto& holds) {
+double share_of(const std::vector<float>& values, const auto& condition) {
   if (values.empty()) return 0.0;
-  return static_cast<double>(std::count_if(values.begin(), values.end(), holds)) /
+  return static_cast<double>(std::count_if(values.begin(), values.end(), condition)) /
          static_cast<double>(values.size());
 }
 
@@ -100,15 +100,16 @@ std::string advice_of(const ExposureAdvice& a) {
   const double longest =
       *std::max_element(a.exposure_s.begin(), a.exposure_s.end()) / a.exposure_s.front();
   if (shortest * a.brightest_counts > kTooBright * a.range_counts) {
-    return fmt::format("the brightest place is {:.0f} % of the range, noise will clip it; {}",
-                       100.0 * shortest * a.brightest_counts / a.range_counts, instead);
+    return fmt::format(
+        "the brightest point is at {:.0f} % of the range, where noise makes it clip; {}",
+        100.0 * shortest * a.brightest_counts / a.range_counts, instead);
   }
   if (longest * a.brightest_counts < kTooDark * a.range_counts) {
-    return fmt::format("the brightest place is {:.2g} % of the range; {}",
+    return fmt::format("the brightest point is at {:.2g} % of the range only; {}",
                        100.0 * longest * a.brightest_counts / a.range_counts, instead);
   }
   if (a.dark_share > 0.1 && a.exposure_s.size() == 1 && a.suggested_s.size() > 1) {
-    return fmt::format("{:.0f} % of the object lies in the noise; {}", 100.0 * a.dark_share,
+    return fmt::format("{:.0f} % of the object is lost in the noise; {}", 100.0 * a.dark_share,
                        instead);
   }
   return "";

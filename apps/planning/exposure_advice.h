@@ -1,4 +1,4 @@
-// Whether a shot will be too dark or too bright, and what time would do.
+// Advice on exposure times: shots that will be too dark or too bright.
 #pragma once
 
 #include <array>
@@ -14,23 +14,23 @@
 
 namespace scattermeter::apps {
 
-// Of one shot in one channel. Counts are above black, of samples in rows of the object.
+// For one shot in one channel. Counts are above black, of the samples in rows of the object.
 struct ExposureAdvice {
   std::string shot;
   std::string material;
   char channel = 'R';
-  std::vector<double> exposure_s;  // of its files; as chosen where the rig has none
-  bool chosen = false;             // the rig leaves the time open
-  double range_counts = 0;         // where the sensor clips
+  std::vector<double> exposure_s;  // of its files; as chosen if the rig has none
+  bool chosen = false;             // the rig states no time
+  double range_counts = 0;         // at which the sensor clips
   // In the first file.
   double brightest_counts = 0;
   double dark_counts = 0;    // a tenth of the samples is darker
   double clipped_share = 0;  // in all files
   double dark_share = 0;     // below three deviations of their noise in every file
-  // Of the shot, the same for its channels: one time, or a bracket from short to long. Empty where
-  // the rig has no responsivity, which leaves open how bright a shot will be.
+  // For the shot, the same in its channels: one time, or a bracket from short to long. Empty if the
+  // rig has no responsivity, so that the brightness of a shot is unknown.
   std::vector<double> suggested_s;
-  std::string advice;  // a sentence; "" where nothing is wrong
+  std::string advice;  // a sentence; empty if nothing is wrong
 };
 
 // opened: all shots of `shots`, in the rig's order. noise: of the sensor, by channel.

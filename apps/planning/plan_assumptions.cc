@@ -8,36 +8,41 @@ std::vector<std::string> plan_assumptions(const Plan& plan) {
   std::vector<std::string> out;
   out.push_back(plan.from_truth
                     ? "The materials are the rig's truth.materials."
-                    : "The materials are the middle and the corners of the range that was given.");
+                    : "The materials are the middle and the corners of the given range.");
   out.push_back(
-      fmt::format("The noise is that of {}: {:.3g} electrons a count and {:.3g} counts read noise "
-                  "(green).",
+      fmt::format("The noise is that of {}: {:.3g} electrons per count and {:.3g} counts of "
+                  "read noise (green).",
                   plan.calibrated_noise ? "camera.radiance" : "camera.sensor",
                   plan.noise[1].gain_e_per_count, plan.noise[1].read_noise_counts));
   out.emplace_back(
-      "The dipole makes the expected shots and the dipole is fitted to them, as measure --model "
-      "dipole does. Where measure has to answer by transport, the Monte Carlo error of its paths "
-      "comes on top, and what the shape adds to the information is not in the forecast.");
+      "The expected shots are rendered by the dipole, and the dipole is fitted to them, as by "
+      "measure "
+      "--model dipole. If measure has to use transport, the Monte Carlo error of its paths is "
+      "added, "
+      "and the information in the shape is not in the forecast.");
   out.emplace_back(
-      "Everything stands where the rig says; standard deviations of LEDs, pose, lens, scale and "
+      "All positions are those of the rig; the standard deviations of LEDs, pose, lens, scale and "
       "eta "
-      "are those that the rig and its calibrations state.");
+      "are those stated by the rig and its calibrations.");
   if (!plan.brightness_known) {
     out.emplace_back(
-        "The rig has no responsivity: how bright a shot will be is not known, and the brightest "
-        "place counts as three quarters of the range.");
+        "The rig has no responsivity: the brightness of the shots is unknown, and the brightest "
+        "point "
+        "is assumed at three quarters of the range.");
   }
   if (plan.neutral_camera) {
     out.emplace_back(
-        "The rig has no truth.sensor: the camera counts as one that needs no correction, known as "
-        "well as camera.radiance states.");
+        "The rig has no truth.sensor: the camera is assumed to need no correction, with the "
+        "uncertainties stated by camera.radiance.");
   }
   if (!plan.suggested_shots.empty()) {
     out.emplace_back(
-        "Maps and gains of other shots are linearised on coarse patches and told relative to the "
-        "shots as planned. The added shot is exposed so that nothing clips; its LED is as bright "
-        "and as well known as the one it is like, and hides nothing from the camera; a card's edge "
-        "counts as exactly placed.");
+        "Maps and gains of other shots are linearised on coarse patches and relative to the "
+        "planned "
+        "shots. The added shot is exposed so that nothing clips; its LED has the brightness and "
+        "the "
+        "uncertainties of an existing one and hides nothing from the camera; the position of a "
+        "card's edge is exact.");
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// A card that throws half of an object into shadow.
+// A card that shadows half of an object.
 #pragma once
 
 #include <memory>
@@ -10,9 +10,9 @@
 
 namespace scattermeter::apps {
 
-// The object and a card between it and a lamp at `lamp_mm`, whose edge lies in one plane with lamp
-// and middle of the object; upright: in the plane that holds the world's z as well, else across
-// it. For shadows only. Null where the lamp is too near for a card.
+// The object and a card between it and a lamp at `lamp_mm`. The plane through the edge of the card and
+// the lamp contains the centre of the object; upright: it also contains the world's z axis, otherwise
+// it is perpendicular to that plane. For shadows only. Null if the lamp is too close for a card.
 std::unique_ptr<RayScene> with_shadow_card(const ObjectScene& object,
                                            const Eigen::Vector3d& lamp_mm, bool upright);
 

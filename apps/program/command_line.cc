@@ -94,7 +94,7 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
                                        std::to_string(peers->count()) +
                                        "; only simulate and render share paths");
       }
-      context.quiet = context.quiet || peers->place() > 0;
+      context.quiet = context.quiet || peers->rank() > 0;
     }
     ProgressBar bar;
     if (!context.quiet && isatty(STDERR_FILENO) != 0) context.progress = &bar;

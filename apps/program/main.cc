@@ -28,17 +28,17 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file over the limit of its size is an error of the write that hits it, with a message.
+  // Exceeding the limit of a file's size is then an error of the write, with a message.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
     Ranks ranks;
-    // The first rank alone is heard; what another has to say of an error is told at the end.
-    const bool first = ranks.place() == 0;
+    // Only the first rank prints; an error message of another is printed at the end.
+    const bool first = ranks.rank() == 0;
     std::ostream nowhere(nullptr);
-    std::ostringstream heard;
+    std::ostringstream kept;
     const int status = run(std::vector<std::string>(argv + 1, argv + argc),
-                           first ? std::cout : nowhere, first ? std::cerr : heard, ranks);
-    const Ranks::End end = ranks.end(status, heard.str());
+                           first ? std::cout : nowhere, first ? std::cerr : kept, ranks);
+    const Ranks::End end = ranks.end(status, kept.str());
     if (first) std::cerr << end.message;
     return end.status;
   } catch (const scattermeter::InputError& e) {

@@ -1,4 +1,4 @@
-// A progress line on the terminal.
+// A progress bar on the terminal.
 #pragma once
 
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace scattermeter::apps {
 
-// Draws the current stage on stderr, and erases it at its end. Use it only where stderr is a
+// Draws the current stage on stderr and erases it at its end. To be used only if stderr is a
 // terminal.
 class ProgressBar final : public Progress {
  public:

@@ -16,8 +16,8 @@ namespace scattermeter::apps {
 
 namespace {
 
-// What each rank tells before numbers are sent: where it is, and how many it has.
-struct Place {
+// Sent by each rank before its numbers: whether it is working, on what, and how many they are.
+struct Announcement {
   enum : std::uint64_t { kAtWork, kAtEnd };
   std::uint64_t at = kAtWork;
   std::uint64_t task = 0;
@@ -25,11 +25,12 @@ struct Place {
 };
 
 constexpr char kApart[] =
-    "mpirun: the ranks do not do the same: their input differs, or their processors are of several "
+    "mpirun: the ranks do not do the same: their input differs, or their processors are of "
+    "different "
     "kinds";
 
-std::vector<Place> places(const Place& mine, int count) {
-  std::vector<Place> all(static_cast<std::size_t>(count));
+std::vector<Announcement> announcements(const Announcement& mine, int count) {
+  std::vector<Announcement> all(static_cast<std::size_t>(count));
   MPI_Allgather(&mine, 3, MPI_UINT64_T, all.data(), 3, MPI_UINT64_T, MPI_COMM_WORLD);
   return all;
 }
@@ -42,12 +43,12 @@ bool started_by_a_launcher() {
 }  // namespace
 
 Ranks::Ranks() {
-  // Alone, MPI_Init takes longer than some commands, and needs more of the machine than they do.
+  // For a single process MPI_Init would take longer than some commands.
   if (!started_by_a_launcher()) return;
   int level = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
-  MPI_Comm_rank(MPI_COMM_WORLD, &place_);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
   joined_ = true;
 }
 
@@ -57,14 +58,15 @@ Ranks::~Ranks() {
 
 std::vector<double> Ranks::gathered(std::uint64_t task, const std::vector<double>& mine) {
   if (count_ == 1) return mine;
-  const std::vector<Place> all = places({Place::kAtWork, task, mine.size()}, count_);
+  const std::vector<Announcement> all =
+      announcements({Announcement::kAtWork, task, mine.size()}, count_);
   std::vector<int> sizes;
   std::vector<int> begins;
   std::uint64_t total = 0;
-  for (const Place& p : all) {
-    if (p.at == Place::kAtEnd) throw Ended();
+  for (const Announcement& p : all) {
+    if (p.at == Announcement::kAtEnd) throw Ended();
   }
-  for (const Place& p : all) {
+  for (const Announcement& p : all) {
     if (p.task != task) {
       throw InputError(std::string(kApart));
     }
@@ -83,27 +85,27 @@ std::vector<double> Ranks::gathered(std::uint64_t task, const std::vector<double
 
 Ranks::End Ranks::end(int status, const std::string& message) {
   if (count_ == 1) return {status, {}};
-  // Those at work follow (Ended) and come here.
-  const auto at_end = [](const Place& p) { return p.at == Place::kAtEnd; };
+  // Ranks that are still working receive Ended and then come here.
+  const auto at_end = [](const Announcement& p) { return p.at == Announcement::kAtEnd; };
   for (;;) {
-    const std::vector<Place> all = places({Place::kAtEnd, 0, 0}, count_);
+    const std::vector<Announcement> all = announcements({Announcement::kAtEnd, 0, 0}, count_);
     if (std::all_of(all.begin(), all.end(), at_end)) break;
   }
   std::vector<int> statuses(static_cast<std::size_t>(count_));
   MPI_Allgather(&status, 1, MPI_INT, statuses.data(), 1, MPI_INT, MPI_COMM_WORLD);
   const auto failed = std::find_if(statuses.begin(), statuses.end(), [](int s) { return s >= 2; });
   if (failed == statuses.end()) {
-    // Another one had less to do.
+    // Another rank had less to do.
     if (statuses.front() == kFollows) return {2, std::string("scattermeter: ") + kApart + "\n"};
     return {statuses.front(), {}};
   }
   const int who = static_cast<int>(failed - statuses.begin());
-  std::string told = message;
-  int length = static_cast<int>(told.size());
+  std::string first_message = message;
+  int length = static_cast<int>(first_message.size());
   MPI_Bcast(&length, 1, MPI_INT, who, MPI_COMM_WORLD);
-  told.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(told.data(), length, MPI_CHAR, who, MPI_COMM_WORLD);
-  return {*failed, who == 0 ? std::string() : told};
+  first_message.resize(static_cast<std::size_t>(length));
+  MPI_Bcast(first_message.data(), length, MPI_CHAR, who, MPI_COMM_WORLD);
+  return {*failed, who == 0 ? std::string() : first_message};
 }
 
 #else

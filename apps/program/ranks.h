@@ -1,4 +1,4 @@
-// The processes that Open MPI's mpirun starts together.
+// The processes started together by Open MPI's mpirun.
 #pragma once
 
 #include <cstdint>
@@ -10,41 +10,41 @@
 
 namespace scattermeter::apps {
 
-// One for the whole run of the program. A program that mpirun did not start, and one that is built
-// without Open MPI, is alone. All ranks must have processors of one kind: another's vectors may
-// give other digits, which gathered() notices.
+// To be constructed once per run of the program. A program that was not started by mpirun, or built
+// without Open MPI, is the only rank. All ranks must have processors of the same kind: others may
+// give different digits, which gathered() detects.
 class Ranks : public PathPeers {
  public:
-  // Another rank has come to its end; this one follows it.
+  // Thrown after another rank has ended, so that this one ends, too.
   class Ended : public std::runtime_error {
    public:
     Ended() : std::runtime_error("another rank has ended") {}
   };
 
-  // Throws InputError where mpirun started several of a program that knows nothing of it.
+  // Throws InputError if mpirun started several processes of a program built without Open MPI.
   Ranks();
   ~Ranks() override;
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
 
   int count() const override { return count_; }
-  int place() const override { return place_; }
-  // Throws Ended, and InputError where the ranks do not do the same.
+  int rank() const override { return rank_; }
+  // Throws Ended, and InputError if the ranks do not do the same.
   std::vector<double> gathered(std::uint64_t task, const std::vector<double>& mine) override;
 
-  // How all of them came to an end.
+  // The common result of all ranks.
   struct End {
-    int status = 0;       // the first rank's, of those with 2 and more; else rank 0's
-    std::string message;  // of that rank, where it is not rank 0
+    int status = 0;       // that of the first rank with a status of 2 or more, otherwise of rank 0
+    std::string message;  // of that rank, unless it is rank 0
   };
-  // Waits for all, who call it once each, the last thing they do together: its exit status
-  // (kFollows after Ended) and what it has to say of an error.
+  // To be called once by each rank as its last common action, with its exit status (kFollows after
+  // Ended) and its error message. Waits for all ranks.
   static constexpr int kFollows = -1;
   End end(int status, const std::string& message);
 
  private:
   int count_ = 1;
-  int place_ = 0;
+  int rank_ = 0;
   [[maybe_unused]] bool joined_ = false;
 };
 

@@ -201,7 +201,7 @@ Html plan_section(const Plan& plan, const std::vector<const PlannedChannel*>& ch
 std::string plan_page(const Plan& plan, const std::string& command_line) {
   const auto refused = std::count_if(plan.channels.begin(), plan.channels.end(),
                                      [](const PlannedChannel& c) { return c.result.refused(); });
-  Html body = html_element("h1", html_text("What these shots will tell"));
+  Html body = html_element("h1", html_text("Expected uncertainty of these shots"));
   body += html_element(
       "p",
       html_text(refused == 0 ? fmt::format("All {} values will be measured.", plan.channels.size())
@@ -245,7 +245,7 @@ std::string plan_page(const Plan& plan, const std::string& command_line) {
     list += html_element("li", html_text(sentence));
   }
   body += html_element("ul", list);
-  return html_document("What these shots will tell", body);
+  return html_document("Expected uncertainty of these shots", body);
 }
 
 }  // namespace scattermeter::apps

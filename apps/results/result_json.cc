@@ -44,7 +44,7 @@ Json left_out_json(const ChannelResult& r) {
 }
 
 // An estimate besides the reported one.
-Json short_answer(const Estimate& e) {
+Json short_estimate(const Estimate& e) {
   return {{"sigma_s_prime_per_mm", quantity(e.sigma_s_prime_per_mm, e.converged)},
           {"sigma_a_per_mm", quantity(e.sigma_a_per_mm, e.converged)},
           {"verdict", e.reasons.empty() ? "ok" : "refused"},
@@ -60,7 +60,7 @@ Json singles_json(const ChannelResult& r) {
   j["shots"] = Json::array();
   for (const ShotResult& s : r.singles) {
     Json shot = {{"shot", s.file}};
-    shot.update(short_answer(s.estimate));
+    shot.update(short_estimate(s.estimate));
     j["shots"].push_back(shot);
   }
   return j;
@@ -136,7 +136,7 @@ Json channel_json(const ChannelResult& r) {
   if (r.dipole) {
     const std::optional<DipoleDistance> far = dipole_distance(r);
     if (!r.why_transport.empty()) j["why_transport"] = r.why_transport;
-    Json& dipole = j["dipole"] = short_answer(*r.dipole);
+    Json& dipole = j["dipole"] = short_estimate(*r.dipole);
     dipole["sigma_s_prime_off_relative"] =
         far ? number(far->sigma_s_prime_relative) : Json(nullptr);
     dipole["sigma_a_off_per_mm"] = far ? number(far->sigma_a_per_mm) : Json(nullptr);

@@ -15,10 +15,10 @@ namespace scattermeter::apps {
 // A name and R, G, B (eta is not used).
 using NamedMedia = std::pair<std::string, std::array<Medium, 3>>;
 
-// Two shots a material and body (names of core/mesh/bodies.h), "<name>_cube_1.dng" ...
-// "<name>_pyramid_2.dng": under one LED, then the other, by the camera of
-// apps/simulation/synthetic_camera.h. All is exact but for what set_up_camera() says; the exposure
-// is chosen, one for all shots. Precondition (std::invalid_argument): 240 <= image_width_px <=
+// Two shots per material and body (names of core/mesh/bodies.h), "<name>_cube_1.dng" ...
+// "<name>_pyramid_2.dng", under one LED and then the other, by the camera of set_up_camera()
+// (apps/simulation/synthetic_camera.h). Everything except the pose points is exactly known; one
+// exposure is chosen for all shots. Throws std::invalid_argument unless 240 <= image_width_px <=
 // 3872.
 Rig bodies_rig(int image_width_px, double eta_int_over_ext,
                const std::vector<NamedMedia>& materials,

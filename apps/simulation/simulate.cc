@@ -64,7 +64,7 @@ SimulatedShots simulate(const Rig& given, const std::string& out_folder,
     shots.emplace(rig, objects, VirtualShotOptions{options.noise, progress, transport});
   }
   SimulatedShots made;
-  if (options.transport.peers != nullptr && options.transport.peers->place() > 0) return made;
+  if (options.transport.peers != nullptr && options.transport.peers->rank() > 0) return made;
   std::error_code error;
   std::filesystem::create_directories(out_folder, error);
   if (error) throw InputError(out_folder, "the folder cannot be created: " + error.message());

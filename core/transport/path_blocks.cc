@@ -48,7 +48,7 @@ void share_in_order(PathPeers& peers, std::uint64_t task, int first, int end,
     const auto from = [&](int place) { return begin + n * place / peers.count(); };
     std::vector<double> mine;
     run_in_order(
-        from(peers.place()), from(peers.place() + 1),
+        from(peers.rank()), from(peers.rank() + 1),
         [&](int block) {
           auto numbers = std::make_shared<std::vector<double>>();
           work(block, *numbers);

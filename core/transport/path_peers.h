@@ -13,9 +13,9 @@ class PathPeers {
   virtual ~PathPeers() = default;
 
   virtual int count() const = 0;  // >= 1
-  virtual int place() const = 0;  // of this process, 0 .. count() - 1
+  virtual int rank() const = 0;   // of this process, 0 .. count() - 1
 
-  // The numbers of all, one after the other in the order of their places. Waits for the others.
+  // The numbers of all, one after the other in the order of their ranks. Waits for the others.
   // Throws where they are at another `task` than this one, or at none any more.
   virtual std::vector<double> gathered(std::uint64_t task, const std::vector<double>& mine) = 0;
 };

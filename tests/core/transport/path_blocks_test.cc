@@ -32,12 +32,12 @@ class ThreadPeers : public PathPeers {
     std::barrier<> meeting;
     std::vector<std::vector<double>> numbers;
   };
-  ThreadPeers(Room& room, int place) : room_(room), place_(place) {}
+  ThreadPeers(Room& room, int place) : room_(room), rank_(place) {}
   int count() const override { return static_cast<int>(room_.numbers.size()); }
-  int place() const override { return place_; }
+  int rank() const override { return rank_; }
   std::vector<double> gathered(std::uint64_t task, const std::vector<double>& mine) override {
     tasks.push_back(task);
-    room_.numbers[static_cast<std::size_t>(place_)] = mine;
+    room_.numbers[static_cast<std::size_t>(rank_)] = mine;
     room_.meeting.arrive_and_wait();
     std::vector<double> all;
     for (const auto& n : room_.numbers) all.insert(all.end(), n.begin(), n.end());
@@ -48,7 +48,7 @@ class ThreadPeers : public PathPeers {
 
  private:
   Room& room_;
-  int place_;
+  int rank_;
 };
 
 TEST(PathBlocks, PeersMergeAllInOrder) {

@@ -1,0 +1,21 @@
+#include "apps/simulation/chosen_exposure.h"
+
+#include <gtest/gtest.h>
+
+namespace scattermeter::apps {
+namespace {
+
+TEST(ChosenExposure, HasTwoDigits) {
+  EXPECT_DOUBLE_EQ(rounded_exposure_s(0.0987), 0.098);
+  EXPECT_DOUBLE_EQ(rounded_exposure_s(1234.0), 1200.0);
+  EXPECT_DOUBLE_EQ(rounded_exposure_s(9.999), 9.9);
+}
+
+TEST(ChosenExposure, KeepsWhatHasTwoDigits) {
+  for (const double s : {0.1, 0.3, 0.007, 2.5, 1.0 / 125.0, 30.0, 1e-4}) {
+    EXPECT_DOUBLE_EQ(rounded_exposure_s(s), s);
+  }
+}
+
+}  // namespace
+}  // namespace scattermeter::apps
