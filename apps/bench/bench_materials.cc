@@ -19,10 +19,10 @@
 namespace scattermeter::apps {
 namespace {
 
-// An answer this near is right whatever its deviation says.
+// An estimate with a smaller relative error is right whatever its standard deviation.
 constexpr double kNearS = 0.01;
 constexpr double kNearA = 0.05;
-constexpr double kFar = 3.0;  // deviations
+constexpr double kFar = 3.0;  // standard deviations
 
 const char* verdict_name(MaterialVerdict verdict) {
   switch (verdict) {
@@ -46,7 +46,7 @@ MaterialsBenchRow judged(const ListedMaterial& material, double scale_std, const
   row.z_sigma_s_prime = z(e.sigma_s_prime_per_mm, truth.sigma_s_prime_per_mm);
   row.z_sigma_a = z(e.sigma_a_per_mm, truth.sigma_a_per_mm);
   if (!e.reasons.empty()) return row;
-  // Not finite is wrong, too.
+  // Values that are not finite are wrong, too.
   const auto right = [](double off, double near, double deviations) {
     return std::abs(off) <= near || std::abs(deviations) <= kFar;
   };
@@ -92,22 +92,20 @@ std::vector<MaterialsBenchRow> bench_materials(const std::vector<ListedMaterial>
     for (const ListedMaterial& m : channels) media[channel_index(m.channel)] = m.medium;
     const Rig truth = bodies_rig(options.image_width_px, channels.front().medium.eta_int_over_ext,
                                  {{name, media}});
-    const ObjectScenes scenes = bodies_scenes(truth);
-    const VirtualShots shots(truth, scenes, {.noise = true});
+    const ObjectScenes objects = bodies_scenes(truth);
+    const VirtualShots shots(truth, objects, {.noise = true});
     std::vector<capture::RawFrame> exposed(shots.size());
-    const std::uint64_t seed = generator();  // no two materials share their noise
+    const std::uint64_t seed = generator();  // of its own for each material
     tbb::parallel_for(std::size_t{0}, shots.size(),
                       [&](std::size_t i) { exposed[i] = shots.frame(i, seed); });
     const double z = normal(generator);
     for (double scale_std : options.scale_stds) {
-      Rig told = truth;
-      told.scene.camera.responsivity_relative_std = scale_std;
-      for (double& r : *told.scene.camera.responsivity) r *= std::exp(scale_std * z);
-      MeasureOptions measure_options;
-
-      Instrument instrument(told, scenes, measure_options);
+      Rig stated = truth;
+      stated.scene.camera.responsivity_relative_std = scale_std;
+      for (double& r : *stated.scene.camera.responsivity) r *= std::exp(scale_std * z);
+      Instrument instrument(stated, objects, {});
       const Measurement m = instrument.measure(capture::shots_from(
-          told.scene, capture::all_shots(told.scene),
+          stated.scene, capture::all_shots(stated.scene),
           capture::FrameSource([&](std::size_t i, std::size_t) { return exposed.at(i); })));
       for (const ListedMaterial& material : channels) {
         rows.push_back(

@@ -1,4 +1,4 @@
-#include "apps/bench/bench_commands.h"
+#include "apps/bench/bench_command.h"
 #include "apps/bench/bench_materials.h"
 
 namespace scattermeter::apps {
@@ -28,20 +28,15 @@ void add_materials_bench(CLI::App& bench, CommandContext& context,
                    "relative deviations of the scale; all materials at each")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->callback([options, common, &context] {
-    context.chosen = [options, common, &context] {
-      options->bench.image_width_px =
-          common->image_width_px.value_or(options->bench.image_width_px);
-      options->bench.seed = common->seed;
-      options->bench.progress = context.progress;
-      const std::vector<MaterialsBenchRow> rows = bench_materials(
-          options->csv.empty() ? well_known_materials() : read_materials(options->csv),
-          options->bench);
-      BenchFiles files(*common, context);
-      files.table(materials_bench_table(rows));
-      files.csv("materials", materials_bench_csv(rows));
-      return 0;
-    };
+  run_if_named(*command, context, [options, common, &context] {
+    take_common(*common, context, options->bench);
+    const std::vector<MaterialsBenchRow> rows = bench_materials(
+        options->csv.empty() ? well_known_materials() : read_materials(options->csv),
+        options->bench);
+    BenchFiles files(*common, context);
+    files.table(materials_bench_table(rows));
+    files.csv("materials", materials_bench_csv(rows));
+    return 0;
   });
 }
 

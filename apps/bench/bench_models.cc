@@ -12,7 +12,7 @@
 
 #include <fmt/core.h>
 
-#include "apps/bench/answer_statistics.h"
+#include "apps/bench/estimate_statistics.h"
 #include "apps/instrument/instrument.h"
 #include "apps/instrument/open_shots.h"
 #include "apps/simulation/bodies_rig.h"
@@ -32,7 +32,7 @@ constexpr Quantity kNoQuantity{kMissing, kMissing, kMissing, kMissing};
 struct Case {
   Rig truth;
   Rig told;
-  ObjectScenes scenes;
+  ObjectScenes objects;
   std::size_t channel;
 };
 
@@ -60,8 +60,8 @@ Case make_case(const std::string& body, const ListedMaterial& material,
 
 double measured_patch_mm(const Case& c, const std::string& body) {
   const double distance_mm =
-      (c.truth.truth.pose->position_mm - c.scenes.at(body).box.center_mm()).norm();
-  return LitObjects(c.told.scene, c.scenes, std::nullopt, distance_mm).smallest_patch_mm();
+      (c.truth.truth.pose->position_mm - c.objects.at(body).box.center_mm()).norm();
+  return LitObjects(c.told.scene, c.objects, std::nullopt, distance_mm).smallest_patch_mm();
 }
 
 // Wall and processor time since it was made.
@@ -121,7 +121,7 @@ ChannelResult measured(Instrument& instrument, const Case& c, const capture::Sam
 void judge_truth(const VolumeTruth& shots, const Case& c, ModelsBenchRow& row) {
   row.truth_patch_std = shots.patch_std();
   const MeasureOptions options;
-  Instrument instrument(c.told, c.scenes, options);
+  Instrument instrument(c.told, c.objects, options);
   std::vector<double> s, a;
   for (int b = 0; b < shots.batches(); ++b) {
     const Estimate e = measured(instrument, c, shots.disturbed(b)).estimate;
@@ -143,9 +143,9 @@ std::vector<ModelsBenchRow> rows_of_case(const std::string& body, const ListedMa
   ModelsBenchRow common = empty_row(body, material);
   try {
     Case c = make_case(body, material, options, scale_error);
-    c.scenes = bodies_scenes(c.truth);
+    c.objects = bodies_scenes(c.truth);
     common.reason =
-        why_left_out(material.medium, c.scenes.at(body).box, measured_patch_mm(c, body));
+        why_left_out(material.medium, c.objects.at(body).box, measured_patch_mm(c, body));
     if (!common.reason.empty()) {
       common.status = ModelsBenchStatus::kLeftOut;
       return {common};
@@ -155,7 +155,7 @@ std::vector<ModelsBenchRow> rows_of_case(const std::string& body, const ListedMa
     // The renderer multiplies it by 1000003; transport's are below 100000.
     truth_options.seed = seed % 1'000'000'000 + 1;
     if (options.noise) truth_options.noise_seed = noise_seed;
-    const VolumeTruth shots(c.truth, c.scenes, truth_options);
+    const VolumeTruth shots(c.truth, c.objects, truth_options);
     judge_truth(shots, c, common);
     std::vector<ModelsBenchRow> rows;
     for (const std::string& model : options.models) {
@@ -166,7 +166,7 @@ std::vector<ModelsBenchRow> rows_of_case(const std::string& body, const ListedMa
       measure_options.estimate.time_limit_s = options.time_limit_s;
       try {
         const Clocks clocks;
-        Instrument instrument(c.told, c.scenes, measure_options);
+        Instrument instrument(c.told, c.objects, measure_options);
         const ChannelResult result = measured(instrument, c, shots.shots());
         clocks.stop(row);
         judge(result, row);

@@ -15,64 +15,58 @@
 namespace scattermeter::apps {
 namespace {
 
-// What one material and channel answered so far.
-struct Answers {
-  std::vector<DrawnAnswer> s, a;
+// Estimates of one material and channel.
+struct NoiseEstimates {
+  std::vector<DrawnEstimate> s, a;
   double refused = 0;
 };
 
 struct NamedStatistics {
   const char* name;
-  const AnswerStatistics& statistics;
+  const EstimateStatistics& statistics;
 };
-std::array<NamedStatistics, 2> both(const NoiseBenchRow& row) {
+std::array<NamedStatistics, 2> quantities_of(const NoiseBenchRow& row) {
   return {{{"sigma_s'", row.sigma_s_prime_per_mm}, {"sigma_a", row.sigma_a_per_mm}}};
 }
 
 }  // namespace
 
-std::vector<NoiseBenchRow> bench_noise(const Rig& rig, const ObjectScenes& scenes,
+std::vector<NoiseBenchRow> bench_noise(const Rig& rig, const ObjectScenes& objects,
                                        const NoiseBenchOptions& options) {
   if (options.seeds < 2) {
     throw std::invalid_argument("bench_noise: at least two seeds expected, got " +
                                 std::to_string(options.seeds));
   }
-  const VirtualShots shots(rig, scenes, {.noise = true, .progress = options.progress});
-  MeasureOptions measure_options;
-
-  Instrument instrument(rig, scenes, measure_options);
-  std::vector<Answers> answers;
+  const VirtualShots shots(rig, objects, {.noise = true, .progress = options.progress});
+  Instrument instrument(rig, objects, {});
+  std::vector<NoiseEstimates> estimates;
   std::vector<NoiseBenchRow> rows;
   ProgressStage stage(options.progress, "seeds", static_cast<std::size_t>(options.seeds));
   for (int i = 0; i < options.seeds; ++i) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-    const capture::FrameSource frames = [&](std::size_t shot, std::size_t k) {
-      return shots.frame(shot, seed, k);
-    };
-    const Measurement m =
-        instrument.measure(capture::shots_from(rig.scene, capture::all_shots(rig.scene), frames));
-    answers.resize(m.results.size());
+    const Measurement m = instrument.measure(shots.source(seed));
+    estimates.resize(m.results.size());
     rows.resize(m.results.size());
     for (std::size_t r = 0; r < m.results.size(); ++r) {
       const ChannelResult& result = m.results[r];
       rows[r].material = result.material;
       rows[r].channel = result.channel;
       if (result.refused()) {
-        answers[r].refused += 1.0;
+        estimates[r].refused += 1.0;
         continue;
       }
       const NoiseStd noise = noise_std(result.estimate);
-      answers[r].s.push_back({result.estimate.sigma_s_prime_per_mm, noise.sigma_s_prime_per_mm});
-      answers[r].a.push_back({result.estimate.sigma_a_per_mm, noise.sigma_a_per_mm});
+      estimates[r].s.push_back({result.estimate.sigma_s_prime_per_mm, noise.sigma_s_prime_per_mm});
+      estimates[r].a.push_back({result.estimate.sigma_a_per_mm, noise.sigma_a_per_mm});
     }
     stage.step();
   }
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const std::size_t channel = channel_index(rows[r].channel);
     const Medium& truth = rig.truth.materials.at(rows[r].material)[channel];
-    rows[r].sigma_s_prime_per_mm = answer_statistics(truth.sigma_s_prime_per_mm, answers[r].s);
-    rows[r].sigma_a_per_mm = answer_statistics(truth.sigma_a_per_mm, answers[r].a);
-    rows[r].refused = answers[r].refused / options.seeds;
+    rows[r].sigma_s_prime_per_mm = estimate_statistics(truth.sigma_s_prime_per_mm, estimates[r].s);
+    rows[r].sigma_a_per_mm = estimate_statistics(truth.sigma_a_per_mm, estimates[r].a);
+    rows[r].refused = estimates[r].refused / options.seeds;
   }
   return rows;
 }
@@ -92,7 +86,7 @@ std::string noise_bench_table(const std::vector<NoiseBenchRow>& rows) {
                    {"in 95 %"},
                    {"refused"}});
   for (const NoiseBenchRow& row : rows) {
-    for (const auto& [name, s] : both(row)) {
+    for (const auto& [name, s] : quantities_of(row)) {
       table.add_row(
           {row.material, std::string(1, row.channel), name, fmt::format("{:.4g}", s.truth),
            fmt::format("{:.6g}", s.mean),
@@ -111,7 +105,7 @@ std::string noise_bench_csv(const std::vector<NoiseBenchRow>& rows) {
            "bias_relative", "bias_relative_std", "sampled_std_per_mm", "predicted_std_per_mm",
            "std_ratio", "rmse_per_mm", "rmse_over_noise_std", "coverage95", "refused"});
   for (const NoiseBenchRow& row : rows) {
-    for (const auto& [name, s] : both(row)) {
+    for (const auto& [name, s] : quantities_of(row)) {
       csv.add_row({row.material, std::string(1, row.channel), name, std::to_string(s.n),
                    csv_number(s.truth), csv_number(s.mean), csv_number(s.bias_relative),
                    csv_number(s.bias_relative_std), csv_number(s.sampled_std),

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/answer_statistics.h"
+#include "apps/bench/estimate_statistics.h"
 #include "apps/instrument/open_objects.h"
 #include "apps/report/plot.h"
 #include "apps/rig/rig.h"
@@ -23,15 +23,15 @@ struct NoiseBenchOptions {
 struct NoiseBenchRow {
   std::string material;
   char channel = 'R';
-  AnswerStatistics sigma_s_prime_per_mm;
-  AnswerStatistics sigma_a_per_mm;
+  EstimateStatistics sigma_s_prime_per_mm;
+  EstimateStatistics sigma_a_per_mm;
   double refused = 0;  // share
 };
 
 // Renders the rig's truth once, exposes it to raws in memory once a seed, and measures every set
 // jointly. Only the noise is drawn anew: rig and truth are the same throughout. Throws InputError
 // for a rig without truth; std::invalid_argument for fewer than two seeds.
-std::vector<NoiseBenchRow> bench_noise(const Rig& rig, const ObjectScenes& scenes,
+std::vector<NoiseBenchRow> bench_noise(const Rig& rig, const ObjectScenes& objects,
                                        const NoiseBenchOptions& options);
 
 std::string noise_bench_table(const std::vector<NoiseBenchRow>& rows);

@@ -12,7 +12,7 @@
 #include "core/diffusion/dipole_curve.h"
 #include "core/estimation/estimation.h"
 #include "core/fit/dipole_fit.h"
-#include "core/fit/numerics.h"
+#include "core/fit/method_errors.h"
 #include "core/fit/quantised_system.h"
 #include "core/fit/recovered_reflectance.h"
 #include "core/fit/residual.h"
@@ -56,66 +56,58 @@ PaperBench bench_paper(const PaperBenchOptions& options) {
   const Rig rig = pyramid_rig(
       options.image_width_px,
       options.probe ? options.probe : std::make_shared<const Environment>(make_sky_probe()));
-  const ObjectScenes scenes = pyramid_scenes(rig);
-  const VirtualShots shots(rig, scenes, {.noise = options.noise, .progress = options.progress});
+  const ObjectScenes objects = pyramid_scenes(rig);
+  const VirtualShots shots(rig, objects, {.noise = options.noise, .progress = options.progress});
   const capture::ShotSource source =
-      options.noise
-          ? capture::shots_from(rig.scene, capture::all_shots(rig.scene),
-                                capture::FrameSource([&](std::size_t i, std::size_t k) {
-                                  return shots.frame(i, options.seed, k);
-                                }))
-          : capture::shots_from(rig.scene, capture::all_shots(rig.scene),
-                                capture::SampleSource([&](std::size_t i, const SampleMap& where) {
-                                  return shots.ideal_samples(i, where.x0, where.y0, where.width,
-                                                             where.height);
-                                }));
-  MeasureOptions measure_options;
+      options.noise ? shots.source(options.seed) : shots.ideal_source();
   PaperBench bench;
   bench.truth = rig.truth.materials.begin()->second[kChannel];
   {
-    Instrument instrument(rig, scenes, measure_options, options.progress);
+    Instrument instrument(rig, objects, {}, options.progress);
     const Measurement m = instrument.measure(source);
     bench.patch_mm = m.patch_size_mm.begin()->second;
     bench.dipole = m.results.at(kChannel).estimate;
   }
   const PoseResult pose = calib::pose_from_points(rig.scene, rig.pose);
-  LitObjects library(rig.scene, scenes, bench.patch_mm, 0.0);
+  LitObjects lit(rig.scene, objects, bench.patch_mm, 0.0);
   const std::vector<ObservedShot> opened = open_shots(
-      rig, source, scenes, library, see_all(rig.scene, scenes, library, pose), options.progress);
-  const std::vector<MaterialChannel> tasks = material_channels(rig.scene, opened);
-  const MaterialChannel& task = tasks.at(kChannel);
-  const DistanceKnots knots = smooth_knots(library);
+      rig, source, objects, lit, see_all(rig.scene, objects, lit, pose), options.progress);
+  const std::vector<MaterialChannel> channels = material_channels(rig.scene, opened);
+  const MaterialChannel& green = channels.at(kChannel);
+  const DistanceKnots knots = smooth_knots(lit);
   Weights smooth;
-  add_smooth_weights(rig.scene, opened, library, options.progress, smooth);
-  const ChannelRows rows = channel_rows(rig.scene, task);
+  add_smooth_weights(rig.scene, opened, lit, options.progress, smooth);
+  const ChannelRows rows = channel_rows(rig.scene, green);
   const double mean_free_path_mm =
       1.0 / (bench.dipole.sigma_s_prime_per_mm.value + bench.dipole.sigma_a_per_mm.value);
-  DenseSystem system = channel_system(rig.scene, task, rows, smooth, mean_free_path_mm);
+  DenseSystem system = channel_system(rig.scene, green, rows, smooth, mean_free_path_mm);
   bench.rows = static_cast<std::size_t>(system.l.size());
-  add_numerics(knots, curve_of(bench.dipole, knots, task.eta_int_over_ext), patch_size_mm(task),
-               {bench.dipole.sigma_s_prime_per_mm.value, bench.dipole.sigma_a_per_mm.value,
-                task.eta_int_over_ext},
-               system);
+  add_method_errors(knots, curve_of(bench.dipole, knots, green.eta_int_over_ext),
+                    patch_size_mm(green),
+                    {bench.dipole.sigma_s_prime_per_mm.value, bench.dipole.sigma_a_per_mm.value,
+                     green.eta_int_over_ext},
+                    system);
   bench.smooth = smooth_reflectance(recover_reflectance(system), system.nuisances, knots);
   DipoleFitOptions fit;
-  fit.eta_int_over_ext = task.eta_int_over_ext;
+  fit.eta_int_over_ext = green.eta_int_over_ext;
   ProgressStage stage(options.progress, "widths", published_table2().size());
   for (const PublishedRow& published : published_table2()) {
     PaperBenchRow row;
     row.published = published;
-    const UniformBins bins(published.width_mm, library.longest_distance_mm());
+    const UniformBins bins(published.width_mm, lit.longest_distance_mm());
     Weights uniform;
     add_weights(
-        rig.scene, opened, library, nullptr,
+        rig.scene, opened, lit, nullptr,
         [&](const SeenObject& seen, const SourceCloud& sources) {
           return uniform_weights(seen.sites, sources, bins, pair_options(knots));
         },
         uniform);
-    const DenseSystem quantised = channel_system(rig.scene, task, rows, uniform, mean_free_path_mm);
-    row.paper = solve_paper(quantised, published.width_mm, task.eta_int_over_ext);
+    const DenseSystem quantised =
+        channel_system(rig.scene, green, rows, uniform, mean_free_path_mm);
+    row.paper = solve_paper(quantised, published.width_mm, green.eta_int_over_ext);
     row.ours = fit_dipole(quantise(system, quantised.weights), knots, fit).estimate;
     row.ours_psnr_db =
-        residual(system.l, system.weights * curve_of(row.ours, knots, task.eta_int_over_ext),
+        residual(system.l, system.weights * curve_of(row.ours, knots, green.eta_int_over_ext),
                  system.std_l)
             .psnr_db;
     bench.widths.push_back(std::move(row));

@@ -1,7 +1,7 @@
 #include <map>
 #include <utility>
 
-#include "apps/bench/bench_commands.h"
+#include "apps/bench/bench_command.h"
 #include "apps/bench/bench_paper.h"
 #include "capture/files/probe_reader.h"
 
@@ -38,33 +38,29 @@ void add_paper_bench(CLI::App& bench, CommandContext& context, const SharedBench
       ->add_option("--noise", options->noise,
                    "on: one 12-bit exposure with noise; off: ideal samples")
       ->transform(CLI::Transformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
-  command->callback([options, common, &context] {
-    context.chosen = [options, common, &context] {
-      PaperBenchOptions bench_options;
-      bench_options.image_width_px = common->image_width_px.value_or(bench_options.image_width_px);
-      bench_options.seed = common->seed;
-      bench_options.noise = options->noise;
-      bench_options.progress = context.progress;
-      if (!options->probe.empty()) {
-        capture::ProbeImage image = capture::read_probe(options->probe);
-        auto probe = std::make_shared<Environment>();
-        probe->width_px = image.width_px;
-        probe->height_px = image.height_px;
-        probe->radiance = std::move(image.radiance);
-        probe->projection = options->projection;
-        bench_options.probe = std::move(probe);
-      }
-      const PaperBench result = bench_paper(bench_options);
-      BenchFiles files(*common, context);
-      files.table(paper_bench_table(result));
-      files.csv("paper", paper_bench_csv(result));
-      files.csv("paper_reflectance", paper_reflectance_csv(result));
-      files.plot("paper_psnr", paper_psnr_plot(result));
-      files.plot("paper_reflectance", paper_reflectance_plot(result));
-      files.plot("paper_reflectance_ratio", paper_reflectance_ratio_plot(result));
-      files.plot("paper_absorption", paper_absorption_plot(result));
-      return 0;
-    };
+  run_if_named(*command, context, [options, common, &context] {
+    PaperBenchOptions bench_options;
+    take_common(*common, context, bench_options);
+    bench_options.noise = options->noise;
+    if (!options->probe.empty()) {
+      capture::ProbeImage image = capture::read_probe(options->probe);
+      auto probe = std::make_shared<Environment>();
+      probe->width_px = image.width_px;
+      probe->height_px = image.height_px;
+      probe->radiance = std::move(image.radiance);
+      probe->projection = options->projection;
+      bench_options.probe = std::move(probe);
+    }
+    const PaperBench result = bench_paper(bench_options);
+    BenchFiles files(*common, context);
+    files.table(paper_bench_table(result));
+    files.csv("paper", paper_bench_csv(result));
+    files.csv("paper_reflectance", paper_reflectance_csv(result));
+    files.plot("paper_psnr", paper_psnr_plot(result));
+    files.plot("paper_reflectance", paper_reflectance_plot(result));
+    files.plot("paper_reflectance_ratio", paper_reflectance_ratio_plot(result));
+    files.plot("paper_absorption", paper_absorption_plot(result));
+    return 0;
   });
 }
 

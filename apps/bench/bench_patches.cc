@@ -46,9 +46,9 @@ SampleCount count_samples(const SampleMap& map, const CfaSamples& cfa) {
 }  // namespace
 
 std::vector<PatchesBenchRow> bench_patches(const std::string& scene, const Rig& rig,
-                                           const ObjectScenes& scenes,
+                                           const ObjectScenes& objects,
                                            const PatchesBenchOptions& options) {
-  const VirtualShots shots(rig, scenes, {.noise = true, .progress = options.progress});
+  const VirtualShots shots(rig, objects, {.noise = true, .progress = options.progress});
   std::vector<PatchesBenchRow> rows;
   for (double size_mm : options.sizes_mm) {
     MeasureOptions measure_options;
@@ -63,7 +63,7 @@ std::vector<PatchesBenchRow> bench_patches(const std::string& scene, const Rig& 
     };
     Measurement m;
     try {
-      Instrument instrument(rig, scenes, measure_options, options.progress);
+      Instrument instrument(rig, objects, measure_options, options.progress);
       m = instrument.measure(capture::shots_from(rig.scene, capture::all_shots(rig.scene), ideal));
     } catch (const InputError& e) {
       PatchesBenchRow row;

@@ -36,7 +36,7 @@ struct PatchesBenchRow {
 // each size. Sizes outermost. A size that the scene refuses as a whole gives no rows but one with
 // `refusal` set. Throws InputError for a rig without truth.
 std::vector<PatchesBenchRow> bench_patches(const std::string& scene, const Rig& rig,
-                                           const ObjectScenes& scenes,
+                                           const ObjectScenes& objects,
                                            const PatchesBenchOptions& options);
 
 // Largest errors of a material and channel over the sizes, and the range of its answers.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/bench_commands.h"
+#include "apps/bench/bench_command.h"
 #include "apps/bench/bench_patches.h"
 #include "apps/instrument/open_objects.h"
 #include "apps/simulation/bodies_rig.h"
@@ -37,44 +37,42 @@ void add_patches_bench(CLI::App& bench, CommandContext& context, const SharedBen
   command->add_option("--sizes", options->bench.sizes_mm, "patch sizes, mm")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->callback([options, common, &context] {
-    context.chosen = [options, common, &context] {
-      options->bench.progress = context.progress;
-      const auto wanted = [&](const std::string& name) {
-        return std::find(options->scenes.begin(), options->scenes.end(), name) !=
-               options->scenes.end();
-      };
-      const int width_px = common->image_width_px.value_or(3872);
-      std::vector<PatchesBenchRow> rows;
-      const auto add = [&](const std::string& name, const Rig& rig, const ObjectScenes& scenes) {
-        const std::vector<PatchesBenchRow> more = bench_patches(name, rig, scenes, options->bench);
-        rows.insert(rows.end(), more.begin(), more.end());
-      };
-      if (options->rig.empty()) {
-        if (wanted("sky")) {
-          const Rig sky =
-              pyramid_rig(width_px, std::make_shared<const Environment>(make_sky_probe()));
-          add("sky", sky, pyramid_scenes(sky));
-        }
-        if (wanted("LEDs")) {
-          const Medium medium{2.19, 0.002, 1.0};
-          const Rig leds = bodies_rig(width_px, 1.3, {{"paper", {medium, medium, medium}}});
-          add("LEDs", leds, bodies_scenes(leds));
-        }
-        if (wanted("plastics")) {
-          const Rig plastics = plastics_rig(width_px);
-          add("plastics", plastics, bodies_scenes(plastics));
-        }
-      } else {
-        Rig rig = read_rig(options->rig);
-        rig.scene.camera.responsivity_relative_std = 0.0;
-        add("rig", rig, open_objects(rig));
-      }
-      BenchFiles files(*common, context);
-      files.table(patches_bench_table(rows));
-      files.csv("patches", patches_bench_csv(rows));
-      return 0;
+  run_if_named(*command, context, [options, common, &context] {
+    options->bench.progress = context.progress;
+    const auto wanted = [&](const std::string& name) {
+      return std::find(options->scenes.begin(), options->scenes.end(), name) !=
+             options->scenes.end();
     };
+    const int width_px = common->image_width_px.value_or(3872);
+    std::vector<PatchesBenchRow> rows;
+    const auto add = [&](const std::string& name, const Rig& rig, const ObjectScenes& objects) {
+      const std::vector<PatchesBenchRow> more = bench_patches(name, rig, objects, options->bench);
+      rows.insert(rows.end(), more.begin(), more.end());
+    };
+    if (options->rig.empty()) {
+      if (wanted("sky")) {
+        const Rig sky =
+            pyramid_rig(width_px, std::make_shared<const Environment>(make_sky_probe()));
+        add("sky", sky, pyramid_scenes(sky));
+      }
+      if (wanted("LEDs")) {
+        const Medium medium{2.19, 0.002, 1.0};
+        const Rig leds = bodies_rig(width_px, 1.3, {{"paper", {medium, medium, medium}}});
+        add("LEDs", leds, bodies_scenes(leds));
+      }
+      if (wanted("plastics")) {
+        const Rig plastics = plastics_rig(width_px);
+        add("plastics", plastics, bodies_scenes(plastics));
+      }
+    } else {
+      Rig rig = read_rig(options->rig);
+      rig.scene.camera.responsivity_relative_std = 0.0;
+      add("rig", rig, open_objects(rig));
+    }
+    BenchFiles files(*common, context);
+    files.table(patches_bench_table(rows));
+    files.csv("patches", patches_bench_csv(rows));
+    return 0;
   });
 }
 

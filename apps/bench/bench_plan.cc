@@ -15,9 +15,9 @@
 #include "apps/report/csv.h"
 #include "apps/report/text_table.h"
 #include "apps/simulation/bodies_rig.h"
-#include "apps/simulation/studio.h"
+#include "apps/simulation/synthetic_camera.h"
 #include "apps/simulation/virtual_shots.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 #include "core/base/progress.h"
 #include "core/base/random_stream.h"
 #include "core/mesh/bodies.h"
@@ -79,7 +79,7 @@ DrawnPlanRig draw_plan_rig(std::uint64_t seed, int image_width_px) {
   const double position_std_mm = one_of(random, std::array<double, 3>{0.0, 0.1, 0.5});
   const double power_std = one_of(random, std::array<double, 3>{0.0, 0.005, 0.02});
   const double exponent_std = one_of(random, std::array<double, 2>{0.0, 0.05});
-  // On the camera's half of the upper half sphere, mostly.
+  // Mostly on the camera's half of the upper hemisphere.
   const int n_leds = 1 + static_cast<int>(3.0 * random.uniform());
   rig.scene.lights.clear();
   for (int k = 0; k < n_leds; ++k) {
@@ -87,12 +87,12 @@ DrawnPlanRig draw_plan_rig(std::uint64_t seed, int image_width_px) {
     const double azimuth =
         (-90.0 + 130.0 * (2.0 * random.uniform() - 1.0)) * std::numbers::pi / 180.0;
     const double distance_mm = 70.0 + 60.0 * random.uniform();
-    const Eigen::Vector3d place =
+    const Eigen::Vector3d position_mm =
         Eigen::Vector3d(0, 0, 9) +
         distance_mm * Eigen::Vector3d(std::sin(zenith) * std::cos(azimuth),
                                       std::sin(zenith) * std::sin(azimuth), std::cos(zenith));
-    SceneLight light =
-        studio_led("led" + std::to_string(k + 1), place, Eigen::Vector3d(0, 0, 9) - place);
+    SceneLight light = synthetic_led("led" + std::to_string(k + 1), position_mm,
+                                     Eigen::Vector3d(0, 0, 9) - position_mm);
     light.led()->position_std_mm = position_std_mm;
     light.led()->intensity_relative_std = power_std;
     light.led()->exponent_std = exponent_std;
@@ -116,22 +116,15 @@ DrawnPlanRig draw_plan_rig(std::uint64_t seed, int image_width_px) {
   return out;
 }
 
-std::vector<PlanBenchRow> plan_and_measure(const Rig& rig, const ObjectScenes& scenes,
+std::vector<PlanBenchRow> plan_and_measure(const Rig& rig, const ObjectScenes& objects,
                                            std::uint64_t seed) {
   PlanOptions options;
-  options.other_shots = false;
-
-  const VirtualShots shots(rig, scenes, {.noise = true});
+  options.suggested_shots = false;
+  const VirtualShots shots(rig, objects, {.noise = true});
   options.rendered = &shots;
-  const Plan planned = plan(rig, scenes, options);
-  MeasureOptions measure_options;
-
-  Instrument instrument(rig, scenes, measure_options);
-  const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
-    return shots.frame(i, seed, k);
-  };
-  const Measurement m =
-      instrument.measure(capture::shots_from(rig.scene, capture::all_shots(rig.scene), frames));
+  const Plan planned = plan(rig, objects, options);
+  Instrument instrument(rig, objects, {});
+  const Measurement m = instrument.measure(shots.source(seed));
   std::vector<PlanBenchRow> rows(m.results.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const ChannelResult& forecast = planned.channels.at(r).result;
@@ -165,8 +158,8 @@ std::vector<PlanBenchRow> bench_plan(const PlanBenchOptions& options) {
   for (int i = 0; i < options.rigs; ++i) {
     const std::uint64_t seed = options.seed * 1000 + static_cast<std::uint64_t>(i);
     const DrawnPlanRig drawn = draw_plan_rig(seed, options.image_width_px);
-    const ObjectScenes scenes = bodies_scenes(drawn.rig);
-    for (PlanBenchRow& row : plan_and_measure(drawn.rig, scenes, seed)) {
+    const ObjectScenes objects = bodies_scenes(drawn.rig);
+    for (PlanBenchRow& row : plan_and_measure(drawn.rig, objects, seed)) {
       row.rig = i + 1;
       row.setting = drawn.setting;
       out.push_back(row);
@@ -190,7 +183,7 @@ PlanBenchRatios plan_bench_ratios(const std::vector<PlanBenchRow>& rows) {
   const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
   out.least = *least;
   out.most = *most;
-  out.median = middle_value(ratios);
+  out.median = upper_median(ratios);
   return out;
 }
 

@@ -39,7 +39,7 @@ struct PlanBenchRatios {
 };
 
 // A rig made in code by a seed: one or two bodies of one material, one to three LEDs, what is known
-// of scale, LEDs, pose marks and eta. Precondition: as studio.h's.
+// of scale, LEDs, pose marks and eta. Precondition: as set_up_camera()'s.
 struct DrawnPlanRig {
   Rig rig;
   std::string setting;
@@ -49,7 +49,7 @@ DrawnPlanRig draw_plan_rig(std::uint64_t seed, int image_width_px);
 // Plans each rig, exposes its shots with noise, and measures them with the dipole.
 std::vector<PlanBenchRow> bench_plan(const PlanBenchOptions& options);
 // One rig.
-std::vector<PlanBenchRow> plan_and_measure(const Rig& rig, const ObjectScenes& scenes,
+std::vector<PlanBenchRow> plan_and_measure(const Rig& rig, const ObjectScenes& objects,
                                            std::uint64_t seed);
 
 PlanBenchRatios plan_bench_ratios(const std::vector<PlanBenchRow>& rows);

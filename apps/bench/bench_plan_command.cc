@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "apps/bench/bench_commands.h"
+#include "apps/bench/bench_command.h"
 #include "apps/bench/bench_plan.h"
 
 namespace scattermeter::apps {
@@ -15,18 +15,14 @@ void add_plan_bench(CLI::App& bench, CommandContext& context, const SharedBenchO
   command->add_option("--rigs", options->rigs, "number of rigs drawn")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
-  command->callback([options, common, &context] {
-    context.chosen = [options, common, &context] {
-      options->seed = common->seed;
-      options->image_width_px = common->image_width_px.value_or(options->image_width_px);
-      options->progress = context.progress;
-      const std::vector<PlanBenchRow> rows = bench_plan(*options);
-      BenchFiles files(*common, context);
-      files.table(plan_bench_table(rows));
-      files.csv("plan", plan_bench_csv(rows));
-      if (plan_bench_ratios(rows).n > 0) files.plot("plan_ratios", plan_bench_plot(rows));
-      return 0;
-    };
+  run_if_named(*command, context, [options, common, &context] {
+    take_common(*common, context, *options);
+    const std::vector<PlanBenchRow> rows = bench_plan(*options);
+    BenchFiles files(*common, context);
+    files.table(plan_bench_table(rows));
+    files.csv("plan", plan_bench_csv(rows));
+    if (plan_bench_ratios(rows).n > 0) files.plot("plan_ratios", plan_bench_plot(rows));
+    return 0;
   });
 }
 

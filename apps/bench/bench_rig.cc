@@ -21,9 +21,9 @@
 namespace scattermeter::apps {
 namespace {
 
-// The rig as it is measured with, and as it was.
+// The rig that is used for measuring, and the true one.
 struct DrawnRigs {
-  Rig told;
+  Rig stated;
   Rig truth;
 };
 
@@ -34,37 +34,37 @@ DrawnRigs draw_rigs(const Rig& exact, const RigBenchOptions& options, int draw) 
   std::normal_distribution<double> normal;
   DrawnRigs rigs{exact, exact};
   for (std::size_t i = 0; i < exact.scene.lights.size(); ++i) {
-    SceneLight& told = rigs.told.scene.lights[i];
-    told.led()->position_std_mm = options.led_position_std_mm;
-    told.led()->intensity_relative_std = options.led_power_relative_std;
+    SceneLight& stated = rigs.stated.scene.lights[i];
+    stated.led()->position_std_mm = options.led_position_std_mm;
+    stated.led()->intensity_relative_std = options.led_power_relative_std;
     Led& led = rigs.truth.scene.lights[i].led()->led;
     for (int k = 0; k < 3; ++k) {
       led.position_mm[k] += options.led_position_std_mm * normal(generator);
     }
     led.intensity_W_per_sr *= 1.0 + options.led_power_relative_std * normal(generator);
   }
-  for (PointPair& pair : rigs.told.pose.points) {
+  for (PointPair& pair : rigs.stated.pose.points) {
     for (int k = 0; k < 2; ++k) pair.image_px[k] += options.point_std_px * normal(generator);
   }
-  if (options.point_std_px > 0.0) rigs.told.pose.options.point_std_px = options.point_std_px;
-  rigs.told.pose.options.inlier_px = std::max(2.0, 8.0 * options.point_std_px);
+  if (options.point_std_px > 0.0) rigs.stated.pose.options.point_std_px = options.point_std_px;
+  rigs.stated.pose.options.inlier_px = std::max(2.0, 8.0 * options.point_std_px);
   return rigs;
 }
 
-// What one material and channel answered so far.
-struct Answers {
-  std::vector<DrawnAnswer> joint_s, joint_a;
+// Estimates of one material and channel.
+struct RigEstimates {
+  std::vector<DrawnEstimate> joint_s, joint_a;
   std::vector<double> variation_s, variation_a;  // of single shots, one per draw
   double single = 0, refused_single = 0, joint = 0, refused_joint = 0;
 };
-using AnswersByResult = std::map<std::pair<std::string, char>, Answers>;
+using EstimatesByResult = std::map<std::pair<std::string, char>, RigEstimates>;
 
 void measure_jointly(Instrument& instrument, const Rig& rig, const capture::FrameSource& frames,
-                     AnswersByResult& answers) {
+                     EstimatesByResult& estimates) {
   const Measurement m =
       instrument.measure(capture::shots_from(rig.scene, capture::all_shots(rig.scene), frames));
   for (const ChannelResult& result : m.results) {
-    Answers& a = answers[{result.material, result.channel}];
+    RigEstimates& a = estimates[{result.material, result.channel}];
     a.joint += 1.0;
     if (result.refused()) {
       a.refused_joint += 1.0;
@@ -77,16 +77,16 @@ void measure_jointly(Instrument& instrument, const Rig& rig, const capture::Fram
 }
 
 void measure_one_by_one(Instrument& instrument, const Rig& rig, const capture::FrameSource& frames,
-                        int draw, AnswersByResult& answers,
-                        std::vector<SingleShotAnswer>& singles) {
+                        int draw, EstimatesByResult& estimates,
+                        std::vector<SingleShotEstimate>& singles) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::map<std::pair<std::string, char>, std::pair<std::vector<double>, std::vector<double>>> found;
   for (std::size_t i = 0; i < rig.scene.shots.size(); ++i) {
     const Measurement m = instrument.measure(capture::shots_from(rig.scene, {i}, frames));
     for (const ChannelResult& result : m.results) {
-      Answers& a = answers[{result.material, result.channel}];
-      SingleShotAnswer single{rig.scene.shots[i].file, result.material, result.channel, draw,
-                              result.refused(),        kNone,           kNone};
+      RigEstimates& a = estimates[{result.material, result.channel}];
+      SingleShotEstimate single{rig.scene.shots[i].file, result.material, result.channel, draw,
+                                result.refused(),        kNone,           kNone};
       a.single += 1.0;
       if (result.refused()) {
         a.refused_single += 1.0;
@@ -102,8 +102,8 @@ void measure_one_by_one(Instrument& instrument, const Rig& rig, const capture::F
   }
   for (const auto& [key, values] : found) {
     if (values.first.size() < 2) continue;
-    answers[key].variation_s.push_back(coefficient_of_variation(values.first));
-    answers[key].variation_a.push_back(coefficient_of_variation(values.second));
+    estimates[key].variation_s.push_back(coefficient_of_variation(values.first));
+    estimates[key].variation_a.push_back(coefficient_of_variation(values.second));
   }
 }
 
@@ -111,7 +111,7 @@ struct NamedQuantity {
   const char* name;
   const RigBenchQuantity& quantity;
 };
-std::array<NamedQuantity, 2> both(const RigBenchRow& row) {
+std::array<NamedQuantity, 2> quantities_of(const RigBenchRow& row) {
   return {{{"sigma_s'", row.sigma_s_prime_per_mm}, {"sigma_a", row.sigma_a_per_mm}}};
 }
 
@@ -129,35 +129,33 @@ RigBench bench_rig(const RigBenchOptions& options) {
     }
   }
   const Rig exact = plastics_rig(options.image_width_px);
-  const ObjectScenes scenes = bodies_scenes(exact);
+  const ObjectScenes objects = bodies_scenes(exact);
   RigBench bench;
-  AnswersByResult answers;
+  EstimatesByResult estimates;
   ProgressStage stage(options.progress, "draws", static_cast<std::size_t>(options.draws));
   for (int draw = 0; draw < options.draws; ++draw) {
     const DrawnRigs rigs = draw_rigs(exact, options, draw);
-    const VirtualShots shots(rigs.truth, scenes, {.noise = true});
+    const VirtualShots shots(rigs.truth, objects, {.noise = true});
     std::vector<capture::RawFrame> exposed(shots.size());
     tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) {
       exposed[i] = shots.frame(i, options.seed + static_cast<std::uint64_t>(draw));
     });
     const capture::FrameSource frames = [&](std::size_t i, std::size_t) { return exposed.at(i); };
-    MeasureOptions measure_options;
-
-    Instrument instrument(rigs.told, scenes, measure_options);
-    measure_jointly(instrument, rigs.told, frames, answers);
-    measure_one_by_one(instrument, rigs.told, frames, draw, answers, bench.singles);
+    Instrument instrument(rigs.stated, objects, {});
+    measure_jointly(instrument, rigs.stated, frames, estimates);
+    measure_one_by_one(instrument, rigs.stated, frames, draw, estimates, bench.singles);
     stage.step();
   }
   for (const std::string& material : exact.scene.materials()) {
     for (std::size_t c = 0; c < kRgb; ++c) {
-      const Answers& a = answers.at({material, kRgbName[c]});
+      const RigEstimates& a = estimates.at({material, kRgbName[c]});
       const Medium& truth = exact.truth.materials.at(material)[c];
       bench.rows.push_back(
           {material,
            kRgbName[c],
            {root_mean_square(a.variation_s),
-            answer_statistics(truth.sigma_s_prime_per_mm, a.joint_s)},
-           {root_mean_square(a.variation_a), answer_statistics(truth.sigma_a_per_mm, a.joint_a)},
+            estimate_statistics(truth.sigma_s_prime_per_mm, a.joint_s)},
+           {root_mean_square(a.variation_a), estimate_statistics(truth.sigma_a_per_mm, a.joint_a)},
            a.refused_single / a.single,
            a.refused_joint / a.joint});
     }
@@ -179,8 +177,8 @@ std::string rig_bench_table(const RigBench& bench) {
                    {"in 95 %"},
                    {"refused"}});
   for (const RigBenchRow& row : bench.rows) {
-    for (const auto& [name, q] : both(row)) {
-      const AnswerStatistics& s = q.joint;
+    for (const auto& [name, q] : quantities_of(row)) {
+      const EstimateStatistics& s = q.joint;
       table.add_row(
           {row.material, std::string(1, row.channel), name, fmt::format("{:.4g}", s.truth),
            fmt::format("{:.2f} %", 100.0 * q.single_shot_variation),
@@ -201,8 +199,8 @@ std::string rig_bench_csv(const RigBench& bench) {
            "joint_bias_relative_std", "joint_sampled_std_per_mm", "joint_predicted_std_per_mm",
            "joint_rmse_per_mm", "joint_coverage95", "joint_refused"});
   for (const RigBenchRow& row : bench.rows) {
-    for (const auto& [name, q] : both(row)) {
-      const AnswerStatistics& s = q.joint;
+    for (const auto& [name, q] : quantities_of(row)) {
+      const EstimateStatistics& s = q.joint;
       csv.add_row({row.material, std::string(1, row.channel), name, csv_number(s.truth),
                    csv_number(q.single_shot_variation), csv_number(row.refused_single),
                    std::to_string(s.n), csv_number(s.mean), csv_number(s.bias_relative),
@@ -217,7 +215,7 @@ std::string rig_bench_csv(const RigBench& bench) {
 std::string single_shot_csv(const RigBench& bench) {
   Csv csv(
       {"draw", "shot", "material", "channel", "verdict", "sigma_s_prime_per_mm", "sigma_a_per_mm"});
-  for (const SingleShotAnswer& a : bench.singles) {
+  for (const SingleShotEstimate& a : bench.singles) {
     csv.add_row({std::to_string(a.draw), a.shot, a.material, std::string(1, a.channel),
                  a.refused ? "refused" : "ok", csv_number(a.sigma_s_prime_per_mm),
                  csv_number(a.sigma_a_per_mm)});

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/answer_statistics.h"
+#include "apps/bench/estimate_statistics.h"
 #include "apps/report/plot.h"
 #include "core/base/progress.h"
 
@@ -23,7 +23,7 @@ struct RigBenchOptions {
 };
 
 // One shot measured alone, in one draw.
-struct SingleShotAnswer {
+struct SingleShotEstimate {
   std::string shot;
   std::string material;
   char channel = 'R';
@@ -38,7 +38,7 @@ struct RigBenchQuantity {
   // Standard deviation over mean of the answers of the material's shots, each measured alone: root
   // mean square over the draws.
   double single_shot_variation = 0;
-  AnswerStatistics joint;  // all shots at once, over the draws
+  EstimateStatistics joint;  // all shots at once, over the draws
 };
 
 struct RigBenchRow {
@@ -52,7 +52,7 @@ struct RigBenchRow {
 
 struct RigBench {
   std::vector<RigBenchRow> rows;
-  std::vector<SingleShotAnswer> singles;
+  std::vector<SingleShotEstimate> singles;
 };
 
 // Draws rigs about plastics_rig(): the shots are rendered with LEDs displaced and of other power

@@ -59,8 +59,8 @@ std::vector<ShotsBenchRow> bench_shots(const ShotsBenchOptions& options) {
   for (const int n : options.shots) {
     if (n < 1) throw std::invalid_argument("ShotsBenchOptions.shots");
     const Rig rig = ring_rig(options.image_width_px, n);
-    const ObjectScenes scenes = bodies_scenes(rig);
-    const VirtualShots shots(rig, scenes, {.noise = true, .progress = options.progress});
+    const ObjectScenes objects = bodies_scenes(rig);
+    const VirtualShots shots(rig, objects, {.noise = true, .progress = options.progress});
     std::vector<capture::RawFrame> frames;
     for (std::size_t i = 0; i < rig.scene.shots.size(); ++i)
       frames.push_back(shots.frame(i, kSeed));
@@ -72,7 +72,7 @@ std::vector<ShotsBenchRow> bench_shots(const ShotsBenchOptions& options) {
     row.seconds = std::numeric_limits<double>::infinity();
     for (int k = 0; k < options.repeats; ++k) {
       const auto start = std::chrono::steady_clock::now();
-      Instrument instrument(rig, scenes, measure_options, options.progress);
+      Instrument instrument(rig, objects, measure_options, options.progress);
       const Measurement m =
           instrument.measure(capture::shots_from(rig.scene, capture::all_shots(rig.scene), source));
       const double seconds =

@@ -1,7 +1,7 @@
 #include <memory>
 #include <vector>
 
-#include "apps/bench/bench_commands.h"
+#include "apps/bench/bench_command.h"
 #include "apps/bench/bench_shots.h"
 
 namespace scattermeter::apps {
@@ -20,17 +20,15 @@ void add_shots_bench(CLI::App& bench, CommandContext& context, const SharedBench
   command->add_option("--repeats", options->repeats, "runs of which the fastest is told")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->callback([options, common, &context] {
-    context.chosen = [options, common, &context] {
-      options->progress = context.progress;
-      options->image_width_px = common->image_width_px.value_or(options->image_width_px);
-      const std::vector<ShotsBenchRow> rows = bench_shots(*options);
-      BenchFiles files(*common, context);
-      files.table(shots_bench_table(rows));
-      files.csv("shots", shots_bench_csv(rows));
-      files.plot("shots", shots_bench_plot(rows));
-      return 0;
-    };
+  run_if_named(*command, context, [options, common, &context] {
+    options->progress = context.progress;
+    options->image_width_px = common->image_width_px.value_or(options->image_width_px);
+    const std::vector<ShotsBenchRow> rows = bench_shots(*options);
+    BenchFiles files(*common, context);
+    files.table(shots_bench_table(rows));
+    files.csv("shots", shots_bench_csv(rows));
+    files.plot("shots", shots_bench_plot(rows));
+    return 0;
   });
 }
 

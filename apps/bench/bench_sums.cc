@@ -14,7 +14,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/bench/growth_exponent.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 #include "core/material/fresnel.h"
 #include "core/sums/dipole_pairs.h"
 #include "core/sums/dipole_sums.h"
@@ -78,7 +78,7 @@ double median_seconds(int repeats, const std::function<void()>& run) {
     seconds.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  return middle_value(std::move(seconds));
+  return upper_median(std::move(seconds));
 }
 
 // Value and derivatives in long double, and the derivatives' absolute terms.
@@ -195,7 +195,7 @@ SumsBenchRow measure_sums(const SumsScene& scene, const std::vector<Medium>& med
       }
     }
   }
-  row.median_error = middle_value(std::move(errors));
+  row.median_error = upper_median(std::move(errors));
   return row;
 }
 

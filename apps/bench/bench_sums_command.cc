@@ -1,7 +1,7 @@
 #include <memory>
 #include <vector>
 
-#include "apps/bench/bench_commands.h"
+#include "apps/bench/bench_command.h"
 #include "apps/bench/bench_sums.h"
 
 namespace scattermeter::apps {
@@ -40,19 +40,17 @@ void add_sums_bench(CLI::App& bench, CommandContext& context, const SharedBenchO
   command->add_option("--repeats", options->repeats, "runs of which the median is told")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->callback([options, common, &context] {
-    context.chosen = [options, common, &context] {
-      options->seed = common->seed;
-      const SumsBench result = bench_sums(*options);
-      BenchFiles files(*common, context);
-      files.table(sums_bench_table(result));
-      files.csv("sums", sums_bench_csv(result));
-      if (!result.peers.empty()) files.csv("sums_peers", sums_peer_csv(result));
-      if (result.rows.empty()) return 0;
-      files.plot("sums_error", sums_error_plot(result));
-      files.plot("sums_patches", sums_patches_plot(result));
-      return 0;
-    };
+  run_if_named(*command, context, [options, common, &context] {
+    options->seed = common->seed;
+    const SumsBench result = bench_sums(*options);
+    BenchFiles files(*common, context);
+    files.table(sums_bench_table(result));
+    files.csv("sums", sums_bench_csv(result));
+    if (!result.peers.empty()) files.csv("sums_peers", sums_peer_csv(result));
+    if (result.rows.empty()) return 0;
+    files.plot("sums_error", sums_error_plot(result));
+    files.plot("sums_patches", sums_patches_plot(result));
+    return 0;
   });
 }
 

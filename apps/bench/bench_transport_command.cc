@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "apps/bench/bench_commands.h"
+#include "apps/bench/bench_command.h"
 #include "apps/bench/bench_transport.h"
 
 namespace scattermeter::apps {
@@ -18,16 +18,14 @@ void add_transport_bench(CLI::App& bench, CommandContext& context,
   command->add_option("--seconds", options->seconds, "processor time of a row, about")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->callback([options, common, &context] {
-    context.chosen = [options, common, &context] {
-      options->seed = common->seed;
-      options->progress = context.progress;
-      const std::vector<TransportBenchRow> rows = bench_transport(*options);
-      BenchFiles files(*common, context);
-      files.table(transport_bench_table(rows));
-      files.csv("transport", transport_bench_csv(rows));
-      return 0;
-    };
+  run_if_named(*command, context, [options, common, &context] {
+    options->seed = common->seed;
+    options->progress = context.progress;
+    const std::vector<TransportBenchRow> rows = bench_transport(*options);
+    BenchFiles files(*common, context);
+    files.table(transport_bench_table(rows));
+    files.csv("transport", transport_bench_csv(rows));
+    return 0;
   });
 }
 

@@ -33,7 +33,7 @@ double number(const std::string& where, const char* column, const std::string& t
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !(value > min) ||
       !(value < max)) {
-    throw InputError(where + ": " + column, "'" + text + "' is no number above " +
+    throw InputError(where + ": " + column, "'" + text + "' is not a number above " +
                                                 fmt::format("{:g} and below {:g}", min, max));
   }
   return value;

@@ -30,12 +30,12 @@ CheckReport check_report(const CheckedRig& checked) {
     report.notes.push_back(fmt::format(
         "camera centre known to {:.3f}, {:.3f}, {:.3f} mm (std in x, y, z)", s.x(), s.y(), s.z()));
   }
-  for (const CheckedTask& task : checked.fit.tasks) {
-    if (task.departures) continue;
+  for (const CheckedChannel& fitted : checked.fit.channels) {
+    if (fitted.departures) continue;
     report.notes.push_back(fmt::format(
-        "{} {}: no joint model, so its light is not judged{}", task.material,
-        kRgbName.at(task.channel),
-        task.estimate.reasons.empty() ? "" : " (" + task.estimate.reasons.front() + ")"));
+        "{} {}: no joint model, so its light is not judged{}", fitted.material,
+        kRgbName.at(fitted.channel),
+        fitted.estimate.reasons.empty() ? "" : " (" + fitted.estimate.reasons.front() + ")"));
   }
   for (const Check check : checks()) {
     for (CheckItem& item : check(checked)) report.items.push_back(std::move(item));

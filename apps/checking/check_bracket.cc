@@ -10,7 +10,7 @@ std::vector<CheckItem> check_bracket(const CheckedRig& checked) {
   for (std::size_t i = 0; i < checked.shots.size(); ++i) {
     if (checked.shots[i].exposures.size() < 2) continue;
     for (const ShotExposure& e : checked.shots[i].exposures) {
-      // One that shares no sample with another cannot be held against it.
+      // An exposure that shares no sample with another cannot be compared.
       if (!std::isfinite(e.departure.log_ratio)) continue;
       CheckDetail d = checked.of_shot(i, 100.0 * std::expm1(e.departure.log_ratio));
       d.where = e.file;
@@ -23,8 +23,8 @@ std::vector<CheckItem> check_bracket(const CheckedRig& checked) {
   if (off.empty()) return {};
   return {judged("bracket", "% off the other exposures",
                  {checked.options.max_bracket_percent, false, false, checked.options.least_stds},
-                 "calibrate radiance: the shutter's times are not those that the files state; or "
-                 "look whether the light changed",
+                 "run calibrate radiance, as the exposure times differ from those in the files, or "
+                 "check whether the light changed",
                  off)};
 }
 

@@ -13,7 +13,7 @@ std::vector<CheckItem> check_exposure(const CheckedRig& checked) {
       const double samples = std::max<double>(1.0, static_cast<double>(o.samples));
       clipped.push_back(
           checked.of_channel(i, c, 100.0 * static_cast<double>(o.samples_clipped) / samples));
-      // Nothing can be said of the brightness where all is clipped.
+      // If everything is clipped, the brightness is unknown.
       const bool all_clipped = o.rows_clipped == o.l.size() && !o.l.empty();
       brightest.push_back(checked.of_channel(
           i, c, all_clipped ? std::numeric_limits<double>::quiet_NaN() : o.brightest_snr));
@@ -22,7 +22,7 @@ std::vector<CheckItem> check_exposure(const CheckedRig& checked) {
   return {judged("clipped", "% of samples", {checked.options.max_clipped_percent}, "expose shorter",
                  clipped),
           judged("brightest patch", "x its noise", {checked.options.min_brightest_snr, true},
-                 "expose longer, or look whether the LED was on", brightest)};
+                 "expose longer, or check whether the LED was on", brightest)};
 }
 
 }  // namespace scattermeter::apps

@@ -18,29 +18,31 @@
 namespace scattermeter::apps {
 namespace {
 
-// What an image may look like while its material is not known, per mm.
+// Media (sigma_s', sigma_a; 1/mm) that stand in for a material not yet known.
 constexpr std::array<std::pair<double, double>, 3> kMedia = {
     {{0.4, 0.003}, {1.0, 0.003}, {3.0, 0.003}}};
 
-// A shot explained worse than this as it is listed may be of something else.
+// A shot whose listed object and lights leave a larger relative misfit may show something else.
 constexpr double kDoubtful = 0.1;
 
-std::vector<MaterialChannel> useful_tasks(const Rig& rig, const std::vector<ObservedShot>& shots) {
-  std::vector<MaterialChannel> tasks;
-  for (MaterialChannel& task : material_channels(rig.scene, shots)) {
-    std::erase_if(task.shots,
-                  [&](const ObservedShot* s) { return !shot_problem(*s, task.channel).empty(); });
-    if (!task.shots.empty()) tasks.push_back(std::move(task));
+std::vector<MaterialChannel> useful_channels(const Rig& rig,
+                                             const std::vector<ObservedShot>& shots) {
+  std::vector<MaterialChannel> channels;
+  for (MaterialChannel& c : material_channels(rig.scene, shots)) {
+    std::erase_if(c.shots,
+                  [&](const ObservedShot* s) { return !shot_problem(*s, c.channel).empty(); });
+    if (!c.shots.empty()) channels.push_back(std::move(c));
   }
-  return tasks;
+  return channels;
 }
 
-// The joint model at its optimum, and what each shot does beside it.
-void add_departures(const Scene& scene, const DipoleSystem& fitted, double eta, CheckedTask& task) {
-  const Estimate& e = task.estimate;
+// Adds the departures of each shot from the joint model at its optimum.
+void add_departures(const Scene& scene, const DipoleSystem& of_dipole, double eta,
+                    CheckedChannel& fitted) {
+  const Estimate& e = fitted.estimate;
   const double sigma_t = e.sigma_s_prime_per_mm.value + e.sigma_a_per_mm.value;
   const DipoleCurve curve =
-      dipole_curve(fitted.knots, std::log(sigma_t), e.sigma_a_per_mm.value / sigma_t, eta);
+      dipole_curve(of_dipole.knots, std::log(sigma_t), e.sigma_a_per_mm.value / sigma_t, eta);
   const auto model_of = [&](const DenseSystem& system) {
     LinearModel model;
     model.predicted = system.weights * (e.scale.value * curve.r);
@@ -50,38 +52,38 @@ void add_departures(const Scene& scene, const DipoleSystem& fitted, double eta, 
     model.scale_relative_std = scale_prior(scene).relative_std;
     return model;
   };
-  const DenseSystem all = fitted.system();
+  const DenseSystem all = of_dipole.system();
   const std::vector<Eigen::Index> far = outliers(all.l, model_of(all).predicted, all.std_l);
   std::vector<Eigen::Index> kept;
   for (Eigen::Index j = 0; j < all.l.size(); ++j) {
     if (!std::binary_search(far.begin(), far.end(), j)) kept.push_back(j);
   }
   const DenseSystem system = selected(all, kept);
-  task.departures = shot_departures(system, model_of(system));
-  task.nuisances = system.nuisances;
+  fitted.departures = shot_departures(system, model_of(system));
+  fitted.nuisances = system.nuisances;
 }
 
-std::vector<CheckedTask> fit_tasks(Estimation& e, const std::vector<ObservedShot>& shots) {
+std::vector<CheckedChannel> fitted_channels(Estimation& e, const std::vector<ObservedShot>& shots) {
   std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
   estimate_dipole(e, &systems);
-  std::vector<CheckedTask> out;
+  std::vector<CheckedChannel> out;
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
-    CheckedTask& task = out.emplace_back();
-    task.material = e.channels[i].material;
-    task.channel = e.channels[i].channel;
+    CheckedChannel& fitted = out.emplace_back();
+    fitted.material = e.channels[i].material;
+    fitted.channel = e.channels[i].channel;
     for (const ObservedShot* shot : e.channels[i].shots) {
-      task.shots.push_back(static_cast<std::size_t>(shot - shots.data()));
+      fitted.shots.push_back(static_cast<std::size_t>(shot - shots.data()));
     }
-    task.estimate = e.results[i].estimate;
-    task.singles = e.results[i].singles;
-    if (task.estimate.converged && systems[i]) {
-      add_departures(e.scene, *systems[i], e.channels[i].eta_int_over_ext, task);
+    fitted.estimate = e.results[i].estimate;
+    fitted.singles = e.results[i].singles;
+    if (fitted.estimate.converged && systems[i]) {
+      add_departures(e.scene, *systems[i], e.channels[i].eta_int_over_ext, fitted);
     }
   }
   return out;
 }
 
-// A shot's image in its best channel against lights that it may have been lit by.
+// Compares a shot's image in its best channel with what other lights or objects would show.
 class Likeness {
  public:
   Likeness(Estimation& e, const capture::ShotDecoding& decoding,
@@ -150,15 +152,15 @@ class Likeness {
     out.other = what;
   }
 
-  // Every view under every light.
+  // Adds the weights of every view under every light.
   void add_missing_weights() {
-    std::deque<SceneShot> rig_shots;
+    std::deque<SceneShot> stated;
     std::vector<ObservedShot> stubs;
     std::vector<std::string> lights;
     for (const auto& setting : settings_)
       lights.insert(lights.end(), setting.begin(), setting.end());
     for (const ObservedShot& shot : shots_) {
-      SceneShot& all = rig_shots.emplace_back(*shot.stated);
+      SceneShot& all = stated.emplace_back(*shot.stated);
       all.lights = lights;
       ObservedShot& stub = stubs.emplace_back();
       stub.stated = &all;
@@ -177,7 +179,8 @@ class Likeness {
                    e_.scene.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0}));
   }
 
-  // rms of l less the best multiple of a medium's image, over rms l; NaN without 20 rows.
+  // rms of l minus the best multiple of a medium's image, over the rms of l; NaN for less than 20
+  // rows.
   double misfit(const SeenObject& seen, const ChannelObservation& o,
                 const std::vector<std::string>& lights, std::size_t c) const {
     double best = std::numeric_limits<double>::quiet_NaN();
@@ -218,15 +221,15 @@ class Likeness {
 }  // namespace
 
 CheckFit fit_for_check(const Rig& rig, const capture::ShotSource& source,
-                       const std::vector<ObservedShot>& shots, LitObjects& library,
+                       const std::vector<ObservedShot>& shots, LitObjects& lit,
                        const std::optional<SharedView>& shared, Progress* progress) {
   const EstimateOptions options;
   std::vector<std::pair<std::string, double>> timing_s;
   Stopwatch watch(timing_s);
   KeptLight kept;
-  Estimation e(rig.scene, library, shots, useful_tasks(rig, shots), options, kept, watch, progress);
+  Estimation e(rig.scene, lit, shots, useful_channels(rig, shots), options, kept, watch, progress);
   CheckFit out;
-  out.tasks = fit_tasks(e, shots);
+  out.channels = fitted_channels(e, shots);
   Likeness likeness(e, rig.decoding, shots, source, shared);
   for (std::size_t i = 0; i < shots.size(); ++i) out.likeness.push_back(likeness.of(i));
   return out;

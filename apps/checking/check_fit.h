@@ -1,4 +1,4 @@
-// The joint model of a rig's shots, as `check` holds each of them against it.
+// The joint model of a rig's shots with which `check` compares each of them.
 #pragma once
 
 #include <limits>
@@ -16,34 +16,35 @@
 namespace scattermeter::apps {
 
 // A material in a channel.
-struct CheckedTask {
+struct CheckedChannel {
   std::string material;
   std::size_t channel = 0;
-  std::vector<std::size_t> shots;  // indices into the opened shots: those that are of use
+  std::vector<std::size_t> shots;  // indices into the opened shots, without unusable ones
   Estimate estimate;
   std::vector<ShotResult> singles;  // of the same shots, each alone; empty for a single shot
-  // Where the joint model came to an end.
+  // Present if the joint fit converged.
   std::optional<ShotDepartures> departures;
   std::vector<Nuisance> nuisances;  // of departures->nuisances
 };
 
-// How well lights and objects of the rig explain a shot: rms of what is left of the image over rms
-// of the image, in any scale, for the best of a few media.
+// How well lights and objects of the rig explain a shot: rms of the residual over rms of the image,
+// with a free scale, for the best of a few media.
 struct ShotLikeness {
-  double own = std::numeric_limits<double>::quiet_NaN();  // as the rig lists it; NaN: of no use
+  double own =
+      std::numeric_limits<double>::quiet_NaN();  // as listed in the rig; NaN: the shot is unusable
   double best_other = std::numeric_limits<double>::infinity();
   std::string other;  // "lit by led2", "of object pyramid, lit by led1"
 };
 
 struct CheckFit {
-  std::vector<CheckedTask> tasks;
+  std::vector<CheckedChannel> channels;
   std::vector<ShotLikeness> likeness;  // by opened shot
 };
 
-// Runs the dipole on all shots of the source, opened for `rig` with `library` and `shared`; shots
-// that are dark or clipped as a whole take no part.
+// Fits the dipole to all shots of the source, which were opened for `rig` with `lit` and `shared`;
+// entirely dark or clipped shots are left out.
 CheckFit fit_for_check(const Rig& rig, const capture::ShotSource& source,
-                       const std::vector<ObservedShot>& shots, LitObjects& library,
+                       const std::vector<ObservedShot>& shots, LitObjects& lit,
                        const std::optional<SharedView>& shared, Progress* progress);
 
 }  // namespace scattermeter::apps

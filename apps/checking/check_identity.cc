@@ -14,21 +14,21 @@
 namespace scattermeter::apps {
 namespace {
 
-// Each shot's image is explained by the lights that the rig lists for it, not by others.
+// Whether the lights that the rig lists for a shot explain its image better than others.
 CheckItem lights_of_shots(const CheckedRig& checked) {
   std::vector<CheckDetail> details;
   std::vector<std::string> others;
   for (std::size_t i = 0; i < checked.fit.likeness.size(); ++i) {
     const ShotLikeness& like = checked.fit.likeness[i];
     if (!std::isfinite(like.own)) continue;
-    // Other lights that explain it better count only where its own explain it badly: else all do.
+    // Better matches count only if its own lights explain the image badly; otherwise many do.
     const bool doubtful = 100.0 * like.own > checked.options.max_residual_percent;
     const double ratio = std::isfinite(like.best_other) ? like.own / like.best_other : 0.0;
     details.push_back(checked.of_shot(i, doubtful ? ratio : std::min(ratio, 1.0)));
     others.push_back(like.other);
   }
   CheckItem item = judged("light in shot", "x the misfit of others", {1.0},
-                          "look whether files are exchanged, or shots.lights are wrong", details);
+                          "check whether files are exchanged or shots.lights is wrong", details);
   for (std::size_t k = 0; k < item.details.size() && !item.passed; ++k) {
     if (item.details[k].where == item.where) {
       item.where += " looks " + others[k];
@@ -41,25 +41,25 @@ CheckItem lights_of_shots(const CheckedRig& checked) {
 struct Single {
   std::size_t shot = 0;
   std::size_t material = 0;
-  std::array<double, kRgb> log_s{};  // NaN: no answer
+  std::array<double, kRgb> log_s{};  // NaN: no estimate
 };
 
-// Every shot that has an answer of its own in some channel.
+// The shots with an estimate from that shot alone in at least one channel.
 std::vector<Single> singles_of(const CheckedRig& checked) {
   std::map<std::size_t, Single> by_shot;
   const std::vector<std::string> materials = checked.rig.scene.materials();
-  for (const CheckedTask& task : checked.fit.tasks) {
-    for (std::size_t k = 0; k < task.singles.size(); ++k) {
-      const auto [it, is_new] = by_shot.try_emplace(task.shots[k]);
+  for (const CheckedChannel& fitted : checked.fit.channels) {
+    for (std::size_t k = 0; k < fitted.singles.size(); ++k) {
+      const auto [it, is_new] = by_shot.try_emplace(fitted.shots[k]);
       Single& s = it->second;
       if (is_new) {
         s.log_s.fill(std::numeric_limits<double>::quiet_NaN());
-        s.shot = task.shots[k];
-        while (materials[s.material] != task.material) ++s.material;
+        s.shot = fitted.shots[k];
+        while (materials[s.material] != fitted.material) ++s.material;
       }
-      const Estimate& e = task.singles[k].estimate;
+      const Estimate& e = fitted.singles[k].estimate;
       if (e.converged && e.sigma_s_prime_per_mm.value > 0.0) {
-        s.log_s[task.channel] = std::log(e.sigma_s_prime_per_mm.value);
+        s.log_s[fitted.channel] = std::log(e.sigma_s_prime_per_mm.value);
       }
     }
   }
@@ -68,7 +68,7 @@ std::vector<Single> singles_of(const CheckedRig& checked) {
   return out;
 }
 
-// Sum of the squared distances of every answer from its material's mean, and how many there are.
+// Sum of the squared deviations of all estimates from their material's mean, and their number.
 struct Spread {
   double squares = 0;
   double n = 0;
@@ -96,8 +96,8 @@ Spread spread_of(const std::vector<Single>& singles) {
   return out;
 }
 
-// Two shots of one object under the same lights may have been filed under each other's name. What
-// the dipole gets wrong of the object they share, so it does not look like an exchange.
+// Whether two shots of one object under the same lights were exchanged. They share the error that
+// the dipole makes on the object, so it is not mistaken for an exchange.
 CheckItem materials_of_shots(const CheckedRig& checked) {
   std::vector<Single> singles = singles_of(checked);
   const Spread listed = spread_of(singles);
@@ -123,10 +123,10 @@ CheckItem materials_of_shots(const CheckedRig& checked) {
   std::vector<CheckDetail> details;
   std::string where;
   if (best) {
-    // A third of the spread must go away, or nothing is said.
-    constexpr double kThird = 2.0 / 3.0;
+    // An exchange is reported only if it removes a third of the spread.
+    constexpr double kRemaining = 2.0 / 3.0;
     const double gained = 100.0 * (listed.rms() - best->rms);
-    const bool clear = best->rms < kThird * listed.rms();
+    const bool clear = best->rms < kRemaining * listed.rms();
     for (const std::size_t k : {best->a, best->b}) {
       details.push_back(checked.of_shot(singles[k].shot, clear ? std::max(0.0, gained) : 0.0));
     }
@@ -135,7 +135,7 @@ CheckItem materials_of_shots(const CheckedRig& checked) {
   }
   CheckItem item = judged("material in shot", "% spread of sigma_s'",
                           {checked.options.max_material_spread_percent},
-                          "look whether these two files are exchanged", details);
+                          "check whether these two files are exchanged", details);
   if (!item.passed) item.where = where;
   return item;
 }

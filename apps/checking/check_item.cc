@@ -6,14 +6,14 @@
 namespace scattermeter::apps {
 namespace {
 
-bool holds(const CheckDetail& d, const CheckLimit& limit) {
+bool passes(const CheckDetail& d, const CheckLimit& limit) {
   if (!std::isfinite(d.value)) return false;
   if (limit.at_least) return d.value >= limit.value;
   if ((limit.above_only ? d.value : std::abs(d.value)) <= limit.value) return true;
   return limit.least_stds > 0.0 && !(std::abs(d.value) > limit.least_stds * d.std);
 }
 
-// Larger is worse.
+// Order of the values: the largest is the worst.
 double badness(const CheckDetail& d, const CheckLimit& limit) {
   if (!std::isfinite(d.value)) return std::numeric_limits<double>::infinity();
   if (limit.at_least) return -d.value;
@@ -35,8 +35,8 @@ CheckItem judged(const std::string& what, const std::string& unit, const CheckLi
   double squares = 0.0;
   for (const CheckDetail& d : item.details) {
     squares += d.value * d.value;
-    const bool ok = holds(d, limit);
-    // One that fails comes before any that passes.
+    const bool ok = passes(d, limit);
+    // Any that fails is worse than all that pass.
     const bool worse = worst == nullptr || (item.passed && !ok) ||
                        (item.passed == ok && badness(d, limit) > badness(*worst, limit));
     if (worse) worst = &d;
@@ -46,7 +46,7 @@ CheckItem judged(const std::string& what, const std::string& unit, const CheckLi
   item.rms =
       worst == nullptr ? kNone : std::sqrt(squares / static_cast<double>(item.details.size()));
   item.worst = worst == nullptr ? kNone : worst->value;
-  // Where all are 0, none is the worst.
+  // If all are 0, none is the worst.
   if (worst != nullptr && worst->value != 0.0) item.where = worst->where;
   return item;
 }

@@ -10,8 +10,9 @@
 
 namespace scattermeter::apps {
 
-// Every material and channel tells a place of its own; the tenth of a millimetre that they may
-// differ by, as none of them is a half-space, is not in their deviations, so the plain mean counts.
+// Each material and channel yields a position of its own. They may differ by a tenth of a
+// millimetre, as no object is a half-space; this is not part of their standard deviations, so the
+// mean is not weighted.
 std::vector<CheckItem> check_led_places(const CheckedRig& checked) {
   std::vector<CheckDetail> details;
   double own_std_mm = 0.0;
@@ -20,14 +21,14 @@ std::vector<CheckItem> check_led_places(const CheckedRig& checked) {
     std::array<double, 3> mean_mm{};
     std::array<double, 3> variance_mm2{};
     double n = 0.0;
-    for (const CheckedTask& task : checked.fit.tasks) {
-      if (!task.departures) continue;
+    for (const CheckedChannel& fitted : checked.fit.channels) {
+      if (!fitted.departures) continue;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::string name = light.name + ".position" + std::to_string(axis);
-        for (std::size_t k = 0; k < task.nuisances.size(); ++k) {
-          if (task.nuisances[k].name != name) continue;
-          mean_mm[axis] += task.departures->nuisances[k].value;
-          variance_mm2[axis] += std::pow(task.departures->nuisances[k].std, 2);
+        for (std::size_t k = 0; k < fitted.nuisances.size(); ++k) {
+          if (fitted.nuisances[k].name != name) continue;
+          mean_mm[axis] += fitted.departures->nuisances[k].value;
+          variance_mm2[axis] += std::pow(fitted.departures->nuisances[k].std, 2);
           if (axis == 0) n += 1.0;
         }
       }
@@ -38,7 +39,7 @@ std::vector<CheckItem> check_led_places(const CheckedRig& checked) {
       CheckDetail d;
       d.where = fmt::format("{} along {}", light.name, "xyz"[axis]);
       d.value = mean_mm[axis] / n;
-      // The channels share the shots' geometry: as uncertain as one of them.
+      // The channels share the geometry of the shots: the mean is no more certain than one of them.
       d.std = std::sqrt(variance_mm2[axis] / n);
       details.push_back(d);
     }
@@ -46,7 +47,7 @@ std::vector<CheckItem> check_led_places(const CheckedRig& checked) {
   const CheckLimit limit{checked.options.max_led_place_mm + 3.0 * own_std_mm, false, false,
                          checked.options.least_stds};
   return {judged("LED place", "mm off the rig's", limit,
-                 "measure lights.position_mm again (calibrate led), or say how well it is known",
+                 "measure lights.position_mm again (calibrate led), or state its uncertainty",
                  details)};
 }
 

@@ -6,10 +6,9 @@
 
 namespace scattermeter::apps {
 
-// The shots of calibration.led that stand in the folder.
 std::vector<CheckItem> check_led_shots(const CheckedRig& checked) {
-  std::vector<CheckDetail> highlights, places, planes, ambients, powers;
-  std::string where_it_stands;
+  std::vector<CheckDetail> highlights, positions, planes, ambients, powers;
+  std::string displacements;
   for (const calib::LedCheck& led : checked.leds) {
     const std::string& light = led.light;
     const auto add = [&](double value, double std, const std::string& what,
@@ -24,13 +23,13 @@ std::vector<CheckItem> check_led_shots(const CheckedRig& checked) {
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     add(led.highlight_worst_px, unknown, "", highlights);
     if (led.problem.empty()) {
-      // As many deviations as all three coordinates make together.
+      // The deviation of the length follows from the significance of all three coordinates.
       add(led.displacement_length_mm,
           led.displacement_stds > 0.0 ? led.displacement_length_mm / led.displacement_stds
                                       : unknown,
-          "", places);
+          "", positions);
       if (led.displacement_stds > checked.options.least_stds) {
-        where_it_stands += (where_it_stands.empty() ? "" : "; ") + led.text;
+        displacements += (displacements.empty() ? "" : "; ") + led.text;
       }
     }
     add(led.plane_rms_percent, unknown, "", planes);
@@ -45,27 +44,27 @@ std::vector<CheckItem> check_led_shots(const CheckedRig& checked) {
   std::vector<CheckItem> out;
   if (!highlights.empty()) {
     out.push_back(judged("LED highlights", "px", {o.max_pose_rms_px},
-                         "calibrate the LEDs again: one stands elsewhere than the rig says",
+                         "calibrate the LEDs again: the position of one differs from the rig",
                          highlights));
   }
-  if (!places.empty()) {
+  if (!positions.empty()) {
     out.push_back(judged(
         "LED places, from their shots", "mm", {o.max_led_place_mm, false, false, o.least_stds},
-        where_it_stands.empty() ? "calibrate the LEDs again" : where_it_stands, places));
+        displacements.empty() ? "calibrate the LEDs again" : displacements, positions));
   }
   if (!planes.empty()) {
     out.push_back(judged("white plane under the LEDs", "%", {o.max_plane_percent},
-                         "calibrate the LEDs again: place, axis or lobe have changed", planes));
+                         "calibrate the LEDs again: position, axis or lobe has changed", planes));
     out.push_back(
         judged("light beside the LEDs on the white plane", "% of theirs",
                {o.max_plane_ambient_percent, false, false, o.least_stds},
                "shoot the planes with the LEDs off as well (calibration.led.shots of kind "
                "ambient), or darken the room",
                ambients));
-    // Without a responsivity only their product counts, and that is what was calibrated.
-    out.push_back(judged("LED power, from the white plane", "%", {o.max_led_power_percent},
-                         "calibrate the LEDs again: their light or the camera's has changed",
-                         powers));
+    // Without a responsivity only its product with the power counts, which was calibrated.
+    out.push_back(judged(
+        "LED power, from the white plane", "%", {o.max_led_power_percent},
+        "calibrate the LEDs again: their power or the camera's responsivity has changed", powers));
   }
   return out;
 }

@@ -8,18 +8,18 @@
 #include <fmt/core.h>
 
 #include "apps/checking/check.h"
-#include "core/fit/shot_departure.h"
+#include "core/fit/common_slope.h"
 
 namespace scattermeter::apps {
 namespace {
 
-// Relative power of every shot, mean over its channels by their deviations.
+// Relative power of a shot: mean over its channels, weighted by their variances.
 struct ShotPower {
   double weight = 0, sum = 0;
 };
 
-// Over the rig's order, which is taken for the order of the shots. Levels are compared within a
-// material only: what the dipole misses of the material is none of the LED's.
+// Drift of each LED over the shots, assumed to be taken in the rig's order. Levels are compared
+// within a material only, as the dipole's error depends on the material.
 std::vector<CheckDetail> drifts(const CheckedRig& checked, const std::vector<ShotPower>& powers) {
   std::vector<std::string> lights;
   for (const ObservedShot& shot : checked.shots) {
@@ -58,39 +58,39 @@ std::vector<CheckItem> check_light(const CheckedRig& checked) {
   const CheckOptions& o = checked.options;
   std::vector<CheckDetail> power, even, residual;
   std::vector<ShotPower> powers(checked.shots.size());
-  for (const CheckedTask& task : checked.fit.tasks) {
-    if (!task.departures) continue;
-    for (std::size_t k = 0; k < task.shots.size(); ++k) {
-      const std::size_t i = task.shots[k];
+  for (const CheckedChannel& fitted : checked.fit.channels) {
+    if (!fitted.departures) continue;
+    for (std::size_t k = 0; k < fitted.shots.size(); ++k) {
+      const std::size_t i = fitted.shots[k];
       const auto add = [&](const Departure& d, std::vector<CheckDetail>& list) {
-        CheckDetail detail = checked.of_channel(i, task.channel, 100.0 * d.value);
+        CheckDetail detail = checked.of_channel(i, fitted.channel, 100.0 * d.value);
         detail.std = 100.0 * d.std;
         list.push_back(detail);
       };
-      const Departure& p = task.departures->power_relative[k];
-      if (task.shots.size() > 1) {
+      const Departure& p = fitted.departures->power_relative[k];
+      if (fitted.shots.size() > 1) {
         add(p, power);
         powers[i].weight += 1.0 / (p.std * p.std);
         powers[i].sum += p.value / (p.std * p.std);
       }
-      add(task.departures->even_relative[k], even);
+      add(fitted.departures->even_relative[k], even);
       residual.push_back(
-          checked.of_channel(i, task.channel, 100.0 * task.departures->residual_relative[k]));
+          checked.of_channel(i, fitted.channel, 100.0 * fitted.departures->residual_relative[k]));
     }
   }
-  // A misfit of the model as large as the limit says that its other figures mean little.
-  return {judged("image residual", "% of the image", {o.max_residual_percent},
-                 "look at the shot: object moved, wrong mesh, wrong light, or light from elsewhere",
-                 residual),
-          judged("light of shot", "% off the joint model",
-                 {o.max_power_percent, false, false, o.least_stds},
-                 "look whether aperture, exposure or LED current changed in this shot", power),
-          judged("LED drift", "% over the shots", {o.max_drift_percent, false, false, 3.0},
-                 "let the LED warm up, or drive it by a constant current", drifts(checked, powers)),
-          judged("light from elsewhere", "% of mean light",
-                 {o.max_even_percent, false, false, o.least_stds},
-                 "switch off every other lamp, shut the blinds, or list a light of type ambient",
-                 even)};
+  // If the residual of the image reaches its limit, the other values of the model mean little.
+  return {
+      judged("image residual", "% of the image", {o.max_residual_percent},
+             "look at the shot: object moved, wrong mesh, wrong lights, or other light", residual),
+      judged("light of shot", "% off the joint model",
+             {o.max_power_percent, false, false, o.least_stds},
+             "check whether aperture, exposure or LED current changed in this shot", power),
+      judged("LED drift", "% over the shots", {o.max_drift_percent, false, false, 3.0},
+             "let the LED warm up, or drive it with a constant current", drifts(checked, powers)),
+      judged("light from elsewhere", "% of mean light",
+             {o.max_even_percent, false, false, o.least_stds},
+             "switch off every other lamp, close the blinds, or list a light of type ambient",
+             even)};
 }
 
 }  // namespace scattermeter::apps

@@ -5,7 +5,7 @@
 namespace scattermeter::apps {
 namespace {
 
-// Deviations of the scatter itself that a few samples may show.
+// Standard deviations of the scatter itself that chance may cause.
 constexpr double kNoiseStds = 4.0;
 
 }  // namespace

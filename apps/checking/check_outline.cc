@@ -14,11 +14,11 @@ std::vector<CheckItem> check_outline(const CheckedRig& checked) {
     shifts.push_back(d);
   }
   CheckItem item = judged("outline", "px of shift", {checked.options.max_outline_px},
-                          "pose, meshes or lens are not what the rig says", shifts);
+                          "pose, meshes or lens differ from the rig", shifts);
   if (outline.shots_found == 0) return {item};
-  // The verdict is that of the outline's own test, which knows the pose's uncertainty; the limit is
-  // for what it cannot see. Significant as it may be, less than this is nothing that a measurement
-  // would notice.
+  // The verdict is that of the silhouettes' own test, which accounts for the uncertainty of the
+  // pose; the limit is for what it cannot see. Shifts below these limits do not affect a
+  // measurement, however significant.
   constexpr double kTooSmall_px = 0.15;
   constexpr double kTooRough_px = 0.5;
   if (!outline.diagnosis.agrees && (item.rms > kTooSmall_px || outline.rms_px > kTooRough_px)) {

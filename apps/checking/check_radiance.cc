@@ -13,7 +13,7 @@
 namespace scattermeter::apps {
 namespace {
 
-// ISO of the shots; 0: their files do not say.
+// ISO of the shots; 0: not in their files.
 double usual_iso(const CheckedRig& checked) {
   if (checked.rig.decoding.radiance) return checked.rig.decoding.radiance->correction.iso;
   return checked.shots.empty() ? 0.0 : checked.shots.front().iso;
@@ -57,7 +57,7 @@ void add_darks(const CheckedRig& checked, std::vector<CheckItem>& out) {
   out.push_back(judged("ISO of dark frames", "% off the shots'", {0.5},
                        "take the dark frames again with the ISO setting of the shots", isos));
   out.push_back(judged("level of dark frames", "counts above black", {o.max_dark_counts},
-                       "was a light on, or the lens cap off? Take them again in the dark", levels));
+                       "take them again in the dark, with the lens cap on", levels));
   CheckLimit even{0.5};
   even.least_stds = 6.0;
   out.push_back(judged("evenness of dark frames", "counts", even,
@@ -70,7 +70,7 @@ std::vector<CheckItem> check_radiance(const CheckedRig& checked) {
   std::vector<CheckItem> out;
   if (checked.rig.calibration.radiance) add_darks(checked, out);
   if (!checked.rig.decoding.radiance) return out;
-  // What the calibration itself left, kind by kind.
+  // The residuals of the calibration itself.
   for (const capture::RadianceResidual& r : checked.rig.decoding.radiance->residuals) {
     CheckDetail d;
     d.where = "camera.radiance";

@@ -7,7 +7,7 @@
 namespace scattermeter::apps {
 namespace {
 
-// How far each shot's setting lies from the one that most shots have, in percent.
+// Deviation of each shot's setting from the most frequent one, in percent.
 CheckItem same_setting(const CheckedRig& checked, const std::string& what,
                        double ObservedShot::*setting, const std::string& advice) {
   std::map<double, int> uses;
@@ -23,21 +23,22 @@ CheckItem same_setting(const CheckedRig& checked, const std::string& what,
   std::vector<CheckDetail> details;
   for (std::size_t i = 0; i < checked.shots.size(); ++i) {
     const double value = checked.shots[i].*setting;
-    // Not in the file: 0, in all of them.
+    // 0 if the files do not state it.
     const double off = value == usual ? 0.0 : 100.0 * (value / usual - 1.0);
     details.push_back(checked.of_shot(i, off));
   }
-  // Settings are rounded in files, not in steps as small as this.
+  // Files round the settings, but real steps are larger than this.
   return judged(what, "% off the usual", {0.5}, advice, details);
 }
 
 }  // namespace
 
 std::vector<CheckItem> check_settings(const CheckedRig& checked) {
-  return {same_setting(checked, "aperture", &ObservedShot::f_number,
-                       "shoot all with one aperture: the responsivity depends on it"),
-          same_setting(checked, "ISO setting", &ObservedShot::iso,
-                       "shoot all with one ISO setting: responsivity and noise depend on it")};
+  return {
+      same_setting(checked, "aperture", &ObservedShot::f_number,
+                   "use one aperture for all shots, as the responsivity depends on it"),
+      same_setting(checked, "ISO setting", &ObservedShot::iso,
+                   "use one ISO setting for all shots, as responsivity and noise depend on it")};
 }
 
 }  // namespace scattermeter::apps

@@ -24,26 +24,26 @@
 namespace scattermeter::apps {
 namespace {
 
-// An LED's place is fitted within at least this, mm.
-constexpr double kLedPlaceStd_mm = 2.0;
+// Least standard deviation of an LED's position in the joint fit.
+constexpr double kLedPositionStd_mm = 2.0;
 
 std::shared_ptr<CheckedGeometry> geometry_of(const Rig& rig) {
   auto out = std::make_shared<CheckedGeometry>();
   out->rig = rig;
-  // The pose as the rig states it: a refined one would hide what is looked for.
+  // The pose as stated: refining it would hide an error of the outlines.
   out->rig.pose.refine_by_silhouette = false;
   for (SceneLight& light : out->rig.scene.lights) {
     if (light.led() == nullptr) continue;
     if (light.led()->calibrated) {
-      // Position, exponent and power by themselves: the places are what is asked for here.
+      // Without correlations, as the position is to be found from the shots.
       const LedVector std = light.led()->calibrated->covariance.diagonal().cwiseSqrt();
       light.led()->exponent_std = std[5];
       light.led()->intensity_relative_std = std.tail<3>().maxCoeff();
       light.led()->calibrated.reset();
     }
-    light.led()->position_std_mm = std::max(light.led()->position_std_mm, kLedPlaceStd_mm);
+    light.led()->position_std_mm = std::max(light.led()->position_std_mm, kLedPositionStd_mm);
   }
-  out->scenes = open_objects(out->rig);
+  out->objects = open_objects(out->rig);
   return out;
 }
 
@@ -56,7 +56,7 @@ CheckedFrame checked_frame(const capture::RawFrame& frame, const Rig& rig, const
   if (!rig.pose.charuco) {
     out.background = capture::background_level(frame, map.x0, map.y0, map.width, map.height);
     if (rig.decoding.radiance) {
-      // What is known to lie on the background is none of its own light.
+      // Known glare and dark current are not light of the background.
       const capture::RadianceCorrection& c = rig.decoding.radiance->correction;
       const std::array<double, kRgb> mean = capture::frame_mean_counts(frame, c);
       for (std::size_t k = 0; k < kRgb; ++k) {
@@ -77,7 +77,7 @@ CheckedFrame checked_frame(const capture::RawFrame& frame, const Rig& rig, const
   return out;
 }
 
-// The LEDs whose shots stand in the folder.
+// The LEDs whose calibration shots are all in the folder.
 std::vector<calib::LedCheck> checked_leds(const Rig& rig, const std::string& folder) {
   std::vector<calib::LedCheck> out;
   if (!rig.calibration.led) return out;
@@ -123,16 +123,14 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   out.folder = shots_folder;
   const Rig& loose = geometry->rig;
   if (!rig.pose.charuco) out.shared_pose = calib::pose_from_points(loose.scene, loose.pose);
-  geometry->library =
-      std::make_unique<LitObjects>(loose.scene, geometry->scenes, std::nullopt, 0.0);
+  geometry->lit = std::make_unique<LitObjects>(loose.scene, geometry->objects, std::nullopt, 0.0);
   std::optional<SharedView> view;
   if (out.shared_pose) {
-    view = see_all(loose.scene, geometry->scenes, *geometry->library, *out.shared_pose);
+    view = see_all(loose.scene, geometry->objects, *geometry->lit, *out.shared_pose);
   }
   const capture::ShotSource source =
       capture::shots_in_files(loose.scene, loose.decoding, folder.paths);
-  out.shots =
-      open_shots(loose, source, geometry->scenes, *geometry->library, view, options.progress);
+  out.shots = open_shots(loose, source, geometry->objects, *geometry->lit, view, options.progress);
   out.frames.resize(out.shots.size());
   ProgressStage stage(options.progress, "looking at shots", out.shots.size());
   tbb::parallel_for(std::size_t{0}, out.shots.size(), [&](std::size_t i) {
@@ -157,16 +155,16 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   }
   const capture::FrameSource& frames = std::get<capture::FrameSource>(source.open);
   if (out.shared_pose) {
-    out.outline = calib::check_silhouettes(loose.scene, loose.pose, geometry->scenes, frames,
+    out.outline = calib::check_silhouettes(loose.scene, loose.pose, geometry->objects, frames,
                                            source.shot_idxs, *out.shared_pose, outline);
   } else {
     std::vector<PoseResult> poses;
     for (const ObservedShot& shot : out.shots) poses.push_back(shot.pose);
-    out.outline = calib::check_silhouettes_apart(loose.scene, loose.pose, geometry->scenes, frames,
+    out.outline = calib::check_silhouettes_apart(loose.scene, loose.pose, geometry->objects, frames,
                                                  source.shot_idxs, poses, outline);
   }
   out.leds = checked_leds(rig, shots_folder);
-  out.fit = fit_for_check(loose, source, out.shots, *geometry->library, view, options.progress);
+  out.fit = fit_for_check(loose, source, out.shots, *geometry->lit, view, options.progress);
   if (!rig.scene.camera.responsivity) {
     out.notes.emplace_back(
         "no responsivity in the rig: the scale is free, sigma_a will be uncertain");

@@ -22,54 +22,52 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = calibrate.add_subcommand(
       "led",
-      "Place, axis, exponent and intensity of an LED from shots of mirror spheres and a white "
+      "Position, axis, exponent and intensity of an LED from shots of mirror spheres and a white "
       "plane (the rig's calibration.led).\n"
-      "In a room that is not dark, shoot the plane with the LED off as well (kind: ambient).\n"
-      "The rig's own values are where the search starts; they may be off by a fifth of the "
-      "distance.\n"
+      "In a room that is not dark, also take a shot of the plane with the LED off (kind: "
+      "ambient).\n"
+      "The search starts from the rig's values, which may be off by a fifth of the distance.\n"
       "Exit status: 0 calibrated, 1 refused (the shots do not determine it), 2 bad input.");
   command->add_option("SHOTS", options->shots, "folder of the raw files")->required();
   command->add_option("--rig", options->rig, "rig file (YAML) with calibration.led")->required();
   command->add_option("--light", options->light,
-                      "name of the LED in the rig; absent: all of calibration.led");
+                      "name of the LED in the rig (default: all of calibration.led)");
   command
       ->add_option("--out", options->out,
-                   "file to write (YAML, for the rig's lights.NAME.calibration); without --light "
+                   "file to write (YAML, for the rig's lights.NAME.calibration); without --light, "
                    "the folder for NAME.yaml")
       ->required();
-  command->callback([options, &context] {
-    context.chosen = [options, &context] {
-      Rig rig = read_rig(options->rig);
-      calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
-      const calib::LedCalibrationInput input = led_calibration_input(rig);
-      const bool all = options->light.empty();
-      const std::vector<std::string> lights =
-          all ? input.shots.lights() : std::vector<std::string>{options->light};
-      const calib::LedFrames frames = led_frames_in(rig, options->shots);
-      bool refused = false;
-      for (const std::string& light : lights) {
-        const calib::LedCalibration calibration = calib::calibrate_led(input, light, frames);
-        for (const std::string& note : calibration.shots.notes) {
-          context.err << "note: " << note << "\n";
-        }
-        for (const std::string& warning : calibration.fit.warnings) {
-          context.err << "warning: " << light << ": " << warning << "\n";
-        }
-        const bool ok = calibration.fit.status == calib::LedStatus::kOk;
-        refused = refused || !ok;
-        if (!context.quiet || !ok) context.out << led_calibration_table(calibration);
-        if (!ok) continue;
-        if (!rig.scene.camera.responsivity && !context.quiet) {
-          context.out << "the rig has no responsivity: intensities count for 1e10 counts mm2 sr / "
-                         "(W s) in each channel\n";
-        }
-        const std::string path =
-            all ? (std::filesystem::path(options->out) / (light + ".yaml")).string() : options->out;
-        capture::write_text_file(path, led_calibration_yaml(calibration));
-        if (!context.quiet) context.out << "written: " << path << "\n";
+  run_if_named(*command, context, [options, &context] {
+    Rig rig = read_rig(options->rig);
+    calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
+    const calib::LedCalibrationInput input = led_calibration_input(rig);
+    const bool all = options->light.empty();
+    const std::vector<std::string> lights =
+        all ? input.shots.lights() : std::vector<std::string>{options->light};
+    const calib::LedFrames frames = led_frames_in(rig, options->shots);
+    bool refused = false;
+    for (const std::string& light : lights) {
+      const calib::LedCalibration calibration = calib::calibrate_led(input, light, frames);
+      for (const std::string& note : calibration.shots.notes) {
+        context.err << "note: " << note << "\n";
       }
-      return refused ? 1 : 0;
-    };
+      for (const std::string& warning : calibration.fit.warnings) {
+        context.err << "warning: " << light << ": " << warning << "\n";
+      }
+      const bool ok = calibration.fit.status == calib::LedStatus::kOk;
+      refused = refused || !ok;
+      if (!context.quiet || !ok) context.out << led_calibration_table(calibration);
+      if (!ok) continue;
+      if (!rig.scene.camera.responsivity && !context.quiet) {
+        context.out << "the rig has no responsivity: intensities count for 1e10 counts mm2 sr / "
+                       "(W s) in each channel\n";
+      }
+      const std::string path =
+          all ? (std::filesystem::path(options->out) / (light + ".yaml")).string() : options->out;
+      capture::write_text_file(path, led_calibration_yaml(calibration));
+      if (!context.quiet) context.out << "written: " << path << "\n";
+    }
+    return refused ? 1 : 0;
   });
 }
 

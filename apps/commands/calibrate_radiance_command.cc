@@ -18,7 +18,7 @@
 namespace scattermeter::apps {
 namespace {
 
-// Linearity and noise, beside the file.
+// Writes plots of linearity and noise next to the file.
 void draw_radiance(const capture::RadianceCalibration& calibration, const std::string& stem) {
   for (std::size_t c = 0; c < kRgb; ++c) {
     write_plot(photon_transfer_plot(calibration, c),
@@ -38,29 +38,27 @@ void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context) {
       "radiance",
       "Black, dark current, hot pixels, read noise, gain, linearity, exposure times, vignetting, "
       "glare and responsivity from the shots that the rig's calibration.radiance lists.\n"
-      "Writes the file that camera.radiance names, and pictures of noise and linearity beside it.\n"
+      "Writes the file for camera.radiance, and plots of noise and linearity next to it.\n"
       "Exit status: 0 done, 1 a residual exceeds its limit, 2 bad input.");
   command->add_option("SHOTS", options->shots, "folder of the raw files")->required();
   command->add_option("--rig", options->rig, "rig file (YAML)")->required();
   command->add_option("--out", options->out, "file to write")->capture_default_str();
-  command->callback([options, &context] {
-    context.chosen = [options, &context] {
-      Rig rig = read_rig(options->rig, false);
-      // Where the camera stands matters to the white reference alone.
-      if (rig.calibration.radiance && rig.calibration.radiance->white) {
-        calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
-      }
-      const capture::RadianceCalibration calibration = calib::calibrate_radiance(
-          radiance_calibration_input(rig), radiance_frames_in(rig, options->shots));
-      capture::write_text_file(options->out, radiance_file_text(calibration));
-      std::filesystem::path stem(options->out);
-      draw_radiance(calibration, stem.replace_extension().string());
-      if (!context.quiet) context.out << radiance_calibration_table(calibration);
-      for (const capture::RadianceResidual& r : calibration.residuals) {
-        if (r.rms > r.limit) return 1;
-      }
-      return 0;
-    };
+  run_if_named(*command, context, [options, &context] {
+    Rig rig = read_rig(options->rig, false);
+    // Only the white reference depends on the pose of the camera.
+    if (rig.calibration.radiance && rig.calibration.radiance->white) {
+      calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
+    }
+    const capture::RadianceCalibration calibration = calib::calibrate_radiance(
+        radiance_calibration_input(rig), radiance_frames_in(rig, options->shots));
+    capture::write_text_file(options->out, radiance_file_text(calibration));
+    std::filesystem::path stem(options->out);
+    draw_radiance(calibration, stem.replace_extension().string());
+    if (!context.quiet) context.out << radiance_calibration_table(calibration);
+    for (const capture::RadianceResidual& r : calibration.residuals) {
+      if (r.rms > r.limit) return 1;
+    }
+    return 0;
   });
 }
 

@@ -19,40 +19,38 @@ void add_check_command(CLI::App& app, CommandContext& context) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "check",
-      "Check whether the rig holds, against its shots: camera settings, pose, exposure, noise, "
-      "black level, lights and materials exchanged, each shot's light against the joint model, "
-      "light from elsewhere, the LEDs' places.\n"
-      "Prints one line for each: residual (rms and worst, where), limit, verdict, and what to do "
-      "where it fails. With --out: check.json with every single value, and check.html.\n"
+      "Check whether the setup is consistent with its shots: camera settings, pose, exposure, "
+      "noise, black level, exchanged lights and materials, the light of each shot relative to the "
+      "joint model, other light, LED positions.\n"
+      "Prints one line for each: residual (rms and worst, with its location), limit, verdict, and "
+      "advice if it fails. With --out: check.json with all values, and check.html.\n"
       "Exit status: 0 all passed, 1 at least one failed, 2 bad input.");
   command->add_option("SHOTS", options->shots, "folder of the raw files")->required();
   command->add_option("--rig", options->rig, "rig file (YAML)")->required();
   command->add_option("--out", options->out, "folder for check.json and check.html");
-  command->callback([options, &context] {
-    context.chosen = [options, &context] {
-      CheckOptions check_options;
-      check_options.progress = context.progress;
-      if (!options->out.empty()) {
-        check_options.draw_shot = [](const capture::RawFrame& frame, const CameraView& view,
-                                     const RayScene& rays, const SampleMap& map) {
-          constexpr int kWidth_px = 420;
-          return shot_picture(frame, view, rays, map, kWidth_px);
-        };
-      }
-      Rig rig = read_rig(options->rig);
-      calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
-      const CheckedRig checked = open_checked_rig(rig, options->shots, check_options);
-      const CheckReport report = check_report(checked);
-      if (!context.quiet) context.out << check_table(report);
-      if (!options->out.empty()) {
-        const std::string json = options->out + "/check.json";
-        const std::string page = options->out + "/check.html";
-        capture::write_text_file(json, check_json(report, context.command_line));
-        capture::write_text_file(page, check_page(checked, report, context.command_line));
-        if (!context.quiet) context.out << "written: " << json << ", " << page << "\n";
-      }
-      return report.passed() ? 0 : 1;
-    };
+  run_if_named(*command, context, [options, &context] {
+    CheckOptions check_options;
+    check_options.progress = context.progress;
+    if (!options->out.empty()) {
+      check_options.draw_shot = [](const capture::RawFrame& frame, const CameraView& view,
+                                   const RayScene& rays, const SampleMap& map) {
+        constexpr int kWidth_px = 420;
+        return shot_picture(frame, view, rays, map, kWidth_px);
+      };
+    }
+    Rig rig = read_rig(options->rig);
+    calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
+    const CheckedRig checked = open_checked_rig(rig, options->shots, check_options);
+    const CheckReport report = check_report(checked);
+    if (!context.quiet) context.out << check_table(report);
+    if (!options->out.empty()) {
+      const std::string json = options->out + "/check.json";
+      const std::string page = options->out + "/check.html";
+      capture::write_text_file(json, check_json(report, context.command_line));
+      capture::write_text_file(page, check_page(checked, report, context.command_line));
+      if (!context.quiet) context.out << "written: " << json << ", " << page << "\n";
+    }
+    return report.passed() ? 0 : 1;
   });
 }
 

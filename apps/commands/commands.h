@@ -1,9 +1,10 @@
-// One declaration per command: its options on a CLI11 app, its body when it is chosen.
+// The commands: each function adds one with its options and its body to a CLI11 app.
 #pragma once
 
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -12,22 +13,32 @@
 
 namespace scattermeter::apps {
 
-// What every command gets.
+// What every command receives.
 struct CommandContext {
   std::ostream& out;
   std::ostream& err;
   bool quiet = false;
-  Progress* progress = nullptr;  // null: none is shown
+  Progress* progress = nullptr;  // null: not shown
   int threads = 0;               // 0: all cores
   std::string command_line;
-  PathPeers* peers = nullptr;   // processes that run this command together
-  bool shares_paths = false;    // set by the command that was named where it can make use of them
-  std::function<int()> chosen;  // set by the command that was named; returns the exit status
+  PathPeers* peers = nullptr;  // processes that run this command together
+  // Set by the command that was named: whether it can use the peers, and its body, which returns
+  // the exit status.
+  bool shares_paths = false;
+  std::function<int()> chosen;
 };
+
+// Makes `body` what runs if the command is named on the command line.
+inline void run_if_named(CLI::App& command, CommandContext& context, std::function<int()> body,
+                         bool shares_paths = false) {
+  command.callback([&context, body = std::move(body), shares_paths] {
+    context.chosen = body;
+    context.shares_paths = shares_paths;
+  });
+}
 
 void add_measure_command(CLI::App& app, CommandContext& context);
 void add_check_command(CLI::App& app, CommandContext& context);
-void add_calibrate_command(CLI::App& app, CommandContext& context);
 void add_calibrate_camera(CLI::App& calibrate, CommandContext& context);
 void add_calibrate_led(CLI::App& calibrate, CommandContext& context);
 void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context);

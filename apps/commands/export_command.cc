@@ -21,8 +21,9 @@ void add_export_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand(
       "export",
       "Write measured materials as a renderer's material or as a table.\n"
-      "A refused channel is not exported: its material fails with exit status 1 and nothing is "
-      "written (csv: its row has the verdict and no values). --material chooses the others.");
+      "Refused channels are not exported: if there is one, nothing is written and the exit status "
+      "is "
+      "1 (csv: its row has the verdict and no values). --material selects the other materials.");
   command->add_option("RESULT", options->result, "result.json of `measure`")->required();
   std::vector<std::string> names, descriptions;
   for (const ExportFormat& f : kExportFormats) {
@@ -35,40 +36,37 @@ void add_export_command(CLI::App& app, CommandContext& context) {
   command->add_option("--out", options->out, "file to write; an existing one is replaced")
       ->required();
   command->add_option("--material", options->materials,
-                      "only this material; may be given again (default: all)");
+                      "only this material; may be repeated (default: all)");
   command
       ->add_option("--mm-per-unit", options->exported.mm_per_unit,
-                   "length of a scene unit in mm (default: 1; materialx: 1000, as it counts per "
+                   "length of a scene unit in mm (default: 1; materialx: 1000, as its unit is the "
                    "metre)")
       ->check(CLI::Range(1e-6, 1e9));
   command
       ->add_option(
           "--g", options->exported.g,
-          "mean cosine of the phase function, where it is known: sigma_s = sigma_s' / (1 - g)")
+          "mean cosine of the phase function, if it is known: sigma_s = sigma_s' / (1 - g)")
       ->check(CLI::Range(-0.99, 0.99))
       ->capture_default_str();
-  command->callback([options, &context] {
-    context.chosen = [options, &context] {
-      const ReadResult result = read_result(options->result);
-      const std::vector<MeasuredMaterial> materials = materials_of(result, options->materials);
-      const std::vector<std::string> refused = refusals(materials);
-      for (const std::string& line : refused) {
-        context.err << "scattermeter: " << options->result << ": " << line << "\n";
-      }
-      const ExportFormat& format =
-          *std::ranges::find(kExportFormats, options->format,
-                             [](const ExportFormat& f) { return std::string_view(f.name); });
-      if (!format.takes_refused && !refused.empty()) {
-        context.err << "scattermeter: nothing is written; --material chooses materials that were "
-                       "measured\n";
-        return 1;
-      }
-      ExportOptions exported = options->exported;
-      if (exported.mm_per_unit == 0.0) exported.mm_per_unit = format.mm_per_unit;
-      capture::write_text_file(options->out, format.text(result, materials, exported));
-      if (!context.quiet) context.out << "written: " << options->out << "\n";
-      return refused.empty() ? 0 : 1;
-    };
+  run_if_named(*command, context, [options, &context] {
+    const ReadResult result = read_result(options->result);
+    const std::vector<MeasuredMaterial> materials = materials_of(result, options->materials);
+    const std::vector<std::string> refused = refusals(materials);
+    for (const std::string& line : refused) {
+      context.err << "scattermeter: " << options->result << ": " << line << "\n";
+    }
+    const ExportFormat& format =
+        *std::ranges::find(kExportFormats, options->format,
+                           [](const ExportFormat& f) { return std::string_view(f.name); });
+    if (!format.takes_refused && !refused.empty()) {
+      context.err << "scattermeter: nothing is written; select measured materials by --material\n";
+      return 1;
+    }
+    ExportOptions exported = options->exported;
+    if (exported.mm_per_unit == 0.0) exported.mm_per_unit = format.mm_per_unit;
+    capture::write_text_file(options->out, format.text(result, materials, exported));
+    if (!context.quiet) context.out << "written: " << options->out << "\n";
+    return refused.empty() ? 0 : 1;
   });
 }
 

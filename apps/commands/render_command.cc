@@ -1,7 +1,9 @@
-#include <algorithm>
-#include <iomanip>
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,7 +19,13 @@
 namespace scattermeter::apps {
 namespace {
 
-// An EXR and a PNG of each picture, the sheet, and the table that says what they are.
+struct RenderArguments {
+  std::string rig, result, out = "render", model = "dipole";
+  std::vector<std::string> materials;
+  RenderOptions options;
+};
+
+// Writes an EXR and a PNG of each picture, the sheet, and the table that describes them.
 void write_rendering(const Rendering& rendering, const std::vector<MeasuredMaterial>& materials,
                      const std::string& model, const std::string& folder) {
   const double white = white_radiance(rendering);
@@ -62,91 +70,86 @@ void write_rendering(const Rendering& rendering, const std::vector<MeasuredMater
   capture::write_text_file(folder + "/pictures.csv", csv.text());
 }
 
+void declare_options(CLI::App& command, RenderArguments& a) {
+  command
+      .add_option("RIG", a.rig,
+                  "rig file (YAML); of its truth, only truth.pose is used, if present")
+      ->required();
+  command.add_option("--result", a.result, "result.json of `measure`")->required();
+  command.add_option("--out", a.out, "folder for the pictures; created if missing")
+      ->capture_default_str();
+  command
+      .add_option("--model", a.model,
+                  "dipole: fast, ignores the shape of the body; transport: volumetric Monte Carlo "
+                  "in the actual shape")
+      ->check(CLI::IsMember({"dipole", "transport"}))
+      ->capture_default_str();
+  command.add_option("--material", a.materials,
+                     "only this material; may be repeated (default: all)");
+  command.add_option("--object", a.options.objects,
+                     "only this object of the rig; may be repeated (default: those of its shots)");
+  command.add_option("--light", a.options.lights,
+                     "this light of the rig; if repeated, they are on together (default: as the "
+                     "rig's shots are lit)");
+  command.add_option("--width", a.options.width_px, "pixels across the frame (default: the rig's)")
+      ->check(CLI::Range(16, 100'000));
+  command
+      .add_option("--paths", a.options.transport.paths,
+                  "transport: light paths for each light and channel of a picture; the noise is "
+                  "inversely proportional to their square root")
+      ->check(CLI::Range(std::int64_t{64}, std::int64_t{1'000'000'000'000}))
+      ->capture_default_str();
+  command.add_option("--seed", a.options.transport.seed, "transport: seed of the Monte Carlo")
+      ->capture_default_str();
+}
+
+int run_render(const RenderArguments& a, CommandContext& context) {
+  RenderOptions options = a.options;
+  options.transport.volume = a.model == "transport";
+  options.progress = context.progress;
+  options.transport.peers = context.peers;
+  const Rig rig = read_rig(a.rig, false);
+  std::vector<MeasuredMaterial> materials = materials_of(read_result(a.result), a.materials);
+  const std::vector<std::string> refused = refusals(materials);
+  for (const std::string& line : refused) {
+    context.err << "scattermeter: " << a.result << ": " << line << "; left out\n";
+  }
+  std::erase_if(materials, [](const MeasuredMaterial& m) { return m.refused(); });
+  if (materials.empty()) {
+    context.err << "scattermeter: " << a.result << ": nothing is left to render\n";
+    return 1;
+  }
+  const Rendering rendering = render(rig, materials, options);
+  if (context.peers != nullptr && context.peers->place() > 0) return 0;
+  write_rendering(rendering, materials, a.model, a.out);
+  if (!context.quiet) {
+    context.out << rendering.pictures.size() << " pictures (EXR and PNG), sheet.png and "
+                << "pictures.csv written to " << a.out << "\n";
+    if (options.transport.volume) {
+      context.out << fmt::format(
+          "Monte Carlo error of the light of a patch: {:.2g} % (median over the patches, of the "
+          "worst picture and channel)\n",
+          100.0 * rendering.pictures.back().monte_carlo_std);
+    }
+  }
+  return refused.empty() ? 0 : 1;
+}
+
 }  // namespace
 
 void add_render_command(CLI::App& app, CommandContext& context) {
-  struct Options {
-    std::string rig, result, out = "render", model = "dipole";
-    std::vector<std::string> materials;
-    RenderOptions render;
-  };
-  const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "render",
       "Show measured materials on the objects of a rig, under its lights.\n"
-      "Every object and set of lights that the rig's shots name is rendered with every material of "
-      "the result. OUT gets an OpenEXR (linear radiance, W/(mm^2 sr)) and a PNG (sRGB, one "
+      "Every combination of object and lights in the rig's shots is rendered with every material "
+      "of the result. OUT receives an OpenEXR (linear radiance, W/(mm^2 sr)) and a PNG (sRGB, one "
       "exposure for all) of each, sheet.png with all of them side by side, and pictures.csv, which "
-      "says what each is and its exposure.\n"
+      "describes them.\n"
       "Exit status: 0 all rendered, 1 a refused material was left out, 2 bad input.");
-  command
-      ->add_option("RIG", options->rig,
-                   "rig file (YAML); its truth, if any, stays unused but for truth.pose")
-      ->required();
-  command->add_option("--result", options->result, "result.json of `measure`")->required();
-  command->add_option("--out", options->out, "folder for the pictures; made where missing")
-      ->capture_default_str();
-  command
-      ->add_option("--model", options->model,
-                   "dipole: fast, does not know the body's shape; transport: volume Monte Carlo in "
-                   "the body's own shape")
-      ->check(CLI::IsMember({"dipole", "transport"}))
-      ->capture_default_str();
-  command->add_option("--material", options->materials,
-                      "only this material; may be given again (default: all)");
-  command->add_option("--object", options->render.objects,
-                      "only this object of the rig; may be given again (default: those of its "
-                      "shots)");
-  command->add_option("--light", options->render.lights,
-                      "this light of the rig; given again, they are on together (default: as the "
-                      "rig's shots are lit)");
-  command
-      ->add_option("--width", options->render.width_px,
-                   "pixels across the frame (default: the rig's)")
-      ->check(CLI::Range(16, 100'000));
-  command
-      ->add_option(
-          "--paths", options->render.transport.paths,
-          "transport: light paths for each light and channel of a picture; the noise falls with "
-          "their square root")
-      ->check(CLI::Range(std::int64_t{64}, std::int64_t{1'000'000'000'000}))
-      ->capture_default_str();
-  command->add_option("--seed", options->render.transport.seed, "transport: of the Monte Carlo")
-      ->capture_default_str();
-  command->callback([options, &context] {
-    context.shares_paths = true;
-    context.chosen = [options, &context] {
-      RenderOptions render_options = options->render;
-      render_options.transport.volume = options->model == "transport";
-      render_options.progress = context.progress;
-      render_options.transport.peers = context.peers;
-      const Rig rig = read_rig(options->rig, false);
-      std::vector<MeasuredMaterial> materials =
-          materials_of(read_result(options->result), options->materials);
-      const std::vector<std::string> refused = refusals(materials);
-      for (const std::string& line : refused) {
-        context.err << "scattermeter: " << options->result << ": " << line << "; left out\n";
-      }
-      std::erase_if(materials, [](const MeasuredMaterial& m) { return m.refused(); });
-      if (materials.empty()) {
-        context.err << "scattermeter: " << options->result << ": nothing is left to render\n";
-        return 1;
-      }
-      const Rendering rendering = render(rig, materials, render_options);
-      if (context.peers != nullptr && context.peers->place() > 0) return 0;
-      write_rendering(rendering, materials, options->model, options->out);
-      if (!context.quiet) {
-        context.out << rendering.pictures.size() << " pictures (EXR and PNG), sheet.png and "
-                    << "pictures.csv written to " << options->out << "\n";
-        if (render_options.transport.volume) {
-          context.out << "Monte Carlo error of the light of a patch: " << std::setprecision(2)
-                      << 100.0 * rendering.pictures.back().monte_carlo_std
-                      << " % (median over the patches, of the worst picture and channel)\n";
-        }
-      }
-      return refused.empty() ? 0 : 1;
-    };
-  });
+  const auto arguments = std::make_shared<RenderArguments>();
+  declare_options(*command, *arguments);
+  run_if_named(
+      *command, context, [arguments, &context] { return run_render(*arguments, context); }, true);
 }
 
 }  // namespace scattermeter::apps

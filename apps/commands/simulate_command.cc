@@ -1,7 +1,8 @@
 #include <cstdint>
-#include <iomanip>
 #include <memory>
 #include <ostream>
+
+#include <fmt/core.h>
 
 #include "apps/commands/commands.h"
 #include "apps/simulation/simulate.h"
@@ -17,19 +18,18 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand(
       "simulate",
       "Make the raw shots that a rig would have taken of its truth materials (12-bit DNG).\n"
-      "The rig needs truth.materials; the exposure time is chosen where the rig has none.\n"
-      "Started as `mpirun -n N scattermeter simulate ... --transport volume` (where built with "
-      "Open "
+      "The rig needs truth.materials; the exposure time is chosen if the rig has none.\n"
+      "Started as `mpirun -n N scattermeter simulate ... --transport volume` (if built with Open "
       "MPI), N processes share the light paths; the digits are the same for any N.");
   command->add_option("RIG", options->rig, "rig file (YAML)")->required();
-  command->add_option("--out", options->out, "folder for the raws; made where missing")->required();
+  command->add_option("--out", options->out, "folder for the raws; created if missing")->required();
   command
       ->add_option("--transport", options->transport,
-                   "how light moves in the material: dipole, or volume (Monte Carlo in the body's "
-                   "own shape)")
+                   "how light propagates in the material: dipole, or volume (Monte Carlo in the "
+                   "actual shape of the body)")
       ->check(CLI::IsMember({"dipole", "volume"}))
       ->capture_default_str();
-  command->add_option("--seed", options->simulate.seed, "of the noise, and of the Monte Carlo")
+  command->add_option("--seed", options->simulate.seed, "seed of the noise and of the Monte Carlo")
       ->capture_default_str();
   command
       ->add_option("--paths", options->simulate.transport.paths,
@@ -44,27 +44,29 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
                    "scene: the shots of the objects; calibration: those of the rig's calibration")
       ->check(CLI::IsMember({"all", "scene", "calibration"}))
       ->capture_default_str();
-  command->callback([options, &context] {
-    context.shares_paths = true;
-    context.chosen = [options, &context] {
-      options->simulate.noise = options->noise == "on";
-      options->simulate.scene = options->what != "calibration";
-      options->simulate.calibration = options->what != "scene";
-      options->simulate.transport.peers = context.peers;
-      options->simulate.transport.volume = options->transport == "volume";
-      const SimulatedShots made =
-          simulate(read_rig(options->rig), options->out, options->simulate, context.progress);
-      if (!context.quiet) {
-        context.out << made.paths.size() << " shots written to " << options->out << "\n";
-        if (options->simulate.transport.volume) {
-          context.out << "Monte Carlo error of the light of a patch: " << std::setprecision(2)
-                      << 100.0 * made.monte_carlo_std
-                      << " % (median over the patches, of the worst shot and channel)\n";
+  run_if_named(
+      *command, context,
+      [options, &context] {
+        options->simulate.noise = options->noise == "on";
+        options->simulate.scene = options->what != "calibration";
+        options->simulate.calibration = options->what != "scene";
+        options->simulate.transport.peers = context.peers;
+        options->simulate.transport.volume = options->transport == "volume";
+        const SimulatedShots made =
+            simulate(read_rig(options->rig), options->out, options->simulate, context.progress);
+        if (!context.quiet) {
+          context.out << made.paths.size() << " shots written to " << options->out << "\n";
+          if (options->simulate.transport.volume) {
+            context.out << fmt::format(
+                "Monte Carlo error of the light of a patch: {:.2g} % (median over the patches, of "
+                "the "
+                "worst shot and channel)\n",
+                100.0 * made.monte_carlo_std);
+          }
         }
-      }
-      return 0;
-    };
-  });
+        return 0;
+      },
+      true);
 }
 
 }  // namespace scattermeter::apps

@@ -75,7 +75,7 @@ calib::CalibrateCameraOptions camera_calibration_input(const std::string& rig_pa
 
 calib::LedCalibrationInput led_calibration_input(const Rig& rig) {
   if (!rig.calibration.led) {
-    throw InputError(rig.path, "calibration.led: is missing: it lists spheres, planes and shots");
+    throw InputError(rig.path, "calibration.led: is missing; it lists spheres, planes and shots");
   }
   calib::LedCalibrationInput input;
   input.shots = *rig.calibration.led;
@@ -97,8 +97,8 @@ calib::LedFrames led_frames_in(const Rig& rig, const std::string& shots_folder) 
     const fs::path path = fs::path(shots_folder) / shot.file;
     std::error_code error;
     if (!fs::exists(path, error)) {
-      throw InputError(shots_folder,
-                       fmt::format("{} is missing, which {} lists", shot.file, led.at(shot.line)));
+      throw InputError(shots_folder, fmt::format("{} is missing, but listed in {}", shot.file,
+                                                 led.at(shot.line)));
     }
     return capture::open_shot(rig.scene, rig.decoding, path.string());
   };
@@ -106,7 +106,7 @@ calib::LedFrames led_frames_in(const Rig& rig, const std::string& shots_folder) 
 
 calib::RadianceCalibrationInput radiance_calibration_input(const Rig& rig) {
   if (!rig.calibration.radiance) {
-    throw InputError(rig.path + ": calibration.radiance", "is missing: it lists the shots");
+    throw InputError(rig.path + ": calibration.radiance", "is missing; it lists the shots");
   }
   calib::RadianceCalibrationInput input;
   input.shots = *rig.calibration.radiance;

@@ -18,7 +18,7 @@ std::optional<PoseResult> shared_pose(const Rig& rig) {
   return calib::pose_from_points(rig.scene, rig.pose);
 }
 
-// To the farthest object; 0 where the pose is not known before the shots are.
+// Distance to the farthest object; 0 if the pose is not known before the shots are opened.
 double distance_to_camera_mm(const Rig& rig, const ObjectScenes& objects,
                              const std::optional<PoseResult>& pose) {
   if (!pose) return 0.0;
@@ -72,8 +72,8 @@ Skipped skipped_of(const std::vector<ObservedShot>& shots, const LitObjects& lit
   return out;
 }
 
-// Reads the shots and meanwhile makes W of the views and lights that they need: neither wants the
-// other.
+// Reads the shots and, at the same time, computes W for their views and lights, as neither depends
+// on the other.
 std::vector<ObservedShot> open_and_light(const Rig& rig, const capture::ShotSource& source,
                                          const ObjectScenes& objects, LitObjects& lit,
                                          const SharedView& view, Progress* progress,
@@ -90,7 +90,7 @@ std::vector<ObservedShot> open_and_light(const Rig& rig, const capture::ShotSour
                          try {
                            add_smooth_weights(rig.scene, unread, lit, nullptr, weights);
                          } catch (...) {
-                           // What is wrong with a shot is reported first.
+                           // An error in a shot is reported first.
                            of_light = std::current_exception();
                          }
                        });
@@ -142,7 +142,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   for (const auto& [name, object] : objects_) {
     out.patch_size_mm[name] = lit_.patches(name).patch_size_mm();
   }
-  if (!view_) kept_ = {};  // those of views that are gone
+  if (!view_) kept_ = {};  // of previous views
   std::optional<SharedView> view = view_;
   if (!view && pose_ && !rig_.pose.per_shot) {
     view = see_all(rig_.scene, objects_, lit_,

@@ -19,26 +19,25 @@ namespace scattermeter::apps {
 
 class Instrument {
  public:
-  // Rig and scenes must outlive it; the scenes may have been opened for another rig that has the
-  // same objects. Throws InputError for a pose that the rig's points do not give, an object out of
-  // view, or patches too small.
+  // Rig and objects must outlive it; the objects may have been opened for another rig with the same
+  // objects. Throws InputError if the rig's points do not determine the pose, an object is out of
+  // view or patches are too small.
   Instrument(const Rig& rig, const ObjectScenes& objects, const MeasureOptions& options,
              Progress* progress = nullptr);
   Instrument(const Instrument&) = delete;
   Instrument& operator=(const Instrument&) = delete;
 
-  // Measures the materials in these shots, jointly over the shots of each. The light in each patch
-  // (W of every view and lamp) is computed when first needed and kept, as long as the pose comes
-  // from the rig's points alone; with a board or silhouettes each set is seen anew. The digits are
-  // the same either way. Results, patch sizes and timing are filled; notes and inputs are the
-  // caller's. Throws InputError as measure() does. Not for several threads at once (it uses all of
-  // them).
+  // Measures the materials in these shots, jointly over the shots of each. The weights W of each
+  // view and light are computed when first needed; they are kept if the pose comes from the rig's
+  // points alone, but not with a board or silhouettes. The digits are the same either way. Fills in
+  // results, patch sizes and timing; notes and inputs are left to the caller. Throws InputError as
+  // measure() does. Must not be called from several threads at once (it uses all of them).
   Measurement measure(const capture::ShotSource& source);
   Measurement measure(const capture::ShotSource& source,
-                      Stopwatch& watch);  // timing goes there only
-  // Measures shots that show what is expected, without the noise that they count with, by the
-  // dipole: what is stated is to be expected of shots with that noise. opened: these shots, which
-  // refer to the rig and to this instrument.
+                      Stopwatch& watch);  // records the timing there only
+  // Measures by the dipole shots that are free of noise but have its variances: the stated values
+  // are those to expect of shots with noise. opened: receives these shots, which refer to the rig
+  // and to this instrument.
   Measurement forecast(const capture::ShotSource& source, std::vector<ObservedShot>& opened);
 
  private:

@@ -25,7 +25,7 @@ bool Measurement::any_refused() const {
 
 namespace {
 
-// The rig with the shots of these materials alone.
+// The rig with only the shots of these materials.
 Rig with_materials(const Rig& rig, const std::vector<std::string>& wanted) {
   if (wanted.empty()) return rig;
   const std::vector<std::string> known = rig.scene.materials();
@@ -59,8 +59,8 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
   calib::take_points_from_board_shot(rig.scene, rig.decoding, shots_folder, rig.pose);
   const capture::ShotFolder folder =
       capture::match_shots(rig.scene, calibration_files(rig), shots_folder);
-  const ObjectScenes scenes = open_objects(rig);
-  Instrument instrument(rig, scenes, options, progress);
+  const ObjectScenes objects = open_objects(rig);
+  Instrument instrument(rig, objects, options, progress);
   watch.lap("geometry");
   capture::FileDigests digests;
   std::optional<capture::ShotCache> cache;
@@ -93,7 +93,7 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
   for (const std::vector<std::string>& of_shot : folder.paths) {
     shot_files.insert(shot_files.end(), of_shot.begin(), of_shot.end());
   }
-  out.inputs = rig_inputs(rig, scenes, digests, shot_files);
+  out.inputs = rig_inputs(rig, objects, digests, shot_files);
   watch.lap("digests");
   watch.total();
   out.timing_s = timing_s;

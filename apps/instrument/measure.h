@@ -1,4 +1,4 @@
-// The main job: a folder of raws and a rig in, coefficients out.
+// Measuring: from a folder of raws and a rig to coefficients.
 #pragma once
 
 #include <array>
@@ -17,10 +17,9 @@ namespace scattermeter::apps {
 
 struct MeasureOptions {
   EstimateOptions estimate;
-  std::optional<double> patch_size_mm;  // of every object; else the rig's, else chosen
-  std::vector<std::string> materials;   // of the rig, those that are measured; empty: all
-  // Folder that keeps decoded shots (capture/shots/shot_cache.h); empty: none is kept, none is
-  // looked for.
+  std::optional<double> patch_size_mm;  // of every object; absent: the rig's, or chosen
+  std::vector<std::string> materials;   // of the rig, only these; empty: all
+  // Folder of the decoded shots (capture/shots/shot_cache.h); empty: no cache.
   std::string cache_folder;
 };
 
@@ -28,14 +27,14 @@ struct MeasureOptions {
 struct MergedBracket {
   struct File {
     std::string file;
-    double exposure_s = 0;                       // true, as far as known
-    std::array<std::size_t, kRgb> samples = {};  // that hold any part of it
-    ExposureDeparture departure = {};            // of its light from that of the others
+    double exposure_s = 0;                       // the true one, if known
+    std::array<std::size_t, kRgb> samples = {};  // of the shot that it contributes to
+    ExposureDeparture departure = {};            // of its light from that of the other files
   };
   std::string shot;  // the first file
   std::vector<File> files;
   std::array<std::size_t, kRgb> samples = {};          // of the shot
-  std::array<std::size_t, kRgb> samples_clipped = {};  // of these, in all files
+  std::array<std::size_t, kRgb> samples_clipped = {};  // of these, clipped in all files
 };
 
 struct InputFile {
@@ -43,22 +42,22 @@ struct InputFile {
   std::string sha256;
 };
 
-// What was not done, since nothing asked for it or depended on it; the answers are the same.
+// Work that was skipped, as it was not requested or has no effect on the results.
 struct Skipped {
-  std::size_t shots_not_asked = 0;     // of the rig
-  std::size_t channels_not_asked = 0;  // of materials, of those shots that were
-  std::size_t shots_from_cache = 0;    // not decoded
-  std::size_t samples_outside = 0;     // of decoded frames, beside the object: not converted
-  std::size_t patches_unseen = 0;      // of the objects' views: no row
-  std::size_t patches_unlit = 0;       // of objects under each light: c_k = 0, in no sum
+  std::size_t shots_not_asked = 0;     // of the rig's other materials
+  std::size_t channels_not_asked = 0;  // of the measured materials
+  std::size_t shots_from_cache = 0;    // not decoded again
+  std::size_t samples_outside = 0;     // of decoded frames, outside the object: not converted
+  std::size_t patches_unseen = 0;      // of the objects' views: without a row
+  std::size_t patches_unlit = 0;       // of objects under each light: c_k = 0
   std::size_t shadow_rays = 0;         // on convex objects
-  std::size_t nuisances = 0;           // of materials' channels, too small to count
+  std::size_t nuisances = 0;           // of the materials' channels: negligible
 };
 
 struct Measurement {
-  std::string model;                                     // as asked for
+  std::string model;                                     // as requested
   std::vector<ChannelResult> results;                    // materials in the rig's order, R G B each
-  std::vector<std::string> notes;                        // for the user: skipped files and the like
+  std::vector<std::string> notes;                        // for the user: skipped files and similar
   std::vector<std::pair<std::string, double>> timing_s;  // stages in order, then "total"
   std::vector<InputFile> inputs;                         // rig, meshes, probes, shots
   std::vector<MergedBracket> brackets;                   // in the rig's order
@@ -67,9 +66,10 @@ struct Measurement {
   bool any_refused() const;
 };
 
-// Throws InputError for bad input, and for a material or channel that the rig does not have;
-// Cancelled where `progress` says so. Nothing is written but what the options' cache keeps. A shot
-// that is dark or clipped as a whole refuses its material's channel and spoils nothing else.
+// Measures the materials of the rig. Writes nothing except to the cache of the options. An entirely
+// dark or clipped shot causes its material's channel to be refused, and affects nothing else.
+// Throws InputError for bad input, including a material or channel that the rig does not have, and
+// Cancelled if `progress` does.
 Measurement measure(const Rig& rig, const std::string& shots_folder,
                     const MeasureOptions& options = {}, Progress* progress = nullptr);
 

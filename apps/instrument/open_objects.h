@@ -1,4 +1,4 @@
-// The meshes of a rig's objects, opened.
+// Opening of the meshes of a rig's objects.
 #pragma once
 
 #include <functional>
@@ -9,12 +9,12 @@
 
 namespace scattermeter::apps {
 
-// Opens the meshes of all objects that a shot refers to. Throws InputError naming rig line, object,
-// mesh file and what is wrong: unreadable, open, inside out, in metres; or an LED inside an object
-// that it lights.
+// Opens the meshes of all objects that a shot refers to. Throws InputError naming line of the rig,
+// object, mesh file and problem: unreadable, open, inside out, in metres, or an LED inside an
+// object that it lights.
 ObjectScenes open_objects(const Rig& rig);
 
-// The same with meshes from elsewhere than the rig's files; the callback may throw InputError.
+// The same with meshes that do not come from the rig's files; mesh_of may throw InputError.
 ObjectScenes open_objects(const Rig& rig,
                           const std::function<TriangleMesh(const SceneObject&)>& mesh_of);
 

@@ -22,10 +22,10 @@ std::vector<ObservedShot> open_shots(const Rig& rig, const capture::ShotSource& 
   if (!shared && frames == nullptr) {
     throw std::invalid_argument("open_shots: samples without a pose from the rig's points");
   }
-  // A free scale works in units of its own: counts per second.
+  // With a free scale, the unit of light is a count per second.
   const std::array<double, 3> responsivity =
       rig.scene.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0});
-  // Where each shot's own silhouette starts from, without a board.
+  // The pose from which each shot's own silhouette starts if there is no board.
   std::optional<PoseResult> points;
   if (!shared && !rig.pose.charuco) points = calib::pose_from_points(rig.scene, rig.pose);
   std::vector<ObservedShot> shots(source.shot_idxs.size());

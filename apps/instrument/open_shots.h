@@ -1,4 +1,4 @@
-// Shots of a rig, from frames to one l per visible patch and channel.
+// Opening of a rig's shots: from frames to one l per visible patch and channel.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@
 
 namespace scattermeter::apps {
 
-// Gets every shot of the source and reduces it to one l per visible patch and channel. With the
-// pose of all shots (`shared`), shots of one object share their map; without, each has a pose of
-// its own, from a board or its silhouette (a FrameSource, then: std::invalid_argument otherwise).
-// With the pose of all shots, too, those that the source's cache holds are not decoded.
+// Opens every shot of the source and reduces it to one l per visible patch and channel. With a
+// common pose of all shots (`shared`), the shots of one object share their map, and shots in the
+// source's cache are not decoded. Without, each shot has its own pose, from a board or its
+// silhouette; the source must then be a FrameSource (std::invalid_argument otherwise).
 std::vector<ObservedShot> open_shots(const Rig& rig, const capture::ShotSource& source,
                                      const ObjectScenes& objects, const LitObjects& lit,
                                      const std::optional<SharedView>& shared, Progress* progress);

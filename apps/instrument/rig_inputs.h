@@ -1,4 +1,4 @@
-// The files that a rig's answer rests on.
+// The input files of a measurement.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace scattermeter::apps {
 
-// The rig, its calibrations, meshes and probes that a shot refers to, each once, then `more`, with
-// their digests. Throws InputError naming a file that cannot be read.
+// The files with their digests: the rig, its calibrations, and the meshes and probes that a shot
+// refers to, each once, then `more`. Throws InputError naming a file that cannot be read.
 std::vector<InputFile> rig_inputs(const Rig& rig, const ObjectScenes& objects,
                                   capture::FileDigests& digests,
                                   const std::vector<std::string>& more = {});

@@ -6,16 +6,17 @@
 
 #include <fmt/core.h>
 
+#include "apps/simulation/chosen_exposure.h"
 #include "core/camera/sensor_noise.h"
 
 namespace scattermeter::apps {
 namespace {
 
-constexpr double kBrightestAt = 0.75;  // of the range, for a suggested time
-constexpr double kTooBright = 0.95;    // of the range
-constexpr double kTooDark = 0.2;       // of the range: photons are given away
+constexpr double kTooBright = 0.95;  // of the range
+constexpr double kTooDark = 0.2;     // of the range: a longer time would collect more light
 constexpr double kMuchClipped = 1e-3;
-// A tenth of the samples below this many deviations of the noise in the dark calls for a bracket.
+// A bracket is suggested if a tenth of the samples is below this many standard deviations of the
+// read noise.
 constexpr double kDarkTenth = 10.0;
 constexpr double kBracketStep = 4.0;
 constexpr std::size_t kMostFiles = 4;
@@ -25,12 +26,6 @@ double counts_quantile(std::vector<float> values, double share) {
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return static_cast<double>(values[static_cast<std::size_t>(at)]);
-}
-
-// Two digits, rounded down.
-double round_time(double exact_s) {
-  const double unit = std::pow(10.0, std::floor(std::log10(exact_s)) - 1.0);
-  return std::floor(exact_s / unit * (1.0 + 1e-9)) * unit;
 }
 
 // Expected counts of the samples in rows, by channel, in the first file.
@@ -63,7 +58,8 @@ double share_of(const std::vector<float>& values, const auto& holds) {
          static_cast<double>(values.size());
 }
 
-// A time for the brightest channel, and longer ones until no channel has a dark tenth.
+// A time for the brightest channel, and longer ones until no channel has a dark tenth of its
+// samples.
 std::vector<double> suggested(const std::array<ExposureAdvice, kRgb>& channels,
                               const std::array<SensorNoise, kRgb>& noise) {
   double fullest = 0.0;
@@ -72,15 +68,15 @@ std::vector<double> suggested(const std::array<ExposureAdvice, kRgb>& channels,
     fullest = std::max(fullest, a.brightest_counts / a.range_counts);
   }
   if (!(fullest > 0.0)) return {};
-  const double factor = kBrightestAt / fullest;
+  const double factor = kExposedTo / fullest;
   for (std::size_t c = 0; c < kRgb; ++c) {
     const double dark = factor * channels[c].dark_counts;
     const double wanted = kDarkTenth * std::max(noise[c].read_noise_counts, 0.3);
     if (dark > 0.0) longer = std::max(longer, wanted / dark);
   }
-  std::vector<double> out = {round_time(factor * channels[0].exposure_s.front())};
+  std::vector<double> out = {rounded_exposure_s(factor * channels[0].exposure_s.front())};
   while (longer > 1.0 && out.size() < kMostFiles) {
-    out.push_back(round_time(kBracketStep * out.back()));
+    out.push_back(rounded_exposure_s(kBracketStep * out.back()));
     longer /= kBracketStep;
   }
   return out;
@@ -155,7 +151,7 @@ std::vector<ExposureAdvice> exposure_advice(const Rig& rig, const VirtualShots& 
         return expected < 3.0 * std::sqrt(variance);
       });
     }
-    // Without a responsivity the picture is as bright as was chosen for it.
+    // Without a responsivity, the brightness of the picture is an arbitrary choice.
     const std::vector<double> times_s =
         rig.scene.camera.responsivity ? suggested(channels, noise) : std::vector<double>{};
     for (ExposureAdvice& a : channels) {

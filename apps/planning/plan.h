@@ -1,4 +1,4 @@
-// What a rig's shots will be able to tell, before they are taken.
+// Predicted uncertainties of what a rig's shots will measure, before they are taken.
 #pragma once
 
 #include <array>
@@ -10,8 +10,9 @@
 
 #include "apps/instrument/measure.h"
 #include "apps/instrument/open_objects.h"
+#include "apps/planning/expected_materials.h"
 #include "apps/planning/exposure_advice.h"
-#include "apps/planning/other_shots.h"
+#include "apps/planning/suggested_shots.h"
 #include "apps/rig/rig.h"
 #include "apps/simulation/virtual_shots.h"
 #include "capture/sensor/noise_model.h"
@@ -23,23 +24,17 @@
 
 namespace scattermeter::apps {
 
-// Of a coefficient, 1/mm; 0 <= low <= high.
-struct ExpectedRange {
-  double low = 0;
-  double high = 0;
-};
-
 struct PlanOptions {
-  // Of every material and channel, in place of the rig's truth.materials.
+  // Expected coefficients of all materials and channels; absent: the rig's truth.materials.
   std::optional<ExpectedRange> sigma_s_prime_per_mm;
   std::optional<ExpectedRange> sigma_a_per_mm;
   std::optional<double> patch_size_mm;     // as MeasureOptions
-  bool other_shots = true;                 // maps of LED positions and gains
+  bool suggested_shots = true;             // maps of LED positions, and gains
   const VirtualShots* rendered = nullptr;  // of the rig's truth, to save rendering them again
   Progress* progress = nullptr;
 };
 
-// What `measure` would state of a medium.
+// The result that `measure` would report for a medium.
 struct Forecast {
   Medium medium;  // eta is the object's
   Estimate estimate;
@@ -47,63 +42,59 @@ struct Forecast {
 
 // A material in a channel.
 struct PlannedChannel {
-  Forecast expected;     // at the rig's truth, or the middle of the range
-  ChannelResult result;  // of the expected medium: `measure` on shots without noise
-  // The corners of the range; empty where the material is one medium.
+  Forecast expected;     // for the rig's truth or the middle of the ranges
+  ChannelResult result;  // for the expected medium: `measure` on shots without noise
+  // At the corners of the ranges; empty if only one medium is expected.
   std::vector<Forecast> corners;
 };
 
-// Expected standard deviation where a single cause were known exactly, all else as planned.
+// Standard deviations if a single cause of uncertainty were known exactly, all else as planned.
 struct KnownCause {
   std::string cause;
   double sigma_s_prime_std_per_mm = 0;
   double sigma_a_std_per_mm = 0;
 };
-// Of every line of the budget but noise and errors of the method, the most helpful for sigma_a
-// first.
+// One for each line of the budget except noise and numerics, ordered by the standard deviation of
+// sigma_a that remains.
 std::vector<KnownCause> known_causes(const Estimate& estimate);
 
 struct Plan {
-  std::vector<PlannedChannel> channels;   // as Measurement::results
-  std::vector<ExposureAdvice> exposures;  // of every shot and channel, in the rig's order
-  std::vector<OtherShots> other_shots;    // of every material, of its least known channel
-  bool from_truth = true;                 // else: the range of the options
-  bool brightness_known = true;           // the rig has a responsivity
-  bool neutral_camera = false;            // see planned_rig()
-  bool calibrated_noise = false;          // of camera.radiance; else of camera.sensor
-  std::array<SensorNoise, kRgb> noise;    // R, G, B
+  std::vector<PlannedChannel> channels;         // as Measurement::results
+  std::vector<ExposureAdvice> exposures;        // for every shot and channel, in the rig's order
+  std::vector<SuggestedShots> suggested_shots;  // for every material, in its least known channel
+  bool from_truth = true;                       // otherwise from the ranges of the options
+  bool brightness_known = true;                 // the rig has a responsivity
+  bool neutral_camera = false;                  // see planned_rig()
+  bool calibrated_noise = false;                // from camera.radiance, otherwise camera.sensor
+  std::array<SensorNoise, kRgb> noise;          // R, G, B
   std::map<std::string, double> patch_size_mm;
   std::vector<InputFile> inputs;  // rig, meshes, probes
   std::vector<std::pair<std::string, double>> timing_s;
-  bool any_refused() const;  // at a corner, too
+  bool any_refused() const;  // also at a corner of the ranges
 };
 
-// The rig that stands for the one that will be shot: where it names a radiance calibration but no
-// truth.sensor that it would correct, its camera needs no correction, and the calibration corrects
-// nothing but keeps every standard deviation.
+// The rig whose shots are simulated. If the rig names a radiance calibration but has no
+// truth.sensor for it to correct, the simulated camera needs no correction: the calibration is
+// replaced by one that corrects nothing and keeps every standard deviation.
 Rig planned_rig(const Rig& rig);
 
 // Renders the rig's shots of the expected materials by the dipole, exposes them without noise, and
-// measures them as `measure --model dipole` does: rows are left out, weighed and counted alike, and
-// the covariance is the estimator's own. Noise counts by the camera's noise model. Throws
-// InputError for what the rig lacks or where measuring would; std::invalid_argument for a range
-// that is none.
+// measures them as `measure --model dipole` does, with the same selection and weights of rows; the
+// covariance is the estimator's own, with noise by the camera's noise model. Throws InputError for
+// what the rig lacks and for what measuring would refuse; std::invalid_argument for invalid ranges.
 Plan plan(const Rig& rig, const PlanOptions& options = {}, Progress* progress = nullptr);
-// The same with objects that are open already; without Plan::inputs.
+// The same with objects that are already open; leaves Plan::inputs empty.
 Plan plan(const Rig& rig, const ObjectScenes& objects, const PlanOptions& options);
 
-// What the forecast takes for granted, in sentences.
-std::vector<std::string> plan_assumptions(const Plan& plan);
-
-// Deviations of one coefficient over the expected medium and the corners, relative to the value;
-// NaN where there are none.
+// Relative standard deviations of one coefficient over the expected medium and the corners; NaN if
+// there are none.
 struct RelativeRange {
   double low = 0;
   double high = 0;
 };
 RelativeRange relative_range(const PlannedChannel& channel, Quantity Estimate::*coefficient);
 
-// "2.5 %"; a dash where there is none, and "2 … 3.5 %" for a range.
+// "2.5 %", or "2 … 3.5 %" for a range; a dash if the value is not finite.
 std::string percent_text(double relative);
 std::string percent_text(const RelativeRange& range);
 

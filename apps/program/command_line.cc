@@ -16,7 +16,7 @@
 namespace scattermeter::apps {
 namespace {
 
-// A word as a shell would take it back.
+// The word, quoted for a shell if necessary.
 std::string quoted(const std::string& word) {
   if (!word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                               "0123456789-_./=:,+@%") == std::string::npos) {
@@ -28,15 +28,13 @@ std::string quoted(const std::string& word) {
 }
 
 #ifndef SCATTERMETER_BENCH
-// Stands for `bench` in builds that leave it out.
+// Takes the place of `bench` in builds without it.
 void add_missing_bench_command(CLI::App& app, CommandContext& context) {
   CLI::App* command =
       app.add_subcommand("bench", "not in this build: configure it with -DSCATTERMETER_BENCH=ON");
   command->allow_extras();
-  command->callback([&context] {
-    context.chosen = []() -> int {
-      throw InputError("bench", "is not in this build; configure it with -DSCATTERMETER_BENCH=ON");
-    };
+  run_if_named(*command, context, []() -> int {
+    throw InputError("bench", "is not in this build; configure it with -DSCATTERMETER_BENCH=ON");
   });
 }
 #endif
@@ -49,7 +47,7 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
   for (const std::string& argument : arguments) context.command_line += " " + quoted(argument);
   CLI::App app(
       "scattermeter measures how light scatters and is absorbed below a surface, from raw camera "
-      "shots of an object of known shape under an LED of known place and power.",
+      "shots of an object of known shape under an LED of known position and power.",
       "scattermeter");
   app.require_subcommand(1);
   app.fallthrough();
@@ -57,11 +55,16 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
       "--version", std::string("scattermeter ") + kVersion + "\nbuilt with " + kLibraryVersions);
   app.add_flag("--quiet,-q", context.quiet, "print nothing but errors");
   app.add_option("--threads", context.threads,
-                 "number of threads (default: all cores); the answer does not depend on it")
+                 "number of threads (default: all cores); the result does not depend on it")
       ->check(CLI::PositiveNumber);
   add_measure_command(app, context);
   add_check_command(app, context);
-  add_calibrate_command(app, context);
+  CLI::App* calibrate = app.add_subcommand(
+      "calibrate", "Make the calibrations that a rig refers to from their shots (raws).");
+  calibrate->require_subcommand(1);
+  add_calibrate_camera(*calibrate, context);
+  add_calibrate_led(*calibrate, context);
+  add_calibrate_radiance(*calibrate, context);
   add_simulate_command(app, context);
   add_render_command(app, context);
   add_export_command(app, context);
@@ -89,7 +92,7 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
       if (!context.shares_paths) {
         throw InputError("mpirun", "this command runs in one process, not in " +
                                        std::to_string(peers->count()) +
-                                       "; those that share paths: simulate, render");
+                                       "; only simulate and render share paths");
       }
       context.quiet = context.quiet || peers->place() > 0;
     }

@@ -1,4 +1,4 @@
-// The program's commands.
+// The program's command line.
 #pragma once
 
 #include <iosfwd>
@@ -12,7 +12,7 @@ namespace scattermeter::apps {
 // Runs `scattermeter arguments...` (without the program's name) and returns its exit status: 0
 // done, 1 at least one value refused or check failed, 2 bad input or bad usage. Results go to
 // `out`, notes and errors to `err`. Peers run the same command line; the first of them writes the
-// files. Lets no exception out except std::bad_alloc and what peers throw.
+// files. No exceptions leave it except std::bad_alloc and those of `peers`.
 int run_command_line(const std::vector<std::string>& arguments, std::ostream& out,
                      std::ostream& err, PathPeers* peers = nullptr);
 

@@ -118,11 +118,9 @@ std::string manual_page(const CLI::App& app) {
 
 void add_manual_page_command(CLI::App& app, CommandContext& context) {
   CLI::App* command = app.add_subcommand("manual-page", "Print the manual page.")->group("");
-  command->callback([&app, &context] {
-    context.chosen = [&app, &context] {
-      context.out << manual_page(app);
-      return 0;
-    };
+  run_if_named(*command, context, [&app, &context] {
+    context.out << manual_page(app);
+    return 0;
   });
 }
 

@@ -1,4 +1,4 @@
-// The extension module scattermeter._native: the instrument's calls and core's forward models.
+// The extension module scattermeter._native: the library calls and the forward models of core.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -36,7 +36,7 @@ namespace {
 
 using Limit = std::optional<tbb::global_control>;
 
-// At most this many threads while it lives; empty: all cores.
+// Limits the number of threads during its lifetime; empty: all cores.
 void limit_threads(const std::optional<int>& threads, Limit& limit) {
   if (!threads) return;
   limit.emplace(tbb::global_control::max_allowed_parallelism,
@@ -89,7 +89,7 @@ std::vector<std::string> simulate(const std::string& rig, const std::string& out
 
 std::string plan(const std::string& rig, bool other_shots, const py::object& progress) {
   apps::PlanOptions options;
-  options.other_shots = other_shots;
+  options.suggested_shots = other_shots;
   std::string json;
   run_interruptible(progress, [&](Progress& p) {
     json = apps::plan_json(apps::plan(apps::read_rig(rig), options, &p), "");
@@ -97,7 +97,7 @@ std::string plan(const std::string& rig, bool other_shots, const py::object& pro
   return json;
 }
 
-// The text of the file that camera.intrinsics names.
+// Returns the text of the file for camera.intrinsics.
 std::string calibrate_camera(const std::string& shots, const std::string& rig,
                              const py::object& progress) {
   calib::CameraCalibrationRun run;
@@ -110,7 +110,7 @@ std::string calibrate_camera(const std::string& shots, const std::string& rig,
   return calib::camera_calibration_text(run.calibration, {});
 }
 
-// The text of the file that lights.NAME.calibration names.
+// Returns the text of the file for lights.NAME.calibration.
 std::string calibrate_led(const std::string& shots, const std::string& rig_path,
                           const std::string& light, const py::object& progress) {
   calib::LedCalibration calibration;
@@ -126,7 +126,7 @@ std::string calibrate_led(const std::string& shots, const std::string& rig_path,
   return apps::led_calibration_yaml(calibration);
 }
 
-// The text of the file that camera.radiance names.
+// Returns the text of the file for camera.radiance.
 std::string calibrate_radiance(const std::string& shots, const std::string& rig_path,
                                const py::object& progress) {
   std::string text;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -103,7 +104,7 @@ TriangleMesh triangle_mesh(const py::dict& dict, const std::string& where) {
   return mesh;
 }
 
-// The samples of one shot: where each lies in the frame, its counts above black, their variance.
+// Reads the samples of one shot: position in the frame, counts above black, variance.
 struct GivenSamples {
   Pixels xy_px;
   Eigen::VectorXd value_counts;
@@ -127,7 +128,7 @@ CfaSamples in_rectangle(const GivenSamples& given, const SceneCamera& camera,
   const auto n = static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
   out.signal_counts.assign(n, 0.0F);
   out.variance_counts2.assign(n, 1.0F);
-  out.clipped.assign(n, kSampleDefect);  // what is not given says nothing
+  out.clipped.assign(n, kSampleDefect);  // samples that are not given are unused
   for (Eigen::Index i = 0; i < given.xy_px.rows(); ++i) {
     const int x = given.xy_px(i, 0) - map.x0;
     const int y = given.xy_px(i, 1) - map.y0;
@@ -173,6 +174,18 @@ GivenShot given_shot(const py::dict& dict, const std::string& where) {
   return out;
 }
 
+// Distance of the farthest object from the camera that sees it.
+double farthest_mm(const Scene& scene, const ObjectScenes& objects,
+                   const std::vector<GivenShot>& shots) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    const CameraView view{scene.camera.intrinsics, shots[i].pose.camera_from_world};
+    const Eigen::Vector3d object_mm = objects.at(scene.shots[i].object).box.center_mm();
+    out = std::max(out, (view.center_in_world_mm() - object_mm).norm());
+  }
+  return out;
+}
+
 std::string estimate_arrays(const py::dict& camera, const py::dict& objects, const py::dict& lights,
                             const std::vector<py::dict>& shots, const std::string& model,
                             std::optional<double> patch_size_mm, double time_limit_s,
@@ -210,12 +223,13 @@ std::string estimate_arrays(const py::dict& camera, const py::dict& objects, con
   apps::Measurement measurement;
   measurement.model = options.model;
   run_interruptible(progress, [&](Progress& p) {
+    require_known_names(scene);
     ObjectScenes geometry;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       geometry.emplace(scene.objects[i].name, object_scene(scene, scene.objects[i], meshes[i]));
     }
     require_lights_outside(scene, geometry);
-    LitObjects lit(scene, geometry, patch_size_mm, 0.0);
+    LitObjects lit(scene, geometry, patch_size_mm, farthest_mm(scene, geometry, given));
     std::vector<ObservedShot> observed(given.size());
     const auto responsivity =
         scene.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0});

@@ -35,7 +35,7 @@ class WatchedProgress final : public Progress {
   bool is_cancelled() const override { return cancelled_; }
 
   void cancel() { cancelled_ = true; }
-  // What has come since the last call.
+  // The progress since the last call.
   std::optional<News> take() {
     const std::lock_guard lock(mutex_);
     if (!is_new_) return std::nullopt;
@@ -50,8 +50,8 @@ class WatchedProgress final : public Progress {
   std::atomic<bool> cancelled_ = false;
 };
 
-// With the interpreter's lock: pending signals, then the callback. The exception that ends the
-// work.
+// Handles pending signals, then calls the callback; requires the interpreter's lock. Returns the
+// exception that ends the work, if any.
 std::optional<py::error_already_set> look_at_python(const py::object& callback,
                                                     WatchedProgress& progress) {
   try {

@@ -1,4 +1,4 @@
-// Long work for Python: without the interpreter's lock, interruptible, with a progress callback.
+// Running of long work from Python: without the interpreter's lock, interruptible, with progress.
 #pragma once
 
 #include <functional>
@@ -9,11 +9,11 @@
 
 namespace scattermeter::python {
 
-// Runs `work` on a thread of its own and waits for it without the interpreter's lock. Signals are
-// looked at twenty times a second: Ctrl-C cancels the work and raises KeyboardInterrupt.
-// callback: None, or callable(stage: str, done: int, total: int), called from the caller's thread
-// when there is news; what it raises cancels the work and is raised here. What the work throws is
-// thrown here.
+// Runs `work` on a separate thread and waits for it without the interpreter's lock. Checks for
+// signals twenty times a second: Ctrl-C cancels the work and raises KeyboardInterrupt. callback:
+// None, or callable(stage: str, done: int, total: int), called on the caller's thread after
+// progress; an exception that it raises cancels the work and is raised here. Rethrows what `work`
+// throws.
 void run_interruptible(const pybind11::object& callback,
                        const std::function<void(Progress&)>& work);
 

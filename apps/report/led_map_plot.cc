@@ -19,7 +19,7 @@ constexpr double kWidest = 10.0;      // end of the colour scale, times the best
 
 double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 
-double value_of(const LedPlace& place, bool joined) { return joined ? place.joined : place.alone; }
+double value_of(const LedPosition& led, bool joined) { return joined ? led.joined : led.alone; }
 
 // Geometric mean of the surrounding positions; NaN where the nearest of all has no value.
 double smooth(const LedMap& map, const Eigen::Vector3d& direction, bool joined) {
@@ -27,11 +27,11 @@ double smooth(const LedMap& map, const Eigen::Vector3d& direction, bool joined) 
   double weights = 0.0;
   double nearest_rad = std::numeric_limits<double>::infinity();
   bool nearest_known = false;
-  for (const LedPlace& place : map.places) {
+  for (const LedPosition& led : map.positions) {
     const double cosine =
-        std::clamp(direction.dot((place.position_mm - map.center_mm).normalized()), -1.0, 1.0);
+        std::clamp(direction.dot((led.position_mm - map.center_mm).normalized()), -1.0, 1.0);
     const double apart = std::acos(cosine);
-    const double value = value_of(place, joined);
+    const double value = value_of(led, joined);
     if (apart < nearest_rad) {
       nearest_rad = apart;
       nearest_known = std::isfinite(value);
@@ -45,7 +45,7 @@ double smooth(const LedMap& map, const Eigen::Vector3d& direction, bool joined) 
 }
 
 // Position on the map.
-void add_place(const LedMap& map, const Eigen::Vector3d& at_mm, PlotSeries& series) {
+void add_position(const LedMap& map, const Eigen::Vector3d& at_mm, PlotSeries& series) {
   const Eigen::Vector3d d = (at_mm - map.center_mm).normalized();
   const double zenith = degrees(std::acos(std::clamp(d.z(), -1.0, 1.0)));
   if (zenith > 90.5) return;
@@ -56,7 +56,7 @@ void add_place(const LedMap& map, const Eigen::Vector3d& at_mm, PlotSeries& seri
 
 }  // namespace
 
-PagePlot led_map_plot(const OtherShots& shots, const LedMap& map, bool joined) {
+PagePlot led_map_plot(const SuggestedShots& shots, const LedMap& map, bool joined) {
   PlotSeries cells{"", PlotSeries::Style::kCells, {}, {}};
   double least = std::numeric_limits<double>::infinity();
   double most = 0.0;
@@ -85,18 +85,18 @@ PagePlot led_map_plot(const OtherShots& shots, const LedMap& map, bool joined) {
     horizon.y.push_back(90.0 * std::sin(k * std::numbers::pi / 36.0));
   }
   PlotSeries planned{"LEDs planned", PlotSeries::Style::kPoints, {}, {}, {}, 6};
-  for (const Eigen::Vector3d& at : map.planned_mm) add_place(map, at, planned);
+  for (const Eigen::Vector3d& at : map.planned_mm) add_position(map, at, planned);
   PlotSeries camera{"camera", PlotSeries::Style::kPoints, {}, {}, {}, 4};
-  add_place(map, map.camera_mm, camera);
+  add_position(map, map.camera_mm, camera);
   PlotSeries best{"best", PlotSeries::Style::kPoints, {}, {}, {}, 1};
-  const LedPlace* best_place = nullptr;
-  for (const LedPlace& place : map.places) {
-    const double value = value_of(place, joined);
-    if (std::isfinite(value) && (best_place == nullptr || value < value_of(*best_place, joined))) {
-      best_place = &place;
+  const LedPosition* best_led = nullptr;
+  for (const LedPosition& led : map.positions) {
+    const double value = value_of(led, joined);
+    if (std::isfinite(value) && (best_led == nullptr || value < value_of(*best_led, joined))) {
+      best_led = &led;
     }
   }
-  if (best_place != nullptr) add_place(map, best_place->position_mm, best);
+  if (best_led != nullptr) add_position(map, best_led->position_mm, best);
 
   PagePlot out;
   out.plot.title = fmt::format(
@@ -116,10 +116,10 @@ PagePlot led_map_plot(const OtherShots& shots, const LedMap& map, bool joined) {
       "object, {}.",
       shots.material, shots.channel, map.object, map.distance_mm,
       joined ? "one more shot besides the planned ones" : "a single shot");
-  if (best_place != nullptr) {
-    const Eigen::Vector3d& at = best_place->position_mm;
+  if (best_led != nullptr) {
+    const Eigen::Vector3d& at = best_led->position_mm;
     out.caption += fmt::format(" Best: {:.2g} % with the LED at ({:.0f}, {:.0f}, {:.0f}) mm",
-                               100.0 * value_of(*best_place, joined), at.x(), at.y(), at.z());
+                               100.0 * value_of(*best_led, joined), at.x(), at.y(), at.z());
     out.caption += joined ? fmt::format("; {:.2g} % without.", 100.0 * shots.planned) : ".";
   }
   return out;

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/planning/plan_assumptions.h"
 #include "core/base/version.h"
 
 namespace scattermeter::apps {
@@ -13,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 Json finite_json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json place_json(const Eigen::Vector3d& at) { return {at.x(), at.y(), at.z()}; }
+Json position_json(const Eigen::Vector3d& at) { return {at.x(), at.y(), at.z()}; }
 
 Json forecast_json(const Forecast& f) {
   const Estimate& e = f.estimate;
@@ -74,7 +75,7 @@ Json exposure_json(const ExposureAdvice& a) {
           {"advice", a.advice}};
 }
 
-Json other_json(const OtherShots& o) {
+Json suggestion_json(const SuggestedShots& o) {
   Json j;
   j["material"] = o.material;
   j["channel"] = std::string(1, o.channel);
@@ -88,17 +89,17 @@ Json other_json(const OtherShots& o) {
   }
   j["led_maps"] = Json::array();
   for (const LedMap& m : o.maps) {
-    Json places = Json::array();
-    for (const LedPlace& p : m.places) {
-      places.push_back({{"position_mm", place_json(p.position_mm)},
-                        {"one_shot_sigma_a_relative_std", finite_json(p.alone)},
-                        {"one_more_shot_sigma_a_relative_std", finite_json(p.joined)}});
+    Json positions = Json::array();
+    for (const LedPosition& p : m.positions) {
+      positions.push_back({{"position_mm", position_json(p.position_mm)},
+                           {"one_shot_sigma_a_relative_std", finite_json(p.alone)},
+                           {"one_more_shot_sigma_a_relative_std", finite_json(p.joined)}});
     }
     j["led_maps"].push_back({{"object", m.object},
                              {"led_like", m.like},
-                             {"center_mm", place_json(m.center_mm)},
+                             {"center_mm", position_json(m.center_mm)},
                              {"distance_mm", m.distance_mm},
-                             {"places", places}});
+                             {"places", positions}});
   }
   return j;
 }
@@ -121,7 +122,8 @@ std::string plan_json(const Plan& plan, const std::string& command_line) {
   j["exposures"] = Json::array();
   for (const ExposureAdvice& a : plan.exposures) j["exposures"].push_back(exposure_json(a));
   j["other_shots"] = Json::array();
-  for (const OtherShots& o : plan.other_shots) j["other_shots"].push_back(other_json(o));
+  for (const SuggestedShots& o : plan.suggested_shots)
+    j["other_shots"].push_back(suggestion_json(o));
   j["patch_size_mm"] = Json::object();
   for (const auto& [object, size] : plan.patch_size_mm) j["patch_size_mm"][object] = size;
   j["timing_s"] = Json::object();

@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/planning/plan_assumptions.h"
 #include "apps/report/html_page.h"
 #include "apps/report/led_map_plot.h"
 #include "apps/report/page_plots.h"
@@ -130,7 +131,7 @@ Html planned_budget(const std::vector<const PlannedChannel*>& channels) {
 }
 
 // Causes known exactly and additional shots, the most helpful first.
-Html gain_table(const OtherShots& o, const std::vector<const PlannedChannel*>& channels) {
+Html gain_table(const SuggestedShots& o, const std::vector<const PlannedChannel*>& channels) {
   std::vector<std::pair<double, std::string>> list;
   for (const Gain& g : o.gains) list.emplace_back(g.sigma_a_ratio, g.what);
   for (const PlannedChannel* c : channels) {
@@ -160,7 +161,7 @@ Html plan_section(const Plan& plan, const std::vector<const PlannedChannel*>& ch
     out += html_element("p", html_text("No channel of it would be measured."), "fail");
     return out;
   }
-  for (const OtherShots& o : plan.other_shots) {
+  for (const SuggestedShots& o : plan.suggested_shots) {
     if (o.material != material) continue;
     out += html_element("h3", html_text("What would help"));
     out += html_element(

@@ -45,7 +45,7 @@ std::string exposure_lines(const Plan& plan) {
 
 std::string gain_lines(const Plan& plan) {
   std::string out;
-  for (const OtherShots& o : plan.other_shots) {
+  for (const SuggestedShots& o : plan.suggested_shots) {
     out += fmt::format("{} {}: sigma_a is known to {}; it would be to\n", o.material, o.channel,
                        percent_text(o.planned));
     for (const PlannedChannel& c : plan.channels) {

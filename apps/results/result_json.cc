@@ -30,7 +30,7 @@ Json budget_json(const Estimate& e) {
   return list;
 }
 
-// Patches that took no part, summed over the shots, by reason.
+// Number of excluded patches by reason, summed over the shots.
 Json left_out_json(const ChannelResult& r) {
   const auto count = [&](RowState s) { return r.patches_by_state[static_cast<std::size_t>(s)]; };
   return {{"silhouette_or_crease", r.patches_partly_seen},
@@ -43,7 +43,7 @@ Json left_out_json(const ChannelResult& r) {
           {"at_an_edge", count(RowState::kEdge)}};
 }
 
-// An answer beside the one that is reported.
+// An estimate besides the reported one.
 Json short_answer(const Estimate& e) {
   return {{"sigma_s_prime_per_mm", quantity(e.sigma_s_prime_per_mm, e.converged)},
           {"sigma_a_per_mm", quantity(e.sigma_a_per_mm, e.converged)},
@@ -51,7 +51,7 @@ Json short_answer(const Estimate& e) {
           {"reasons", e.reasons}};
 }
 
-// Each shot alone, and whether they agree.
+// The estimates from each shot alone, and whether they agree.
 Json singles_json(const ChannelResult& r) {
   Json j;
   j["chi2"] = number(r.agreement.chi2);
@@ -66,7 +66,7 @@ Json singles_json(const ChannelResult& r) {
   return j;
 }
 
-// r(d) as the image shows it without the dipole, at the distances that the image determines.
+// r(d) recovered without the dipole, at the distances determined by the image.
 Json reflectance_json(const ChannelResult& r) {
   Json j;
   j["reasons"] = r.recovered->reasons;
@@ -170,7 +170,7 @@ std::string result_json(const Measurement& m, const std::string& command_line) {
   j["inputs"] = Json::array();
   for (const InputFile& f : m.inputs)
     j["inputs"].push_back({{"file", f.path}, {"sha256", f.sha256}});
-  // File names may hold bytes that are no UTF-8; they are replaced rather than refused.
+  // File names may contain bytes that are not valid UTF-8; they are replaced.
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

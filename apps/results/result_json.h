@@ -1,4 +1,4 @@
-// result.json.
+// Writing of result.json.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace scattermeter::apps {
 
 // The measurement as JSON text: `results`, one entry per material and channel, then patch sizes,
 // notes, timing, version, command and the inputs with their digests. Numbers that are not finite or
-// not known become null.
+// unknown become null.
 std::string result_json(const Measurement& measurement, const std::string& command_line = {});
 
 }  // namespace scattermeter::apps

@@ -19,7 +19,7 @@ using ParsedJson = nlohmann::json;
 
 constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
 
-// A value with the way to it, so that what is wrong can be named.
+// A value with its path for error messages.
 class JsonField {
  public:
   JsonField(const ParsedJson& json, const std::string& file, std::string path)
@@ -119,7 +119,7 @@ ReadResult read_result(const std::string& path) {
   try {
     json = ParsedJson::parse(text.str());
   } catch (const ParsedJson::exception& e) {
-    throw InputError(path, std::string("is no JSON: ") + e.what());
+    throw InputError(path, std::string("is not JSON: ") + e.what());
   }
   const JsonField root(json, path, "");
   ReadResult result;

@@ -1,4 +1,4 @@
-// Reading result.json back.
+// Reading of result.json.
 #pragma once
 
 #include <array>
@@ -10,14 +10,14 @@
 
 namespace scattermeter::apps {
 
-// One entry of `results`. Numbers that the file does not tell are NaN.
+// One entry of `results`. Numbers that the file does not contain are NaN.
 struct ReadChannel {
   std::string material;
   char channel = 'R';  // R, G, B
-  std::string model;   // that answered
+  std::string model;   // of the estimate
   double eta_int_over_ext = 1;
-  Quantity sigma_s_prime_per_mm;  // of what is not refused: value > 0
-  Quantity sigma_a_per_mm;        // of what is not refused: value >= 0
+  Quantity sigma_s_prime_per_mm;  // unless refused: value > 0
+  Quantity sigma_a_per_mm;        // unless refused: value >= 0
   double correlation = 0;
   bool refused = false;
   std::vector<std::string> reasons;
@@ -34,9 +34,9 @@ struct ReadResult {
   std::vector<ReadChannel> channels;  // in the file's order
 };
 
-// Throws InputError naming file, field and value for a file that cannot be read, is no JSON, or is
-// no result: a field missing or of another kind, a channel given twice, a number out of its domain.
-// Fields that are not asked for here are passed over.
+// Throws InputError naming file, field and value for a file that cannot be read, is not JSON or not
+// a result: a field is missing or of another kind, a channel is given twice, a number is out of its
+// domain. Ignores all other fields.
 ReadResult read_result(const std::string& path);
 
 // The three channels of a material.
@@ -47,15 +47,15 @@ struct MeasuredMaterial {
   bool refused() const { return rgb[0].refused || rgb[1].refused || rgb[2].refused; }
 };
 
-// Materials in the order of their first channel; only those of `names` where it holds any. Throws
-// InputError for a name that the result does not hold, a material without one of R, G, B, or
-// channels of different eta.
+// The materials in the order of their first channel, only those of `names` unless it is empty.
+// Throws InputError for a name that is not in the result, for a material without one of R, G, B and
+// for channels with different eta.
 std::vector<MeasuredMaterial> materials_of(const ReadResult& result,
                                            const std::vector<std::string>& names = {});
 
 std::vector<std::string> names_of(const std::vector<MeasuredMaterial>& materials);
 
-// A line for each refused channel: what, and why.
+// One line for each refused channel with the reason.
 std::vector<std::string> refusals(const std::vector<MeasuredMaterial>& materials);
 
 }  // namespace scattermeter::apps

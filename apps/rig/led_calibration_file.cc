@@ -42,7 +42,7 @@ void emit_residuals(YAML::Emitter& out, const calib::LedCalibration& c) {
   out << YAML::EndSeq << YAML::EndMap;
 }
 
-// Over the LED's own light, by channel; of the shots that have a constant fitted.
+// The fitted ambient light relative to the LED's, by channel, of the shots with a fitted constant.
 void emit_ambient(YAML::Emitter& out, const calib::LedCalibration& c) {
   if (c.fit.ambient.empty()) return;
   out << YAML::Key << "ambient" << YAML::Value << YAML::BeginSeq;
@@ -111,21 +111,14 @@ CalibratedLed read_led_calibration_file(const std::string& path) {
             "intensity_W_per_sr", "responsivity_counts_mm2_sr_per_W_s", "axis_tangents",
             "covariance", "common_to_plane", "distance_mm", "distance_power_correlation",
             "residuals", "warnings", "ambient"});
-  const YamlField version = top.at("scattermeter_led");
-  if (version.number() != 1.0) version.fail("this program reads LED calibrations of version 1");
+  require_version(top, "scattermeter_led", "LED calibrations");
   CalibratedLed out;
   Led& led = out.led;
   led.position_mm = top.at("position_mm").vector3();
   led.axis = unit_vector(top.at("axis"));
   led.exponent = top.at("exponent").number(0.0, 1000.0);
   if (const auto f = top.find("radius_mm")) led.radius_mm = f->number(0.0, 1000.0);
-  const YamlField intensity = top.at("intensity_W_per_sr");
-  const std::array<double, 3> rgb = rgb_not_negative(intensity);
-  if (!(rgb[0] + rgb[1] + rgb[2] > 0.0)) {
-    intensity.fail("expected light in at least one channel");
-  }
-  led.intensity_W_per_sr = {rgb[0], rgb[1], rgb[2]};
-
+  led.intensity_W_per_sr = some_light(top.at("intensity_W_per_sr"));
   out.responsivity = positive_rgb(top.at("responsivity_counts_mm2_sr_per_W_s"));
 
   LedUncertainty& u = out.uncertainty;
@@ -155,7 +148,7 @@ CalibratedLed read_led_calibration_file(const std::string& path) {
       u.common[i] = values[static_cast<std::size_t>(i)];
     }
   }
-  // Scaled to a unit diagonal, so that units do not matter.
+  // Scaled to a unit diagonal, so that units have no influence.
   const LedVector scale = u.covariance.diagonal().cwiseMax(0.0).cwiseSqrt().unaryExpr(
       [](double std) { return std > 0.0 ? 1.0 / std : 0.0; });
   const LedMatrix own =

@@ -1,4 +1,4 @@
-// The file that `calibrate led` writes and a rig's light names as its calibration.
+// The file written by `calibrate led` and named by a rig's light as its calibration.
 #pragma once
 
 #include <array>
@@ -11,15 +11,15 @@
 namespace scattermeter::apps {
 
 // YAML: the LED (position_mm, axis, exponent, radius_mm, intensity_W_per_sr and the responsivity
-// they count for), axis_tangents, covariance (9 x 9, order of core/light/led_uncertainty.h), its
-// part common to LEDs of the same plane, ambient light where it was fitted, residuals of every
-// highlight. Precondition: the fit is ok. std::invalid_argument otherwise.
+// for which it is valid), axis_tangents, covariance (9 x 9, order of core/light/led_uncertainty.h),
+// its part common to LEDs of the same plane, ambient light if it was fitted, residuals of every
+// highlight. Throws std::invalid_argument unless the fit is ok.
 std::string led_calibration_yaml(const calib::LedCalibration& calibration);
 
 struct CalibratedLed {
   Led led;
   LedUncertainty uncertainty;
-  // Counts mm^2 sr / (W s) that the intensities count for: only the product matters.
+  // Counts mm^2 sr / (W s) for which the intensities are valid: only the product matters.
   std::array<double, 3> responsivity{};
 };
 

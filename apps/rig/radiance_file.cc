@@ -117,7 +117,7 @@ std::string flow_points(const std::vector<capture::RadiancePoint>& points) {
   return out + "]";
 }
 
-// Light must be left everywhere.
+// Requires a plausible share of light all over the frame.
 void check_vignetting(const YamlField& top, const capture::RadianceCorrection& correction) {
   for (std::size_t c = 0; c < kRgb; ++c) {
     for (int i = 0; i <= 16; ++i) {
@@ -203,8 +203,7 @@ capture::RadianceCalibration read_radiance_file(const std::string& path) {
   top.only({"scattermeter_radiance", "image_size_px", "iso", "f_number", "dark", "colours",
             "vignetting_std", "shutter", "responsivity_counts_mm2_sr_per_W_s",
             "responsivity_relative_std", "curves", "residuals", "notes"});
-  const YamlField version = top.at("scattermeter_radiance");
-  if (version.number() != 1.0) version.fail("this program reads calibrations of version 1");
+  require_version(top, "scattermeter_radiance", "calibrations");
   capture::RadianceCalibration out;
   capture::RadianceCorrection& correction = out.correction;
   const YamlField size = top.at("image_size_px");

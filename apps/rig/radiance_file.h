@@ -1,4 +1,4 @@
-// The file that `calibrate radiance` writes and a rig's camera.radiance names.
+// The file written by `calibrate radiance` and named by a rig's camera.radiance.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace scattermeter::apps {
 
-// YAML, every number with the digits that a double needs to come back.
+// YAML, with all digits that are needed to read back the same doubles.
 std::string radiance_file_text(const capture::RadianceCalibration& calibration);
 
 // Throws InputError with file, line, field and value.

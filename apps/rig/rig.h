@@ -1,4 +1,4 @@
-// The rig: everything the program is told about camera, objects, lights and shots.
+// The rig: the description of camera, objects, lights and shots.
 #pragma once
 
 #include <array>
@@ -24,19 +24,20 @@ struct CameraCalibrationFile;  // calib/lens/camera_calibration_file.h
 
 namespace scattermeter::apps {
 
-// Where the camera of simulated shots stands.
+// Pose of the camera of simulated shots.
 struct CameraPlacement {
   Eigen::Vector3d position_mm;
   Eigen::Vector3d look_at_mm;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 };
 
-// What simulation alone reads: the world as it is, beside what the rig states of it.
+// The true values, for simulation only, which may differ from those that the rig states.
 struct Truth {
   std::map<std::string, std::array<Medium, 3>> materials;  // eta is the object's, not set here
   std::optional<CameraPlacement> pose;
   capture::SensorTruth sensor;
-  // R, G, B; of light beside the LEDs on the white planes of calibration.led, the same all over.
+  // R, G, B: uniform irradiance by other light than the LEDs' on the white planes of
+  // calibration.led.
   Eigen::Array3d ambient_irradiance_W_per_mm2 = Eigen::Array3d::Zero();
 };
 
@@ -45,10 +46,10 @@ struct Rig {
   std::string path;  // as given
   Scene scene;
   calib::PoseSource pose;
-  capture::ShotDecoding decoding;  // with camera.radiance; absent: the raws are taken as they are
-  // All that the file of camera.intrinsics says of the lens; null: no such file.
+  capture::ShotDecoding decoding;  // with camera.radiance, if given
+  // The file of camera.intrinsics; null if there is none.
   std::shared_ptr<const calib::CameraCalibrationFile> lens;
-  std::string intrinsics_path;  // of that file; "": none
+  std::string intrinsics_path;  // of that file; empty if there is none
   RigCalibration calibration;
   Truth truth;
   RigLimits limits;
@@ -57,20 +58,19 @@ struct Rig {
   std::string at(int line) const { return path + ":" + std::to_string(line); }
 };
 
-// Files that a folder of this rig's shots may hold besides the shots themselves: those of
-// calibrations and of the board.
+// Files that a folder of this rig's shots may contain besides the shots: those of the calibrations
+// and of the board.
 std::set<std::string> calibration_files(const Rig& rig);
 
-// Lets the rig's shots be corrected by this calibration (null: by none). Its responsivity is not
-// taken. path: of its file; "": made in code.
+// Sets the calibration by which the rig's shots are corrected (null: none). Its responsivity is not
+// used. path: of its file; empty if it was made in code.
 void use_radiance(Rig& rig, std::shared_ptr<const capture::RadianceCalibration> radiance,
                   const std::string& path = {});
 
 // Reads and checks a rig file (YAML). Throws InputError with file, line, field and value for
-// anything that is missing, of the wrong kind, out of range, not finite, unknown, given twice or
-// not referred to properly. Paths in the rig are relative to the rig's folder. Meshes are not
-// opened here.
-// with_radiance off: camera.radiance is left out (`calibrate radiance` makes that file).
+// anything that is missing, of the wrong kind, out of range, not finite, unknown, given twice or an
+// unresolved reference. Paths in the rig are relative to its folder. Meshes are not opened. Without
+// with_radiance, camera.radiance is ignored, as for `calibrate radiance`, which makes that file.
 Rig read_rig(const std::string& path, bool with_radiance = true);
 
 }  // namespace scattermeter::apps

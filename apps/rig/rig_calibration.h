@@ -1,4 +1,4 @@
-// The calibration shots of a rig: what `calibrate` works on, and `check` holds the rig against.
+// The calibration shots of a rig, for `calibrate` and `check`.
 #pragma once
 
 #include <optional>

@@ -20,10 +20,9 @@ calib::CalibrationBoard read_calibration_board(const YamlField& field) {
     field.only({"type", "squares", "square_mm"});
   }
   board.kind = charuco ? calib::BoardKind::kCharuco : calib::BoardKind::kChessboard;
-  const YamlField squares = field.at("squares");
-  squares.numbers(2);
-  board.squares_x = squares.items()[0].integer(2, 1000);
-  board.squares_y = squares.items()[1].integer(2, 1000);
+  const std::array<int, 2> squares = integer_pair(field.at("squares"), 2, 1000);
+  board.squares_x = squares[0];
+  board.squares_y = squares[1];
   board.square_mm = field.at("square_mm").positive();
   if (charuco) {
     board.marker_mm = field.at("marker_mm").positive();
@@ -40,18 +39,9 @@ calib::BoardShot read_board_shot(const YamlField& field) {
   calib::BoardShot shot;
   shot.line = field.line();
   shot.file = file_in_folder(field.at("file"));
-  const auto position = field.find("position_mm");
-  const auto look_at = field.find("look_at_mm");
-  const auto up = field.find("up");
-  if (!position && !look_at && !up) return shot;
-  calib::BoardViewpoint viewpoint{field.at("position_mm").vector3(),
-                                  field.at("look_at_mm").vector3()};
-  if (up) viewpoint.up = unit_vector(*up);
-  const Eigen::Vector3d forward = viewpoint.look_at_mm - viewpoint.position_mm;
-  if (!(forward.cross(viewpoint.up).norm() > 1e-9 * forward.norm())) {
-    field.fail("position_mm, look_at_mm and up do not define a camera");
+  if (field.find("position_mm") || field.find("look_at_mm") || field.find("up")) {
+    shot.viewpoint = read_viewpoint(field);
   }
-  shot.viewpoint = viewpoint;
   return shot;
 }
 
@@ -80,15 +70,14 @@ calib::BoardShots read_camera_calibration(const YamlField& field, const std::str
 
 RigCameraToCalibrate read_camera_to_calibrate(const std::string& rig_path) {
   const YamlField top = YamlField::load(rig_path);
-  const YamlField version = top.at("scattermeter_rig");
-  if (version.number() != 1.0) version.fail("this program reads rigs of version 1");
+  require_version(top, "scattermeter_rig", "rigs");
   const YamlField camera = top.at("camera");
   RigCameraToCalibrate out;
   if (const auto f = camera.find("model")) out.model = f->text();
   const YamlField size = camera.at("image_size_px");
-  size.numbers(2);
-  out.width_px = size.items()[0].integer(2, 100'000);
-  out.height_px = size.items()[1].integer(2, 100'000);
+  const std::array<int, 2> pixels = integer_pair(size, 2, 100'000);
+  out.width_px = pixels[0];
+  out.height_px = pixels[1];
   const RigLimits limits = read_limits(top);
   check_image_size(size, limits);
   out.max_megapixels = limits.raw_megapixels;

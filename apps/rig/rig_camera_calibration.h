@@ -11,8 +11,8 @@ namespace scattermeter::apps {
 // Throws InputError with file, line, field and value.
 calib::BoardShots read_camera_calibration(const YamlField& field, const std::string& rig_path);
 
-// What `calibrate camera` needs of a rig, which need not be complete: the intrinsics that it names
-// may not be there yet.
+// The part of a rig that `calibrate camera` needs. The rig need not be complete: the file of its
+// intrinsics may not exist yet.
 struct RigCameraToCalibrate {
   std::string model;  // "": any
   int width_px = 0;

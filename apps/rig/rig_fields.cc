@@ -44,4 +44,31 @@ Eigen::Vector3d unit_vector(const YamlField& field) {
   return v.normalized();
 }
 
+std::array<int, 2> integer_pair(const YamlField& field, int min, int max) {
+  field.numbers(2);
+  const std::vector<YamlField> items = field.items();
+  return {items[0].integer(min, max), items[1].integer(min, max)};
+}
+
+Eigen::Array3d some_light(const YamlField& field) {
+  const Eigen::Array3d rgb(rgb_not_negative(field).data());
+  if (!(rgb.maxCoeff() > 0.0)) field.fail("expected light in at least one channel");
+  return rgb;
+}
+
+calib::BoardViewpoint read_viewpoint(const YamlField& field) {
+  calib::BoardViewpoint out{field.at("position_mm").vector3(), field.at("look_at_mm").vector3()};
+  if (const auto f = field.find("up")) out.up = unit_vector(*f);
+  const Eigen::Vector3d forward = out.look_at_mm - out.position_mm;
+  if (!(forward.cross(out.up).norm() > 1e-9 * forward.norm())) {
+    field.fail("position_mm, look_at_mm and up do not define a camera");
+  }
+  return out;
+}
+
+void require_version(const YamlField& top, const std::string& key, const std::string& what) {
+  const YamlField version = top.at(key);
+  if (version.number() != 1.0) version.fail("this program reads " + what + " of version 1");
+}
+
 }  // namespace scattermeter::apps

@@ -1,4 +1,4 @@
-// Kinds of values that a rig is made of.
+// Kinds of values in a rig.
 #pragma once
 
 #include <array>
@@ -7,16 +7,23 @@
 #include <Eigen/Core>
 
 #include "apps/rig/yaml_field.h"
+#include "calib/lens/board_shots.h"
 
 namespace scattermeter::apps {
 
-// A file named in the rig: relative names are beside it.
+// Path of a file named in the rig; relative names are relative to the rig's folder.
 std::string beside(const std::string& rig_path, const std::string& file);
 
 // All throw InputError naming file, line, field and value.
-std::string file_in_folder(const YamlField& field);  // a file's name without a path
+std::string file_in_folder(const YamlField& field);  // the name of a file without a path
+std::array<int, 2> integer_pair(const YamlField& field, int min, int max);
 std::array<double, 3> positive_rgb(const YamlField& field);
 std::array<double, 3> rgb_not_negative(const YamlField& field);
 Eigen::Vector3d unit_vector(const YamlField& field);  // of any length but zero; normalised
+Eigen::Array3d some_light(const YamlField& field);    // R, G, B of at least 0, not all of them 0
+// position_mm, look_at_mm and the optional up of a camera.
+calib::BoardViewpoint read_viewpoint(const YamlField& field);
+// Requires top.<key> to be 1. what: of which files, for the message ("rigs").
+void require_version(const YamlField& top, const std::string& key, const std::string& what);
 
 }  // namespace scattermeter::apps

@@ -54,7 +54,7 @@ calib::LedCalibrationShot read_led_shot(const YamlField& field,
     shot.plane = static_cast<std::size_t>(
         f->integer(1, std::max(1, static_cast<int>(calibration.planes.size()))) - 1);
   } else if (has_plane && calibration.planes.size() > 1) {
-    field.fail("there are several planes: say which by plane: 1, 2 ...");
+    field.fail("there are several planes: state which one (plane: 1, 2 ...)");
   }
   if (has_plane && calibration.planes.empty()) kind.fail("there are no planes in the rig");
   if (!has_plane && calibration.spheres.empty()) kind.fail("there are no spheres in the rig");

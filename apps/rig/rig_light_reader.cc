@@ -17,14 +17,7 @@
 namespace scattermeter::apps {
 namespace {
 
-// Three numbers of at least 0, one of them above.
-Eigen::Array3d some_light(const YamlField& field) {
-  const std::array<double, 3> rgb = rgb_not_negative(field);
-  if (!(rgb[0] + rgb[1] + rgb[2] > 0.0)) field.fail("expected light in at least one channel");
-  return {rgb[0], rgb[1], rgb[2]};
-}
-
-// What the readers of all kinds are given.
+// What the reader of each kind receives.
 struct LightEntry {
   const YamlField& field;
   const std::string& rig_path;
@@ -41,13 +34,13 @@ void read_led(const LightEntry& entry, SceneLight& light) {
   if (const auto calibration = field.find("calibration")) {
     for (const auto& [key, value] : field.entries()) {
       if (key == "type" || key == "calibration") continue;
-      value.fail("is given twice: here and by the calibration");
+      value.fail("is given twice: here and in the calibration");
     }
     light.files.push_back(beside(entry.rig_path, calibration->text()));
     const CalibratedLed calibrated = read_led_calibration_file(light.files.back());
     led = calibrated.led;
     led_light.calibrated = calibrated.uncertainty;
-    // Spheres alone leave the power as the rig had it.
+    // Without a white plane, the power is that of the rig and not calibrated.
     const bool has_power =
         (calibrated.uncertainty.covariance.diagonal().tail<3>().array() > 0.0).any();
     if (has_power) led_light.calibrated_for = calibrated.responsivity;
@@ -106,22 +99,20 @@ void read_environment(const LightEntry& entry, SceneLight& light) {
   }
 }
 
-// Even light from all sides whose radiance is known to a standard deviation, or not at all.
+// Uniform light from all sides; the standard deviation of its radiance may be infinite.
 void read_ambient(const LightEntry& entry, SceneLight& light) {
   const YamlField& field = entry.field;
   AmbientLight& ambient = light.kind.emplace<AmbientLight>();
   field.only({"type", "radiance_W_per_mm2_sr", "radiance_std_W_per_mm2_sr"});
   if (const auto f = field.find("radiance_W_per_mm2_sr")) {
-    const std::array<double, 3> rgb = rgb_not_negative(*f);
-    ambient.radiance_W_per_mm2_sr = {rgb[0], rgb[1], rgb[2]};
+    ambient.radiance_W_per_mm2_sr = Eigen::Array3d(rgb_not_negative(*f).data());
   }
   const YamlField std = field.at("radiance_std_W_per_mm2_sr");
   if (std.is_scalar()) {
     if (std.text() != "free") std.fail("expected three numbers (R, G, B) or free");
     ambient.radiance_std_W_per_mm2_sr.setConstant(std::numeric_limits<double>::infinity());
   } else {
-    const std::array<double, 3> rgb = rgb_not_negative(std);
-    ambient.radiance_std_W_per_mm2_sr = {rgb[0], rgb[1], rgb[2]};
+    ambient.radiance_std_W_per_mm2_sr = Eigen::Array3d(rgb_not_negative(std).data());
   }
 }
 

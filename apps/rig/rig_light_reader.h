@@ -1,4 +1,4 @@
-// Reading a light of the rig.
+// Reading of a light of the rig.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@ namespace scattermeter::apps {
 
 class YamlField;
 
-// Of a kind that the table in rig_light_reader.cc lists. The picture of an environment is read when
-// the light is first needed. Throws InputError naming file, line, field and value.
+// Reads a light of any kind in the table of rig_light_reader.cc. The picture of an environment is
+// read when the light is first needed. Throws InputError with file, line, field and value.
 SceneLight read_light(const std::string& name, const YamlField& field, const std::string& rig_path,
                       const RigLimits& limits);
 

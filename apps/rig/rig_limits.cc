@@ -7,7 +7,7 @@
 namespace scattermeter::apps {
 namespace {
 
-constexpr double kMostItems = 2e9;  // that an int counts
+constexpr double kMostItems = 2e9;  // near the largest int
 
 }  // namespace
 

@@ -8,7 +8,7 @@
 namespace scattermeter::apps {
 namespace {
 
-constexpr double kWhiteAlbedoStd = 0.005;  // of a reference that does not state it
+constexpr double kWhiteAlbedoStd = 0.005;  // if the rig states none
 
 calib::RadianceShot radiance_shot(const YamlField& field, bool is_flat = false) {
   calib::RadianceShot shot;
@@ -39,13 +39,13 @@ std::vector<calib::RadianceShot> radiance_shots(const YamlField& field, bool are
   return out;
 }
 
-// One shot, or a bracket.
+// Reads one shot or a bracket.
 std::vector<calib::RadianceShot> own_shots(const YamlField& field) {
   const auto shots = field.find("shots");
   const auto file = field.find("file");
   if (shots.has_value() == file.has_value()) field.fail("expected either file or shots");
   if (shots) {
-    if (const auto f = field.find("exposure_s")) f->fail("stands in each of shots");
+    if (const auto f = field.find("exposure_s")) f->fail("belongs into each entry of shots");
     return radiance_shots(*shots);
   }
   calib::RadianceShot shot = radiance_shot(*file);

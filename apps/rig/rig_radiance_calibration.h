@@ -8,7 +8,7 @@
 
 namespace scattermeter::apps {
 
-// Throws InputError with file, line, field and value. It is not checked that white.light is a light
+// Throws InputError with file, line, field and value. Does not check that white.light is a light
 // of the rig.
 calib::RadianceCalibrationShots read_radiance_calibration(const YamlField& field,
                                                           const std::string& rig_path);

@@ -1,198 +1,18 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
-#include "apps/rig/radiance_file.h"
 #include "apps/rig/rig.h"
+#include "apps/rig/rig_camera_reader.h"
 #include "apps/rig/rig_fields.h"
 #include "apps/rig/rig_light_reader.h"
+#include "apps/rig/rig_pose_reader.h"
 #include "apps/rig/rig_sensor_truth.h"
 #include "apps/rig/yaml_field.h"
-#include "calib/lens/camera_calibration_file.h"
-#include "calib/lens/intrinsics_file.h"
-#include "core/base/input_error.h"
 
 namespace scattermeter::apps {
 namespace {
-
-CameraIntrinsics read_intrinsics_field(const YamlField& field, const std::string& rig_path) {
-  if (field.is_scalar()) return calib::read_intrinsics(beside(rig_path, field.text()));
-  field.only({"fx_px", "fy_px", "cx_px", "cy_px", "distortion"});
-  CameraIntrinsics k;
-  k.fx_px = field.at("fx_px").positive();
-  k.fy_px = field.at("fy_px").positive();
-  k.cx_px = field.at("cx_px").number();
-  k.cy_px = field.at("cy_px").number();
-  if (const auto distortion = field.find("distortion")) {
-    for (const YamlField& term : distortion->items()) k.distortion.push_back(term.number());
-    const std::size_t n = k.distortion.size();
-    if (n != 0 && n != 4 && n != 5 && n != 8) {
-      distortion->fail("expected 0, 4, 5 or 8 terms k1, k2, p1, p2, k3 ...");
-    }
-  }
-  return k;
-}
-
-SceneSensor read_sensor(const YamlField& field) {
-  field.only({"gain_e_per_count", "read_noise_counts", "cfa", "black_counts", "white_counts",
-              "tone_curve"});
-  SceneSensor s;
-  if (const auto f = field.find("gain_e_per_count")) s.noise.gain_e_per_count = f->positive();
-  if (const auto f = field.find("read_noise_counts")) {
-    s.noise.read_noise_counts = f->number(0.0, 4095.0);
-  }
-  if (const auto f = field.find("cfa")) {
-    try {
-      s.cfa = cfa_pattern_from_name(f->text());
-    } catch (const std::invalid_argument&) {
-      f->fail("expected RGGB, GRBG, GBRG or BGGR");
-    }
-  }
-  if (const auto f = field.find("white_counts")) s.white_counts = f->integer(1, 4095);
-  if (const auto f = field.find("black_counts")) {
-    if (f->is_scalar()) {
-      s.black_counts.fill(f->integer(0, 4094));
-    } else {
-      f->numbers(4);
-      for (std::size_t i = 0; i < 4; ++i) s.black_counts[i] = f->items()[i].integer(0, 4094);
-    }
-    for (int black : s.black_counts) {
-      if (black >= s.white_counts) f->fail("expected black below white_counts");
-    }
-  }
-  if (const auto f = field.find("tone_curve")) {
-    const std::string name = f->text();
-    if (name != "linear" && name != "nef_lossy") f->fail("expected linear or nef_lossy");
-    s.nef_lossy_curve = name == "nef_lossy";
-  }
-  return s;
-}
-
-void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
-  field.only({"model", "image_size_px", "intrinsics", "responsivity_counts_mm2_sr_per_W_s",
-              "responsivity_relative_std", "radiance", "sensor", "exposure_s", "iso", "f_number"});
-  SceneCamera& camera = rig.scene.camera;
-  if (const auto f = field.find("model")) camera.model = f->text();
-  const YamlField size = field.at("image_size_px");
-  size.numbers(2);
-  const YamlField intrinsics = field.at("intrinsics");
-  camera.intrinsics = read_intrinsics_field(intrinsics, rig.path);
-  if (intrinsics.is_scalar()) {
-    rig.intrinsics_path = beside(rig.path, intrinsics.text());
-    rig.lens = std::make_shared<const calib::CameraCalibrationFile>(
-        calib::read_camera_calibration_file(rig.intrinsics_path));
-    camera.lens_root = lens_root(rig.lens->parameters, rig.lens->covariance);
-  }
-  camera.intrinsics.width_px = size.items()[0].integer(2, 100'000);
-  camera.intrinsics.height_px = size.items()[1].integer(2, 100'000);
-  if (const std::string problem = intrinsics_problem(camera.intrinsics); !problem.empty()) {
-    intrinsics.fail(problem);
-  }
-  if (const auto f = field.find("responsivity_counts_mm2_sr_per_W_s")) {
-    camera.responsivity = positive_rgb(*f);
-  }
-  if (const auto f = field.find("responsivity_relative_std")) {
-    if (!camera.responsivity) f->fail("is given without responsivity_counts_mm2_sr_per_W_s");
-    camera.responsivity_relative_std = f->number(0.0, 10.0);
-  }
-  if (const auto f = field.find("radiance"); f && with_radiance) {
-    const std::string file = beside(rig.path, f->text());
-    auto radiance = std::make_shared<const capture::RadianceCalibration>(read_radiance_file(file));
-    const capture::RadianceCorrection& c = radiance->correction;
-    if (c.width_px != camera.intrinsics.width_px || c.height_px != camera.intrinsics.height_px) {
-      f->fail("the calibration is of " + std::to_string(c.width_px) + " x " +
-              std::to_string(c.height_px) + " samples, not of camera.image_size_px");
-    }
-    if (radiance->responsivity) {
-      if (camera.responsivity) {
-        f->fail("holds a responsivity, and camera.responsivity_counts_mm2_sr_per_W_s another");
-      }
-      camera.responsivity = radiance->responsivity;
-      camera.responsivity_relative_std = radiance->responsivity_relative_std;
-    }
-    use_radiance(rig, std::move(radiance), file);
-  }
-  if (const auto f = field.find("sensor")) camera.sensor = read_sensor(*f);
-  if (const auto f = field.find("exposure_s")) camera.exposure_s = f->positive();
-  if (const auto f = field.find("iso")) camera.iso = f->integer(1, 65535);
-  if (const auto f = field.find("f_number")) camera.f_number = f->positive();
-}
-
-calib::CharucoBoard read_board(const YamlField& field) {
-  field.only({"squares", "square_mm", "marker_mm", "dictionary", "origin_mm", "x_axis", "y_axis"});
-  calib::CharucoBoard board;
-  const YamlField squares = field.at("squares");
-  squares.numbers(2);
-  board.squares_x = squares.items()[0].integer(2, 1000);
-  board.squares_y = squares.items()[1].integer(2, 1000);
-  board.square_mm = field.at("square_mm").positive();
-  board.marker_mm = field.at("marker_mm").positive();
-  if (const auto f = field.find("dictionary")) board.dictionary = f->text();
-  Eigen::Vector3d x = Eigen::Vector3d::UnitX();
-  Eigen::Vector3d y = Eigen::Vector3d::UnitY();
-  if (const auto f = field.find("x_axis")) x = unit_vector(*f);
-  if (const auto f = field.find("y_axis")) {
-    y = unit_vector(*f);
-    if (std::abs(x.dot(y)) > 1e-6) f->fail("expected a direction at right angles to x_axis");
-  }
-  Eigen::Matrix3d rotation;
-  rotation << x, y, x.cross(y);
-  if (std::abs(x.dot(y)) > 1e-6) field.fail("x_axis and y_axis are not at right angles");
-  board.world_from_board.rotation = Eigen::Quaterniond(rotation).normalized();
-  if (const auto f = field.find("origin_mm")) board.world_from_board.translation_mm = f->vector3();
-  if (const std::string problem = calib::board_problem(board); !problem.empty()) {
-    field.fail(problem);
-  }
-  return board;
-}
-
-calib::PoseSource read_pose(const YamlField& field) {
-  field.only({"points", "charuco", "shot", "inlier_px", "point_std_px", "refine", "edge_std_px",
-              "per_shot"});
-  calib::PoseSource pose;
-  pose.line = field.line();
-  const auto points = field.find("points");
-  const auto charuco = field.find("charuco");
-  if (points.has_value() == charuco.has_value()) field.fail("expected either points or charuco");
-  if (points) {
-    pose.line = points->line();
-    for (const YamlField& pair : points->items()) {
-      pair.only({"world_mm", "image_px"});
-      const std::vector<double> px = pair.at("image_px").numbers(2);
-      pose.points.push_back({pair.at("world_mm").vector3(), {px[0], px[1]}});
-    }
-  } else {
-    pose.line = charuco->line();
-    pose.charuco = read_board(*charuco);
-    pose.options.point_std_px = 0.15;  // corners of a board scatter by 0.06 to 0.14 px
-  }
-  if (const auto f = field.find("inlier_px")) pose.options.inlier_px = f->positive();
-  if (const auto f = field.find("point_std_px")) pose.options.point_std_px = f->positive();
-  if (const auto f = field.find("refine")) {
-    if (f->text() != "silhouette") f->fail("expected silhouette");
-    pose.refine_by_silhouette = true;
-  }
-  if (const auto f = field.find("edge_std_px")) {
-    if (!pose.refine_by_silhouette) f->fail("only with refine: silhouette");
-    pose.edge_std_px = f->positive();
-  }
-  if (const auto f = field.find("shot")) {
-    if (!charuco) f->fail("is the shot of a board: only with charuco");
-    pose.board_shot = file_in_folder(*f);
-  }
-  const bool in_each = charuco && pose.board_shot.empty();
-  pose.per_shot = in_each;
-  if (const auto f = field.find("per_shot")) {
-    const std::string text = f->text();
-    if (text != "true" && text != "false") f->fail("expected true or false");
-    pose.per_shot = text == "true";
-    if (in_each && !pose.per_shot) f->fail("with a board every shot has a pose of its own");
-    if (!in_each && pose.per_shot && !pose.refine_by_silhouette) {
-      f->fail("there is one pose for all shots; per_shot needs refine: silhouette");
-    }
-  }
-  return pose;
-}
 
 SceneObject read_object(const std::string& name, const YamlField& field,
                         const std::string& rig_path) {
@@ -207,7 +27,7 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   return object;
 }
 
-// One file, or a bracket of several, with as many times.
+// Reads a single file with its time, or a bracket of several with as many times.
 void read_shot_files(const YamlField& field, SceneShot& shot) {
   const YamlField file = field.at("file");
   const auto exposure = field.find("exposure_s");
@@ -273,8 +93,7 @@ SceneShot read_shot(const YamlField& field, const Rig& rig) {
 void read_truth(const YamlField& field, Rig& rig) {
   field.only({"materials", "pose", "sensor", "ambient_irradiance_W_per_mm2"});
   if (const auto ambient = field.find("ambient_irradiance_W_per_mm2")) {
-    const std::array<double, 3> rgb = rgb_not_negative(*ambient);
-    rig.truth.ambient_irradiance_W_per_mm2 = {rgb[0], rgb[1], rgb[2]};
+    rig.truth.ambient_irradiance_W_per_mm2 = Eigen::Array3d(rgb_not_negative(*ambient).data());
   }
   if (const auto sensor = field.find("sensor")) rig.truth.sensor = read_sensor_truth(*sensor);
   if (const auto materials = field.find("materials")) {
@@ -288,18 +107,14 @@ void read_truth(const YamlField& field, Rig& rig) {
   }
   if (const auto pose = field.find("pose")) {
     pose->only({"position_mm", "look_at_mm", "up"});
-    CameraPlacement truth{pose->at("position_mm").vector3(), pose->at("look_at_mm").vector3()};
-    if (const auto f = pose->find("up")) truth.up = unit_vector(*f);
-    const Eigen::Vector3d forward = truth.look_at_mm - truth.position_mm;
-    if (!(forward.cross(truth.up).norm() > 1e-9 * forward.norm())) {
-      pose->fail("position_mm, look_at_mm and up do not define a camera");
-    }
-    rig.truth.pose = truth;
+    const calib::BoardViewpoint v = read_viewpoint(*pose);
+    rig.truth.pose = CameraPlacement{v.position_mm, v.look_at_mm, v.up};
   }
 }
 
-// Intensities of calibrated LEDs count for a responsivity of their own. A rig without one takes it,
-// and its scale is as well known as they are; a rig with another one is wrong.
+// The intensities of calibrated LEDs are valid for the responsivity in their files. A rig without a
+// responsivity takes it, and its scale is then as uncertain as the intensities; a rig with another
+// one is refused.
 void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
   const LedLight* first = nullptr;
   for (const SceneLight& light : rig.scene.lights) {
@@ -308,12 +123,12 @@ void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
     const YamlField field = lights.at(light.name).at("calibration");
     if (first == nullptr && !rig.scene.camera.responsivity) {
       for (const SceneLight& other : rig.scene.lights) {
-        const bool counts = other.led() != nullptr && other.led()->calibrated_for;
-        if (!counts && !other->is_fitted()) {
-          field.fail("its intensity counts for the responsivity that the file states; light " +
+        const bool has_responsivity = other.led() != nullptr && other.led()->calibrated_for;
+        if (!has_responsivity && !other->is_fitted()) {
+          field.fail("its intensity is valid for the responsivity in the file, but light " +
                      other.name +
-                     " has no such calibration, so camera.responsivity_counts_mm2_sr_per_W_s must "
-                     "say what both count for");
+                     " has no such calibration: camera.responsivity_counts_mm2_sr_per_W_s must "
+                     "state the responsivity for both");
         }
       }
       rig.scene.camera.responsivity = led->calibrated_for;
@@ -322,8 +137,8 @@ void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
     first = led;
     for (std::size_t c = 0; c < 3; ++c) {
       if (std::abs((*led->calibrated_for)[c] / (*rig.scene.camera.responsivity)[c] - 1.0) > 1e-9) {
-        field.fail("its intensity counts for a responsivity of " +
-                   std::to_string((*led->calibrated_for)[c]) + ", the camera's is " +
+        field.fail("its intensity is valid for a responsivity of " +
+                   std::to_string((*led->calibrated_for)[c]) + ", but the camera's is " +
                    std::to_string((*rig.scene.camera.responsivity)[c]) + " (" + "RGB"[c] + ")");
       }
     }
@@ -336,8 +151,7 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   const YamlField top = YamlField::load(path);
   top.only({"scattermeter_rig", "limits", "camera", "pose", "objects", "lights", "shots",
             "calibration", "truth"});
-  const YamlField version = top.at("scattermeter_rig");
-  if (version.number() != 1.0) version.fail("this program reads rigs of version 1");
+  require_version(top, "scattermeter_rig", "rigs");
   Rig rig;
   rig.path = path;
   rig.limits = read_limits(top);

@@ -20,8 +20,7 @@ calib::WhitePlane read_white_plane(const YamlField& field, double default_albedo
   plane.width_mm = size.items()[0].positive();
   plane.height_mm = size.items()[1].positive();
   const YamlField albedo = field.at("albedo");
-  const std::array<double, 3> rgb = positive_rgb(albedo);
-  plane.albedo = {rgb[0], rgb[1], rgb[2]};
+  plane.albedo = Eigen::Array3d(positive_rgb(albedo).data());
   if (plane.albedo.maxCoeff() > 1.0) albedo.fail("expected albedos of at most 1");
   plane.albedo_relative_std = default_albedo_relative_std;
   if (const auto f = field.find("albedo_relative_std")) {

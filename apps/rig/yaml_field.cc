@@ -15,7 +15,7 @@
 namespace scattermeter::apps {
 namespace {
 
-// A value as the user wrote it, on one line, cut where it is long.
+// The value on one line, shortened if it is long.
 std::string shown(const YAML::Node& node) {
   if (!node || node.IsNull()) return "nothing";
   YAML::Emitter out;
@@ -46,7 +46,7 @@ YamlField YamlField::load(const std::string& file) {
   text << in.rdbuf();
   try {
     YAML::Node node = YAML::Load(text.str());
-    if (!node.IsMap()) throw InputError(file, "is no rig: expected a YAML map at the top");
+    if (!node.IsMap()) throw InputError(file, "is not a rig: expected a YAML map at the top");
     return {node, file, ""};
   } catch (const YAML::Exception& e) {
     throw InputError(file + ":" + std::to_string(e.mark.line + 1), "is not valid YAML: " + e.msg);
@@ -96,7 +96,7 @@ std::vector<std::pair<std::string, YamlField>> YamlField::entries() const {
   for (const auto& entry : node_) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
     const YamlField child(entry.second, file_, joined(path_, key));
-    if (key.empty()) child.fail("a name is needed");
+    if (key.empty()) child.fail("expected a name");
     if (!seen.insert(key).second) {
       throw InputError(file_ + ":" + std::to_string(entry.first.Mark().line + 1),
                        joined(path_, key) + ": given twice");
@@ -116,7 +116,7 @@ std::vector<YamlField> YamlField::items() const {
 }
 
 std::string YamlField::text() const {
-  if (!node_.IsScalar() || node_.Scalar().empty()) fail("expected a text");
+  if (!node_.IsScalar() || node_.Scalar().empty()) fail("expected text");
   return node_.Scalar();
 }
 
@@ -153,7 +153,7 @@ double YamlField::positive() const {
 
 int YamlField::integer(int min, int max) const {
   const double value = number(min, max);
-  if (value != std::floor(value)) fail("expected a whole number");
+  if (value != std::floor(value)) fail("expected an integer");
   return static_cast<int>(value);
 }
 

@@ -1,4 +1,4 @@
-// Strict reading of YAML: every value is asked for by name and kind, every mistake is named.
+// Strict reading of YAML by name and kind, with errors that name file, line and field.
 #pragma once
 
 #include <initializer_list>
@@ -12,13 +12,13 @@
 
 namespace scattermeter::apps {
 
-// A node with its place: file, line and dotted path. All failures are InputError
+// A node with its file, line and dotted path. All failures are InputError
 // "file:line: camera.fx_px: expected ..., got ...".
 class YamlField {
  public:
   YamlField(const YAML::Node& node, std::string file, std::string path);
 
-  // The whole file. InputError when it cannot be read or is no YAML.
+  // The whole file. Throws InputError if it cannot be read or is not YAML.
   static YamlField load(const std::string& file);
 
   int line() const { return node_.Mark().line + 1; }
@@ -26,11 +26,11 @@ class YamlField {
   bool is_map() const { return node_.IsMap(); }
   bool is_scalar() const { return node_.IsScalar(); }
 
-  // A map with no other and no repeated keys than these.
+  // Requires a map without repeated keys and without other keys than these.
   void only(std::initializer_list<const char*> keys) const;
   YamlField at(const std::string& key) const;
   std::optional<YamlField> find(const std::string& key) const;
-  // Children of a map in the file's order, names unique and not empty.
+  // Children of a map in the order of the file; requires names that are unique and not empty.
   std::vector<std::pair<std::string, YamlField>> entries() const;
   std::vector<YamlField> items() const;
 

@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kWhite = 0.9;
 constexpr double kBlack = 0.04;
-constexpr int kSide = 3;  // sub-samples a pixel and side
+constexpr int kSide = 3;  // sub-samples per side of a pixel
 
-// The board's four corners, for the rectangle of the frame that it fills.
+// A mesh of the board's four corners.
 TriangleMesh outline(const calib::CharucoBoard& board) {
   const double w = board.squares_x * board.square_mm;
   const double h = board.squares_y * board.square_mm;
@@ -31,8 +31,7 @@ TriangleMesh outline(const calib::CharucoBoard& board) {
 
 void add_board(const CameraView& view, const calib::CharucoBoard& board,
                const std::vector<Led>& leds, const Eigen::Array3d& ambient_W_per_mm2,
-               const RayScene& object, const std::array<int, 4>& channel_of_phase,
-               std::vector<float>& radiance) {
+               const RayScene& object, const CfaPattern& cfa, std::vector<float>& radiance) {
   const TriangleMesh corners = outline(board);
   const ViewCheck check = check_view(view, corners);
   if (!check.in_front || !check.in_frame) return;
@@ -77,7 +76,7 @@ void add_board(const CameraView& view, const calib::CharucoBoard& board,
     const Eigen::Vector3d point = board.world_from_board * (center_in_board / hits);
     const int xx = rays.x0 + x;
     const int yy = rays.y0 + y;
-    const int channel = channel_of_phase[cfa_phase(xx, yy)];
+    const int channel = static_cast<int>(cfa.at(xx, yy));
     double irradiance = ambient_W_per_mm2[channel];
     for (const Led& led : leds) {
       const double e = led.transmitted_irradiance_per_mm2(point, normal, 1.0);

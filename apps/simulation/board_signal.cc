@@ -11,9 +11,9 @@ namespace {
 constexpr double kBlackPrint = 0.045;
 constexpr double kSurround = 0.25;
 constexpr double kFall = 0.15;
-constexpr int kFine = 8;  // sub-samples a pixel and side, where there is an edge
+constexpr int kFine = 8;  // sub-samples per side of a pixel at an edge
 
-// The rays' plane through the board, and what is printed there.
+// The light that a ray of the camera finds on the board or beside it.
 class BoardLight {
  public:
   BoardLight(const CameraView& view, const calib::CalibrationBoard& board)
@@ -24,7 +24,7 @@ class BoardLight {
         eye_mm_(view.center_in_world_mm()),
         world_from_camera_(view.camera_from_world.rotation.conjugate().toRotationMatrix()) {}
 
-  // Of the ray (X / Z, Y / Z, 1) in the camera frame.
+  // ray: (X / Z, Y / Z) in the camera frame.
   double along(const Eigen::Vector2d& ray) const {
     const Eigen::Vector3d d = world_from_camera_ * Eigen::Vector3d(ray.x(), ray.y(), 1);
     const double steps = -eye_mm_.z() / d.z();
@@ -40,7 +40,7 @@ class BoardLight {
     return margin ? 1 - kFall * std::clamp(x / width_mm_, 0.0, 1.0) : kSurround;
   }
 
-  // Whether the same ink is at both.
+  // Whether two values are those of the same ink.
   static bool alike(double a, double b) { return std::abs(a - b) < 0.02; }
 
  private:
@@ -52,7 +52,7 @@ class BoardLight {
   Eigen::Matrix3d world_from_camera_;
 };
 
-// Along rows (step 1) or columns (step width); the edge's values go on beyond it.
+// Blurs along rows or columns; the values at the edge continue beyond it.
 std::vector<float> blurred(const std::vector<float>& image, int width, int height, bool along_x,
                            double blur_px) {
   const int reach = static_cast<int>(std::ceil(4 * blur_px));

@@ -1,4 +1,4 @@
-// A calibration board before the camera, as light on the sensor.
+// A simulated shot of a calibration board, as light on the sensor.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace scattermeter::apps {
 
-// Light per pixel of the whole frame, row by row, 1 for white in full light: white 1, black 0.045,
-// a white margin of one square around the print, grey 0.25 beyond it or where the lens shows
-// nothing; the light falls by 15 % from the board's left to its right. Each pixel is the mean over
-// its area (8 x 8 points where it holds an edge: edges are placed to 0.005 px rms), then blurred by
-// a Gaussian of blur_px (standard deviation). The board lies in the world's plane z = 0, its origin
-// in the world's. The same digits for any number of threads.
+// Light per pixel of the whole frame, row by row, relative to white in full light: white 1, black
+// 0.045, a white margin of one square around the print, and 0.25 beyond it and outside the domain
+// of the lens. The light decreases by 15 % from the left to the right of the board. Each pixel is
+// the mean over its area (8 x 8 points if it contains an edge, which is then located to 0.005 px
+// rms), blurred by a Gaussian with a standard deviation of blur_px. The board is in the world's
+// plane z = 0 with its origin in the world's. The digits do not depend on the number of threads.
 std::vector<float> board_signal(const CameraView& view, const calib::CalibrationBoard& board,
                                 double blur_px = 0.5);
 

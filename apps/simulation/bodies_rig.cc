@@ -1,7 +1,7 @@
 #include "apps/simulation/bodies_rig.h"
 
 #include "apps/instrument/open_objects.h"
-#include "apps/simulation/studio.h"
+#include "apps/simulation/synthetic_camera.h"
 #include "core/mesh/bodies.h"
 
 namespace scattermeter::apps {
@@ -17,8 +17,8 @@ Rig bodies_rig(int image_width_px, double eta_int_over_ext,
     object.eta_int_over_ext = eta_int_over_ext;
     rig.scene.objects.push_back(object);
   }
-  rig.scene.lights = {studio_led("led1", {30, -60, 80}, {-30, 60, -70}),
-                      studio_led("led2", {-70, -20, 60}, {70, 20, -50})};
+  rig.scene.lights = {synthetic_led("led1", {30, -60, 80}, {-30, 60, -70}),
+                      synthetic_led("led2", {-70, -20, 60}, {70, 20, -50})};
   for (const auto& [material, media] : materials) {
     rig.truth.materials[material] = media;
     for (const std::string& object : bodies) {

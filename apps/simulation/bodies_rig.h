@@ -16,14 +16,15 @@ namespace scattermeter::apps {
 using NamedMedia = std::pair<std::string, std::array<Medium, 3>>;
 
 // Two shots a material and body (names of core/mesh/bodies.h), "<name>_cube_1.dng" ...
-// "<name>_pyramid_2.dng": under one LED, then the other, by the camera of apps/simulation/studio.h.
-// All is exact but for what set_up_camera() says; the exposure is chosen, one for all shots.
-// Precondition (std::invalid_argument): 240 <= image_width_px <= 3872.
+// "<name>_pyramid_2.dng": under one LED, then the other, by the camera of
+// apps/simulation/synthetic_camera.h. All is exact but for what set_up_camera() says; the exposure
+// is chosen, one for all shots. Precondition (std::invalid_argument): 240 <= image_width_px <=
+// 3872.
 Rig bodies_rig(int image_width_px, double eta_int_over_ext,
                const std::vector<NamedMedia>& materials,
                const std::vector<std::string>& bodies = {"cube", "pyramid"});
 
-// Its objects; std::invalid_argument for one that is none of the bodies.
+// Its objects. Throws std::invalid_argument for an object that is not one of the bodies.
 ObjectScenes bodies_scenes(const Rig& rig);
 
 }  // namespace scattermeter::apps

@@ -5,9 +5,9 @@
 
 namespace scattermeter::apps {
 
-// PP, PE and POM as of the paper's table 3 in bodies_rig() (whose bodies_scenes() are its objects),
-// eta 1.49, all exact; a given exposure that clips nothing. Precondition (std::invalid_argument):
-// 240 <= image_width_px <= 3872.
+// bodies_rig() with PP, PE and POM of the paper's table 3, eta 1.49, exactly known, and a fixed
+// exposure that clips nothing; its objects are those of bodies_scenes(). Throws
+// std::invalid_argument unless 240 <= image_width_px <= 3872.
 Rig plastics_rig(int image_width_px);
 
 }  // namespace scattermeter::apps

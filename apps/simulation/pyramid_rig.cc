@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/instrument/open_objects.h"
-#include "apps/simulation/studio.h"
+#include "apps/simulation/synthetic_camera.h"
 #include "core/mesh/bodies.h"
 
 namespace scattermeter::apps {

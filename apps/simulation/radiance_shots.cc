@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "calib/pose/shot_pose.h"
+#include "apps/simulation/shot_renderer.h"
 #include "calib/radiance/white_pixels.h"
 #include "calib/radiance/white_scale.h"
 #include "core/base/input_error.h"
@@ -10,7 +10,7 @@
 namespace scattermeter::apps {
 namespace {
 
-std::vector<float> even_picture(const Rig& rig, const std::array<double, 3>& radiance) {
+std::vector<float> uniform_picture(const Rig& rig, const std::array<double, 3>& radiance) {
   const CameraIntrinsics& k = rig.scene.camera.intrinsics;
   std::vector<float> out;
   out.reserve(static_cast<std::size_t>(k.width_px) * static_cast<std::size_t>(k.height_px));
@@ -24,15 +24,9 @@ std::vector<float> even_picture(const Rig& rig, const std::array<double, 3>& rad
 }
 
 std::vector<float> white_picture(const Rig& rig, const calib::WhiteReference& white) {
-  CameraView view{rig.scene.camera.intrinsics, {}};
-  if (rig.truth.pose) {
-    view.camera_from_world =
-        look_at(rig.truth.pose->position_mm, rig.truth.pose->look_at_mm, rig.truth.pose->up);
-  } else {
-    view.camera_from_world = calib::pose_from_points(rig.scene, rig.pose).camera_from_world;
-  }
+  const CameraView view = true_view(rig);
   const Led& led = rig.scene.light(white.light).led()->led;
-  std::vector<float> out = even_picture(rig, {0, 0, 0});
+  std::vector<float> out = uniform_picture(rig, {0, 0, 0});
   const Eigen::Vector3d normal = white.plane.normal();
   for (const calib::WhitePixel& p : calib::white_pixels(white.plane, view, 0.0)) {
     const auto width = static_cast<std::size_t>(rig.scene.camera.intrinsics.width_px);
@@ -48,7 +42,7 @@ std::vector<float> white_picture(const Rig& rig, const calib::WhiteReference& wh
 std::vector<float> glare_picture(const Rig& rig, const calib::GlareTarget& glare) {
   const PixelRect& r = *glare.bright_px;
   const CameraIntrinsics& k = rig.scene.camera.intrinsics;
-  std::vector<float> out = even_picture(rig, {0, 0, 0});
+  std::vector<float> out = uniform_picture(rig, {0, 0, 0});
   for (int y = r.y0; y < std::min(r.y0 + r.height, k.height_px); ++y) {
     for (int x = r.x0; x < std::min(r.x0 + r.width, k.width_px); ++x) {
       out[static_cast<std::size_t>(y) * static_cast<std::size_t>(k.width_px) +
@@ -102,7 +96,7 @@ double RadianceShots::exposure_s(const calib::RadianceShot& shot) const {
   if (shot.exposure_s) return *shot.exposure_s;
   if (rig_.scene.camera.exposure_s) return *rig_.scene.camera.exposure_s;
   throw InputError(rig_.at(shot.line) + ": exposure_s",
-                   "is missing: simulate needs it of " + shot.file);
+                   "is missing: simulate needs it for " + shot.file);
 }
 
 std::vector<float> RadianceShots::signal_counts(const calib::RadianceShot& shot) const {
@@ -115,7 +109,7 @@ std::vector<float> RadianceShots::signal_counts(const calib::RadianceShot& shot)
       light[c] = lamp->second * (*rig_.calibration.radiance->flat_radiance_W_per_mm2_sr)[c];
     }
   }
-  return sensor_.signal_counts(even_picture(rig_, light), exposure_s(shot));
+  return sensor_.signal_counts(uniform_picture(rig_, light), exposure_s(shot));
 }
 
 capture::RawFrame RadianceShots::frame(const calib::RadianceShot& shot, std::uint64_t seed) const {

@@ -1,4 +1,4 @@
-// The shots of a rig's calibration.radiance, as its camera would take them.
+// Simulated shots of a rig's calibration.radiance.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace scattermeter::apps {
 
-// Dark, flats, white, glare, in this order.
+// All shots: dark, flats, white, glare, in this order.
 std::vector<calib::RadianceShot> all_radiance_shots(
     const calib::RadianceCalibrationShots& radiance);
 

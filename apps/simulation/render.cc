@@ -42,14 +42,14 @@ std::vector<RenderScene> scenes_of(const Rig& rig, const RenderOptions& options)
     }
     add(shot.object, options.lights.empty() ? shot.lights : options.lights);
   }
-  // Asked for, and in no shot.
+  // Requested objects that are in no shot.
   for (const std::string& object : options.objects) {
     const bool there = std::any_of(scenes.begin(), scenes.end(),
                                    [&](const RenderScene& s) { return s.object == object; });
     if (there) continue;
     if (options.lights.empty()) {
       throw InputError(rig.path, "has no shot of object " + object +
-                                     " that says what it is lit by: name the lights (--light)");
+                                     " that names its lights: choose them by --light");
     }
     add(object, options.lights);
   }
@@ -64,12 +64,12 @@ void resize_camera(Rig& rig, int width_px) {
   k.height_px = std::max(1, static_cast<int>(std::lround(scale * k.height_px)));
   k.fx_px *= scale;
   k.fy_px *= scale;
-  // Pixel 0 is a centre, half a pixel from the frame's edge.
+  // The centre of pixel 0 is half a pixel from the edge of the frame.
   k.cx_px = (k.cx_px + 0.5) * scale - 0.5;
   k.cy_px = (k.cy_px + 0.5) * scale - 0.5;
 }
 
-// Objects differ by their eta, too, which is the material's.
+// Returns the name of the object with this eta, which it adds to the rig if necessary.
 std::string object_with_eta(Rig& rig, const std::string& name, double eta) {
   if (rig.scene.object(name).eta_int_over_ext == eta) return name;
   const std::string copy_name = fmt::format("{} (eta {})", name, eta);
@@ -113,8 +113,8 @@ Rendering render(const Rig& given, const std::vector<MeasuredMaterial>& material
       }
     }
   }
-  const ObjectScenes scenes = open_objects(rig);
-  ShotRenderer renderer(rig, scenes, options.transport);
+  const ObjectScenes objects = open_objects(rig);
+  ShotRenderer renderer(rig, objects, options.transport);
   ProgressStage stage(options.progress, "rendering", rig.scene.shots.size());
   for (std::size_t i = 0; i < rig.scene.shots.size(); ++i) {
     RenderedPicture picture;

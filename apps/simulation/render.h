@@ -1,4 +1,4 @@
-// Measured materials on the objects of a rig, under its lights.
+// Pictures of measured materials on the objects of a rig, under its lights.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ namespace scattermeter::apps {
 
 struct RenderOptions {
   std::vector<std::string> objects;  // only these of the rig; empty: those of its shots
-  // On at once, on each object; empty: what the rig's shots of it are lit by, each set for itself.
+  // On together, for each object; empty: each combination of lights in the rig's shots of it.
   std::vector<std::string> lights;
-  int width_px = 0;  // of the frame, its height by the rig's proportions; 0: the rig's
+  int width_px = 0;  // of the frame, with the rig's aspect ratio; 0: the rig's
   RenderTransport transport;
   Progress* progress = nullptr;
 };
@@ -38,9 +38,9 @@ struct Rendering {
   std::vector<RenderedPicture> pictures;  // scene by scene, in each the materials in their order
 };
 
-// Every scene with every material, which brings its own eta. The camera stands at truth.pose or
-// where the pose points put it. Throws InputError for a rig without either, an object or light that
-// it does not have, an object out of view, and for what `simulate` refuses.
+// Renders every scene with every material, which has its own eta. The camera is at truth.pose, or
+// at the pose from the pose points. Throws InputError for a rig without either, for an object or
+// light that it does not have, for an object out of view, and for what simulate() refuses.
 Rendering render(const Rig& rig, const std::vector<MeasuredMaterial>& materials,
                  const RenderOptions& options);
 

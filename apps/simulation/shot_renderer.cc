@@ -18,7 +18,7 @@ const std::array<Medium, 3>& truth_of(const Rig& rig, const SceneShot& shot) {
   const auto it = rig.truth.materials.find(shot.material);
   if (it == rig.truth.materials.end()) {
     throw InputError(rig.at(shot.line) + ": truth.materials." + shot.material,
-                     "is missing: simulate needs the truth of every material in shots");
+                     "is missing: simulate needs the truth of every material in the shots");
   }
   return it->second;
 }
@@ -40,23 +40,20 @@ CameraView true_view(const Rig& rig) {
           calib::pose_from_points(rig.scene, rig.pose).camera_from_world};
 }
 
-ShotRenderer::ShotRenderer(const Rig& rig, const ObjectScenes& scenes,
+ShotRenderer::ShotRenderer(const Rig& rig, const ObjectScenes& objects,
                            const RenderTransport& transport)
-    : rig_(rig), scenes_(scenes), transport_(transport), view_(true_view(rig)) {
+    : rig_(rig), objects_(objects), transport_(transport), view_(true_view(rig)) {
   for (const SceneShot& shot : rig.scene.shots) {
     truth_of(rig, shot);
     for (const std::string& name : shot.lights) rig.scene.light(name)->open();
-  }
-  for (std::size_t p = 0; p < 4; ++p) {
-    channel_of_phase_[p] = static_cast<int>(rig.scene.camera.sensor.cfa.phase[p]);
   }
 }
 
 ShotRenderer::Stage& ShotRenderer::stage(const std::string& object) {
   auto [it, is_new] = stages_.try_emplace(object);
   if (is_new) {
-    const ObjectScene& scene = scenes_.at(object);
-    require_in_view(rig_.scene, scenes_, view_, object);
+    const ObjectScene& scene = objects_.at(object);
+    require_in_view(rig_.scene, objects_, view_, object);
     double patch_mm = scene.size_mm();
     const auto patch_size_mm = [&](const std::array<Medium, 3>& media, double size_mm) {
       if (!transport_.volume) return render_patch_size_mm(media, size_mm);
@@ -88,7 +85,7 @@ std::vector<IncidentLight> ShotRenderer::light_on(const Light& light, const Obje
 }
 
 SurfaceField ShotRenderer::field(const SceneShot& shot, Stage& s) const {
-  const ObjectScene& scene = scenes_.at(shot.object);
+  const ObjectScene& scene = objects_.at(shot.object);
   std::array<Medium, 3> media = truth_of(rig_, shot);
   for (Medium& m : media) m.eta_int_over_ext = scene.stated->eta_int_over_ext;
   SurfaceField field(*s.patches, s.needed);
@@ -111,7 +108,7 @@ SurfaceField ShotRenderer::field(const SceneShot& shot, Stage& s) const {
 }
 
 SurfaceField ShotRenderer::volume_field(const SceneShot& shot, Stage& s) {
-  const ObjectScene& scene = scenes_.at(shot.object);
+  const ObjectScene& scene = objects_.at(shot.object);
   const double eta = scene.stated->eta_int_over_ext;
   if (!s.boundary) s.boundary = std::make_unique<PathBoundary>(*scene.rays);
   if (!s.camera) {
@@ -166,7 +163,7 @@ ColourRadiance ShotRenderer::render_colour(const SceneShot& shot) {
 RadiancePicture ShotRenderer::render(const SceneShot& shot) {
   Stage& s = stage(shot.object);
   const SurfaceField light = light_from(shot, s);
-  const double eta = scenes_.at(shot.object).stated->eta_int_over_ext;
+  const double eta = objects_.at(shot.object).stated->eta_int_over_ext;
   const ShadeMap& pixels = *s.pixels;
   RadiancePicture out;
   out.brightest = light.max() * fresnel_transmittance(eta, 1.0) / std::numbers::pi;
@@ -200,8 +197,8 @@ RadiancePicture ShotRenderer::render(const SceneShot& shot) {
       ambient += lamp->open_irradiance_W_per_mm2(normal);
       if (lamp.led() != nullptr) leds.push_back(lamp.led()->led);
     }
-    add_board(view_, *rig_.pose.charuco, leds, ambient, *scenes_.at(shot.object).rays,
-              channel_of_phase_, out.radiance);
+    add_board(view_, *rig_.pose.charuco, leds, ambient, *objects_.at(shot.object).rays,
+              rig_.scene.camera.sensor.cfa, out.radiance);
   }
   return out;
 }

@@ -30,7 +30,7 @@ namespace scattermeter::apps {
 struct RadiancePicture {
   int x0 = 0, y0 = 0, width = 0, height = 0;  // px, in the frame
   std::vector<float> radiance;                // row by row
-  // At normal exit of the brightest place of the object, per channel: an upper bound for its
+  // At normal exit from the brightest point of the object, per channel: an upper bound for its
   // pixels.
   Eigen::Array3d brightest = Eigen::Array3d::Zero();
 };
@@ -41,40 +41,44 @@ struct ColourRadiance {
   std::vector<float> rgb;                     // row by row
 };
 
-// How light moves in the material.
+// How light propagates in the material.
 struct RenderTransport {
-  bool volume =
-      false;  // the volumetric Monte Carlo (core/transport/path_tracer.h); else the dipole
-  std::int64_t paths = 1'000'000;  // Monte Carlo: for each light of a shot and channel
-  std::uint64_t seed = 1;          // Monte Carlo
-  PathPeers* peers = nullptr;      // Monte Carlo: processes that share the paths
+  // By volumetric Monte Carlo (core/transport/path_tracer.h) with the values below; otherwise by
+  // the dipole.
+  bool volume = false;
+  std::int64_t paths = 1'000'000;  // for each light of a shot and channel
+  std::uint64_t seed = 1;
+  PathPeers* peers = nullptr;  // processes that share the paths
 };
 
-// The camera that takes a simulated rig's shots: at truth.pose, else where the pose points put it.
-// Throws InputError where the rig has neither.
+// The camera of simulated shots: at truth.pose, otherwise at the pose from the pose points. Throws
+// InputError if the rig has neither.
 CameraView true_view(const Rig& rig);
 
-// Renders shots one by one; patches, pixels and light of an object are shared by
-// its shots. Rig and scenes must outlive it. Not for several threads at once (it uses all of them).
+// Renders shots one by one; the shots of an object share its patches, pixels and light. Rig and
+// objects must outlive it. It must not be used by several threads at once (it uses all of them).
 class ShotRenderer {
  public:
-  // Throws InputError where the rig lacks a truth material or pose, or for a probe.
-  ShotRenderer(const Rig& rig, const ObjectScenes& scenes, const RenderTransport& transport = {});
+  // Throws InputError for a truth material or pose that the rig lacks, and for an invalid probe.
+  ShotRenderer(const Rig& rig, const ObjectScenes& objects, const RenderTransport& transport = {});
 
-  // Throws InputError when the object is out of view. The rectangle is the object's; with a board
-  // in the shots, the frame.
+  // Renders the rectangle around the object; with a board in the shots, the frame. Throws
+  // InputError if the object is out of view.
   RadiancePicture render(const SceneShot& shot);
-  // The same light on the object's rectangle, whatever filter a pixel has and without a board.
+  // All channels of each pixel in the rectangle around the object, without a board.
   ColourRadiance render_colour(const SceneShot& shot);
 
   // Monte Carlo error of the shots rendered so far: the largest, over shots, lights and channels,
   // of the median relative deviation of a patch's light. 0 for the dipole.
   double monte_carlo_std() const { return monte_carlo_std_; }
 
-  int channel(int x, int y) const { return channel_of_phase_[cfa_phase(x, y)]; }
+  int channel(int x, int y) const {
+    return static_cast<int>(rig_.scene.camera.sensor.cfa.at(x, y));
+  }
 
  private:
-  // An object from the camera, with the light of each LED (one) or environment (R, G, B) on it.
+  // An object as seen by the camera, with the light on it by name: one for an LED, R, G and B for
+  // an environment.
   struct Stage {
     std::unique_ptr<PatchMesh> patches;
     std::unique_ptr<ShadeMap> pixels;
@@ -92,12 +96,11 @@ class ShotRenderer {
   SurfaceField volume_field(const SceneShot& shot, Stage& s);
 
   const Rig& rig_;
-  const ObjectScenes& scenes_;
+  const ObjectScenes& objects_;
   RenderTransport transport_;
-  std::uint64_t runs_ = 0;  // of the Monte Carlo; each has a seed of its own
+  std::uint64_t runs_ = 0;  // of the Monte Carlo, each with its own seed
   double monte_carlo_std_ = 0;
   CameraView view_;
-  std::array<int, 4> channel_of_phase_{};
   std::map<std::string, Stage> stages_;
 };
 

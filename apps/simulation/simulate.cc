@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "apps/instrument/open_objects.h"
+#include "apps/simulation/chosen_exposure.h"
 #include "apps/simulation/simulate_camera_calibration.h"
 #include "apps/simulation/simulate_led_calibration.h"
 #include "apps/simulation/simulate_radiance_calibration.h"
@@ -14,10 +15,11 @@
 #include "core/base/progress.h"
 
 namespace scattermeter::apps {
-
 namespace {
 
-double board_exposure_s(const Rig& rig) { return rig.scene.camera.exposure_s.value_or(0.1); }
+double board_exposure_s(const Rig& rig) {
+  return rig.scene.camera.exposure_s.value_or(kDefaultExposure_s);
+}
 
 std::vector<float> board_signal_counts(const Rig& rig) {
   const calib::CharucoBoard& board = *rig.pose.charuco;
@@ -47,25 +49,25 @@ capture::RawFrame board_frame(const Rig& rig) {
 
 SimulatedShots simulate(const Rig& given, const std::string& out_folder,
                         const SimulateOptions& options, Progress* progress) {
-  // A board that has a shot of its own is in no other.
+  // A board with a shot of its own is in no other shot.
   Rig rig = given;
   if (!rig.pose.board_shot.empty()) {
-    true_view(given);  // throws where the rig does not say where the camera stands
+    true_view(given);  // throws if the rig has no pose of the camera
     rig.pose.charuco.reset();
   }
-  ObjectScenes scenes;
+  ObjectScenes objects;
   std::optional<VirtualShots> shots;
   if (options.scene) {
-    scenes = open_objects(rig);
+    objects = open_objects(rig);
     RenderTransport transport = options.transport;
     transport.seed = options.seed;
-    shots.emplace(rig, scenes, VirtualShotOptions{options.noise, progress, transport});
+    shots.emplace(rig, objects, VirtualShotOptions{options.noise, progress, transport});
   }
   SimulatedShots made;
   if (options.transport.peers != nullptr && options.transport.peers->place() > 0) return made;
   std::error_code error;
   std::filesystem::create_directories(out_folder, error);
-  if (error) throw InputError(out_folder, "the folder cannot be made: " + error.message());
+  if (error) throw InputError(out_folder, "the folder cannot be created: " + error.message());
   if (!given.pose.board_shot.empty()) {
     made.paths.push_back(write_board_shot(given, out_folder, options));
   }

@@ -1,4 +1,4 @@
-// The raws that a rig would have shot of its truth.
+// Simulated raw shots of a rig's truth.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +25,13 @@ struct SimulatedShots {
   double monte_carlo_std = 0;      // see ShotRenderer
 };
 
-// The board of pose.shot without noise, as the camera that takes all other shots sees it.
-// Precondition: the rig has one. Throws InputError where it does not say where the camera stands.
+// The shot of the board that pose.shot names, without noise, from the camera of the other shots.
+// Precondition: the rig names one. Throws InputError if the rig has no pose of the camera.
 capture::RawFrame board_frame(const Rig& rig);
 
-// Writes every shot of the rig (VirtualShots) as a 12-bit DNG into `out_folder`, made where
-// missing. Throws InputError for bad input; each file appears complete or not at all. Of peers
-// (transport.peers) the first alone writes.
+// Writes every shot of the rig (VirtualShots) as a 12-bit DNG into `out_folder`, which is created
+// if it is missing. Throws InputError for bad input; each file appears complete or not at all. With
+// peers (transport.peers), only the first writes.
 SimulatedShots simulate(const Rig& rig, const std::string& out_folder,
                         const SimulateOptions& options = {}, Progress* progress = nullptr);
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "apps/simulation/board_signal.h"
-#include "capture/raw/tone_curve.h"
+#include "apps/simulation/chosen_exposure.h"
 #include "capture/sensor/virtual_sensor.h"
 #include "core/base/input_error.h"
 #include "core/base/progress.h"
@@ -15,7 +15,6 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr double kWhiteOfRange = 0.7;
-constexpr double kBoardExposure_s = 0.1;  // stated where the rig has none
 
 TriangleMesh board_outline(const calib::CalibrationBoard& board) {
   TriangleMesh mesh;
@@ -26,19 +25,15 @@ TriangleMesh board_outline(const calib::CalibrationBoard& board) {
 }
 
 // Counts of white in full light, per phase.
-std::array<float, 4> white_counts(const SceneCamera& camera) {
-  const SceneSensor& sensor = camera.sensor;
-  const double top = sensor.nef_lossy_curve
-                         ? std::min<double>(sensor.white_counts, capture::nef_lossy_curve().back())
-                         : sensor.white_counts;
-  const double range = kWhiteOfRange * (top - *std::max_element(sensor.black_counts.begin(),
-                                                                sensor.black_counts.end()));
-  std::array<double, 3> answer = camera.responsivity.value_or(std::array<double, 3>{1, 1, 1});
-  const double most = *std::max_element(answer.begin(), answer.end());
+std::array<float, 4> white_counts(const Scene& scene) {
+  const double range = kWhiteOfRange * capture::VirtualSensor(scene, {}, false).range_counts();
+  const std::array<double, 3> responsivity =
+      scene.camera.responsivity.value_or(std::array<double, 3>{1, 1, 1});
+  const double most = *std::max_element(responsivity.begin(), responsivity.end());
   std::array<float, 4> counts{};
   for (std::size_t p = 0; p < 4; ++p) {
-    counts[p] =
-        static_cast<float>(range * answer[static_cast<std::size_t>(sensor.cfa.phase[p])] / most);
+    const auto c = static_cast<std::size_t>(scene.camera.sensor.cfa.phase[p]);
+    counts[p] = static_cast<float>(range * responsivity[c] / most);
   }
   return counts;
 }
@@ -49,7 +44,7 @@ std::vector<float> board_shot_counts(const Rig& rig, const calib::BoardShot& sho
   const std::string where = rig.at(shot.line) + ": calibration.camera.shots";
   if (!shot.viewpoint) {
     throw InputError(where + ".position_mm",
-                     "is missing: simulate needs the camera's place of " + shot.file);
+                     "is missing: simulate needs the position of the camera for " + shot.file);
   }
   return board_counts(
       rig,
@@ -67,7 +62,7 @@ std::vector<float> board_counts(const Rig& rig, const CameraView& view,
                                 ", or seen from behind (its print faces +z)");
   }
   std::vector<float> counts = board_signal(view, board);
-  const std::array<float, 4> white = white_counts(rig.scene.camera);
+  const std::array<float, 4> white = white_counts(rig.scene);
   const auto width = static_cast<std::size_t>(rig.scene.camera.intrinsics.width_px);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     counts[i] *= white[cfa_phase(static_cast<int>(i % width), static_cast<int>(i / width))];
@@ -86,7 +81,7 @@ std::vector<std::string> simulate_camera_calibration(const Rig& rig, const std::
   for (const calib::BoardShot& shot : shots) {
     paths.push_back((std::filesystem::path(out_folder) / shot.file).string());
     sensor.write(paths.back(), board_shot_counts(rig, shot),
-                 rig.scene.camera.exposure_s.value_or(kBoardExposure_s),
+                 rig.scene.camera.exposure_s.value_or(kDefaultExposure_s),
                  capture::VirtualSensor::stream(options.seed, shot.file));
     stage.step();
   }

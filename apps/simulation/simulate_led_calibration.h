@@ -1,4 +1,4 @@
-// The shots of a rig's calibration.led.
+// Simulation of the shots of a rig's calibration.led.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace scattermeter::apps {
 
-// Writes the shots into `out_folder` (which exists); the paths of the files. None where the rig has
-// no calibration.led. Throws InputError for bad input.
+// Writes the shots into `out_folder`, which must exist, and returns the paths of the files: none if
+// the rig has no calibration.led. Throws InputError for bad input.
 std::vector<std::string> simulate_led_calibration(const Rig& rig, const std::string& out_folder,
                                                   const SimulateOptions& options,
                                                   Progress* progress);

@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "apps/simulation/chosen_exposure.h"
 #include "apps/simulation/led_picture.h"
 #include "apps/simulation/shot_renderer.h"
 #include "calib/led/led_shots.h"
-#include "capture/raw/tone_curve.h"
 #include "core/base/input_error.h"
 
 namespace scattermeter::apps {
 namespace {
-
-constexpr double kLedExposedTo = 0.75;  // of the range, for a chosen exposure
 
 bool is_led_of(const Rig& rig, const std::string& name) {
   return std::any_of(rig.scene.lights.begin(), rig.scene.lights.end(),
@@ -29,11 +26,6 @@ VirtualLedShots::VirtualLedShots(const Rig& rig, bool noise)
   responsivity.fill(calib::kNominalResponsivity);
   responsivity = rig.scene.camera.responsivity.value_or(responsivity);
   const SceneSensor& s = rig.scene.camera.sensor;
-  const double top = s.nef_lossy_curve
-                         ? std::min<double>(s.white_counts, capture::nef_lossy_curve().back())
-                         : s.white_counts;
-  const double range =
-      kLedExposedTo * (top - *std::max_element(s.black_counts.begin(), s.black_counts.end()));
   const int width = view.intrinsics.width_px;
   for (const calib::LedCalibrationShot& shot : rig.calibration.led->shots) {
     if (shot.kind != calib::LedShotKind::kAmbient && !is_led_of(rig, shot.light)) {
@@ -52,15 +44,12 @@ VirtualLedShots::VirtualLedShots(const Rig& rig, bool noise)
     if (shot.exposure_s) {
       exposure = *shot.exposure_s;
     } else if (brightest > 0.0F) {
-      // Two digits, rounded down.
-      const double exact_s = range / brightest;
-      const double unit = std::pow(10.0, std::floor(std::log10(exact_s)) - 1.0);
-      exposure = std::floor(exact_s / unit) * unit;
+      exposure = rounded_exposure_s(kExposedTo * sensor_.range_counts() / brightest);
     }
     exposure_s_.push_back(exposure);
     counts_.push_back(std::move(picture));
   }
-  // An ambient shot is exposed as the plane's.
+  // An ambient shot is exposed like the shot of its plane.
   const std::vector<calib::LedCalibrationShot>& listed = rig.calibration.led->shots;
   for (std::size_t i = 0; i < listed.size(); ++i) {
     if (listed[i].kind != calib::LedShotKind::kAmbient || listed[i].exposure_s) continue;

@@ -1,4 +1,4 @@
-// The shots of a rig's calibration.led: rendered once, exposed as often as wanted.
+// Simulated shots of a rig's calibration.led: rendered once, exposed as often as needed.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace scattermeter::apps {
 
-// The rig's own values are the truth. The rig must outlive it. Everything const may be called from
-// several threads at once.
+// The rig's values are the truth. The rig must outlive it. Const members may be called from several
+// threads at once.
 class VirtualLedShots {
  public:
-  // Renders every shot (apps/simulation/led_picture.h). Without a responsivity the nominal one
-  // counts (calib/led/led_shots.h). A shot without exposure_s is exposed so that its brightest
-  // sample reaches three quarters of the range, an ambient one as the first shot of its plane.
-  // Precondition: the rig has calibration.led. Throws InputError for a light that is no LED of the
-  // rig, or a pose that it lacks.
+  // Renders every shot (apps/simulation/led_picture.h). A rig without responsivity has the nominal
+  // one (calib/led/led_shots.h). A shot without exposure_s is exposed so that its brightest sample
+  // reaches three quarters of the range, an ambient one like the first shot of its plane.
+  // Precondition: the rig has calibration.led. Throws InputError for a light that is not an LED of
+  // the rig, and for a missing pose.
   VirtualLedShots(const Rig& rig, bool noise);
 
   std::size_t size() const { return counts_.size(); }
@@ -28,7 +28,7 @@ class VirtualLedShots {
   const std::vector<float>& counts(std::size_t shot) const { return counts_.at(shot); }
   std::vector<float>& counts(std::size_t shot) { return counts_.at(shot); }
 
-  // One exposure; each shot draws from a stream of the seed of its own.
+  // One exposure; each shot has its own random stream of the seed.
   capture::RawFrame frame(std::size_t shot, std::uint64_t seed) const;
   void write(std::size_t shot, std::uint64_t seed, const std::string& path) const;
 

@@ -1,22 +1,17 @@
 #include "apps/simulation/virtual_shots.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "apps/simulation/chosen_exposure.h"
 #include "capture/sensor/ideal_samples.h"
 #include "core/base/input_error.h"
 #include "core/base/progress.h"
 
 namespace scattermeter::apps {
-namespace {
 
-constexpr double kExposedTo = 0.75;  // of the range, for a chosen exposure
-
-}  // namespace
-
-VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& scenes,
+VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& objects,
                            const VirtualShotOptions& options)
     : rig_(rig), options_(options), sensor_(rig.scene, rig.truth.sensor, options.noise) {
   for (const SceneShot& shot : rig.scene.shots) {
@@ -24,7 +19,7 @@ VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& scenes,
     throw InputError(rig.at(shot.line) + ": shots.exposure_s",
                      "is missing: a time is needed for each file of the bracket " + shot.file);
   }
-  ShotRenderer renderer(rig, scenes, options.transport);
+  ShotRenderer renderer(rig, objects, options.transport);
   Eigen::Array3d brightest = Eigen::Array3d::Zero();
   ProgressStage stage(options.progress, "rendering", rig.scene.shots.size());
   for (const SceneShot& shot : rig.scene.shots) {
@@ -59,12 +54,9 @@ void VirtualShots::choose_exposure(const Eigen::Array3d& brightest) {
     for (std::size_t c = 0; c < 3; ++c) {
       peak = std::max(peak, responsivity_[c] * brightest[static_cast<Eigen::Index>(c)]);
     }
-    // Two digits, rounded down.
-    const double exact_s = peak > 0.0 ? range / peak : 1.0;
-    const double unit = std::pow(10.0, std::floor(std::log10(exact_s)) - 1.0);
-    default_exposure_s_ = std::floor(exact_s / unit) * unit;
+    default_exposure_s_ = rounded_exposure_s(peak > 0.0 ? range / peak : 1.0);
   } else {
-    default_exposure_s_ = rig_.scene.camera.exposure_s.value_or(0.1);
+    default_exposure_s_ = rig_.scene.camera.exposure_s.value_or(kDefaultExposure_s);
     const double peak = brightest.maxCoeff();
     responsivity_.fill(peak > 0.0 ? range / (peak * default_exposure_s_) : 1.0);
   }
@@ -118,6 +110,27 @@ void VirtualShots::write(std::size_t shot, std::uint64_t seed, const std::string
                          std::size_t exposure) const {
   sensor_.write(path, whole_signal_counts(shot, exposure), exposure_s(shot, exposure),
                 stream(shot, seed, exposure));
+}
+
+capture::ShotSource VirtualShots::source(std::uint64_t seed) const {
+  return capture::shots_from(rig_.scene, capture::all_shots(rig_.scene),
+                             capture::FrameSource([this, seed](std::size_t i, std::size_t k) {
+                               return frame(i, seed, k);
+                             }));
+}
+
+capture::ShotSource VirtualShots::expected_source() const {
+  return capture::shots_from(
+      rig_.scene, capture::all_shots(rig_.scene),
+      capture::FrameSource([this](std::size_t i, std::size_t k) { return expected_frame(i, k); }));
+}
+
+capture::ShotSource VirtualShots::ideal_source() const {
+  return capture::shots_from(rig_.scene, capture::all_shots(rig_.scene),
+                             capture::SampleSource([this](std::size_t i, const SampleMap& where) {
+                               return ideal_samples(i, where.x0, where.y0, where.width,
+                                                    where.height);
+                             }));
 }
 
 CfaSamples VirtualShots::ideal_samples(std::size_t shot, int x0, int y0, int width,

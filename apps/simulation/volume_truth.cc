@@ -8,8 +8,8 @@
 namespace scattermeter::apps {
 namespace {
 
-// Of the exposure that suits the dipole: the volume may be brighter. Beyond the range samples count
-// on, at the variance of its top: to drop what noise made bright would be a bias.
+// Of the exposure for the dipole's picture, as the volume may be brighter. Samples beyond the range
+// are kept, with the variance at its top: to drop those that noise made bright would cause a bias.
 constexpr double kHeadroom = 0.5;
 
 CfaSamples samples(const VirtualShots& shots, std::size_t shot, const SampleMap& where) {
@@ -35,23 +35,23 @@ CfaSamples mean_samples(const std::vector<VirtualShots>& batches, std::size_t sh
 
 }  // namespace
 
-VolumeTruth::VolumeTruth(const Rig& rig, const ObjectScenes& scenes,
+VolumeTruth::VolumeTruth(const Rig& rig, const ObjectScenes& objects,
                          const VolumeTruthOptions& options)
     : exposed_(rig), options_(options) {
   if (options.batches < 2) {
     throw std::invalid_argument("VolumeTruth: batches " + std::to_string(options.batches));
   }
   VirtualShotOptions render{.noise = true};
-  const VirtualShots trial(rig, scenes, render);
+  const VirtualShots trial(rig, objects, render);
   exposed_.scene.camera.exposure_s = kHeadroom * trial.exposure_s(0);
   exposed_.scene.camera.responsivity = trial.responsivity();
-  dipole_.emplace_back(exposed_, scenes, render);
+  dipole_.emplace_back(exposed_, objects, render);
   render.transport.volume = true;
   render.transport.paths = std::max<std::int64_t>(1, options.paths / options.batches);
   for (int b = 0; b < options.batches; ++b) {
     render.transport.seed =
         options.seed * static_cast<std::uint64_t>(options.batches) + static_cast<std::uint64_t>(b);
-    batches_.emplace_back(exposed_, scenes, render);
+    batches_.emplace_back(exposed_, objects, render);
   }
 }
 

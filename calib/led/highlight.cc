@@ -6,8 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/base/middle_value.h"
-#include "core/camera/lens.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -82,169 +81,137 @@ Blob grow(const CellSums& cells, const std::vector<bool>& on_disc, int i, int j,
   return blob;
 }
 
+// The brightest cell on the sphere's disc, and what it stands out from.
+struct Peak {
+  int i = 0, j = 0;           // of CellSums
+  double value = 0;           // of that cell
+  double base = 0;            // median cell of the disc
+  double scatter = 0;         // robust standard deviation of the cells, at least the noise
+  std::size_t n_cells = 0;    // of the disc
+  std::vector<bool> on_disc;  // one per cell
+};
+
+Peak brightest_cell(const CfaSamples& s, const CellSums& cells, const SphereImage& sphere) {
+  Peak peak;
+  std::vector<double> values;
+  peak.value = -std::numeric_limits<double>::infinity();
+  for (int j = 0; j < cells.height; ++j) {
+    for (int i = 0; i < cells.width; ++i) {
+      const Eigen::Vector2d p(s.x0 + 2 * i + 0.5, s.y0 + 2 * j + 0.5);
+      const bool inside = (p - sphere.center_px).norm() < sphere.radius_px;
+      peak.on_disc.push_back(inside);
+      if (!inside) continue;
+      values.push_back(cells.at(i, j));
+      if (values.back() > peak.value) {
+        peak.value = values.back();
+        peak.i = i;
+        peak.j = j;
+      }
+    }
+  }
+  peak.n_cells = values.size();
+  if (values.empty()) return peak;
+  peak.base = upper_median(values);
+  for (double& v : values) v = std::abs(v - peak.base);
+  double noise2 = 0.0;
+  for (float v : s.variance_counts2) noise2 += v;
+  noise2 *= 4.0 / static_cast<double>(s.variance_counts2.size());
+  peak.scatter = std::max(kStdPerMad * upper_median(values), std::sqrt(noise2));
+  return peak;
+}
+
 struct PhaseSums {
   double w = 0, wx = 0, wy = 0;  // of signal above the surroundings
   double vx = 0, vy = 0;         // variance of wx, wy about the centre
   double noise2 = 0;
 };
 
-}  // namespace
+// The samples about a blob, out to a radius of `half` px and what surrounds that.
+class BlobWindow {
+ public:
+  BlobWindow(const CfaSamples& samples, double half) : s_(samples), half_(half) {}
 
-SphereImage sphere_image(const CameraIntrinsics& intrinsics, const Rigid3d& camera_from_world,
-                         const MirrorSphere& sphere) {
-  constexpr int kSides = 48;
-  constexpr int kMargin = 4;
-  SphereImage image;
-  const Lens lens(intrinsics);
-  const Eigen::Vector3d c = camera_from_world * sphere.center_mm;
-  const double distance = c.norm();
-  if (!(distance > sphere.radius_mm) || !(c.z() > 0.0)) return image;
-  // The outline: the circle of the points where rays touch the sphere.
-  const Eigen::Vector3d axis = c / distance;
-  const double sine = sphere.radius_mm / distance;
-  const Eigen::Vector3d foot = c - sphere.radius_mm * sine * axis;
-  const double ring_mm = sphere.radius_mm * std::sqrt(1.0 - sine * sine);
-  const Eigen::Vector3d u = axis.unitOrthogonal();
-  const Eigen::Vector3d v = axis.cross(u);
-  image.center_px = lens.project(c);
-  if (!image.center_px.allFinite()) return image;
-  double x_min = 1e30, y_min = 1e30, x_max = -1e30, y_max = -1e30;
-  image.radius_px = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kSides; ++k) {
-    const double t = 2.0 * M_PI * k / kSides;
-    const Eigen::Vector2d p = lens.project(foot + ring_mm * (std::cos(t) * u + std::sin(t) * v));
-    if (!p.allFinite()) return image;
-    x_min = std::min(x_min, p.x());
-    x_max = std::max(x_max, p.x());
-    y_min = std::min(y_min, p.y());
-    y_max = std::max(y_max, p.y());
-    image.radius_px = std::min(image.radius_px, (p - image.center_px).norm());
-  }
-  if (!(x_max > 0.0) || !(y_max > 0.0) || !(x_min < intrinsics.width_px) ||
-      !(y_min < intrinsics.height_px)) {
-    return image;
-  }
-  image.x0 = std::max(0, static_cast<int>(std::floor(x_min)) - kMargin) & ~1;
-  image.y0 = std::max(0, static_cast<int>(std::floor(y_min)) - kMargin) & ~1;
-  image.width =
-      (std::min(intrinsics.width_px, static_cast<int>(std::ceil(x_max)) + kMargin) - image.x0) & ~1;
-  image.height =
-      (std::min(intrinsics.height_px, static_cast<int>(std::ceil(y_max)) + kMargin) - image.y0) &
-      ~1;
-  if (image.width < 4 || image.height < 4) image.width = image.height = 0;
-  return image;
-}
-
-FoundHighlight find_highlight(const CfaSamples& s, const SphereImage& sphere,
-                              const HighlightOptions& options) {
-  FoundHighlight found;
-  found.image_px.setConstant(std::numeric_limits<double>::quiet_NaN());
-  if (s.width < 4 || s.height < 4) {
-    found.problem = "the sphere is out of view";
-    return found;
-  }
-  const CellSums cells = cell_sums(s);
-  std::vector<bool> on_disc;
-  std::vector<double> values;
-  std::size_t best = 0;
-  double peak = -std::numeric_limits<double>::infinity();
-  for (int j = 0; j < cells.height; ++j) {
-    for (int i = 0; i < cells.width; ++i) {
-      const Eigen::Vector2d p(s.x0 + 2 * i + 0.5, s.y0 + 2 * j + 0.5);
-      const bool inside = (p - sphere.center_px).norm() < sphere.radius_px;
-      on_disc.push_back(inside);
-      if (!inside) continue;
-      values.push_back(cells.at(i, j));
-      if (values.back() > peak) {
-        peak = values.back();
-        best = on_disc.size() - 1;
-      }
-    }
-  }
-  if (values.size() < 16) {
-    found.problem = "the sphere is too small in the frame, or out of it";
-    return found;
-  }
-  const double disc_cells = static_cast<double>(values.size());
-  const double base = middle_value(values);
-  for (double& v : values) v = std::abs(v - base);
-  double noise2 = 0.0;
-  for (float v : s.variance_counts2) noise2 += v;
-  noise2 *= 4.0 / static_cast<double>(s.variance_counts2.size());
-  const double scatter = std::max(1.4826 * middle_value(values), std::sqrt(noise2));
-  if (!(peak - base > options.min_snr * scatter)) {
-    found.problem = "no highlight on the sphere: is it hidden, or the LED off?";
-    return found;
-  }
-  const int bi = static_cast<int>(best) % cells.width;
-  const int bj = static_cast<int>(best) / cells.width;
-  const Blob blob = grow(cells, on_disc, bi, bj, base + kFoot * (peak - base));
-  if (static_cast<double>(blob.cells) > options.max_share * disc_cells) {
-    found.problem = "the bright part of the sphere is no compact highlight";
-    return found;
-  }
-  if (blob.touches_rim) {
-    found.problem = "the highlight lies at the rim of the sphere";
-    return found;
-  }
-  found.width_px = std::max(blob.high_x - blob.low_x, blob.high_y - blob.low_y) + 1;
-  // Its surroundings: a window of twice its size and more, as far as the sphere goes.
-  const double half = found.width_px / 2.0 + 6.0;
-  Eigen::Vector2d center(s.x0 + 0.5 * (blob.low_x + blob.high_x),
-                         s.y0 + 0.5 * (blob.low_y + blob.high_y));
-  std::array<PhaseSums, 4> sums;
-  std::array<double, 4> level{};
-  std::size_t saturated = 0, in_blob = 0;
-  // The window is centred on the blob, so that what stays of the surroundings pulls nowhere.
-  for (int round = 0; round < 4; ++round) {
-    sums = {};
-    saturated = in_blob = 0;
+  // Sums of each filter phase about a centre, above the median of the phase's samples around.
+  std::array<PhaseSums, 4> sums_about(const Eigen::Vector2d& center) const {
     std::array<std::vector<double>, 4> around;
-    const auto each = [&](const auto& visit) {
-      const int reach = static_cast<int>(std::ceil(half)) + 4;
-      const int cx = static_cast<int>(std::lround(center.x())) - s.x0;
-      const int cy = static_cast<int>(std::lround(center.y())) - s.y0;
-      for (int y = std::max(0, cy - reach); y < std::min(s.height, cy + reach + 1); ++y) {
-        for (int x = std::max(0, cx - reach); x < std::min(s.width, cx + reach + 1); ++x) {
-          const Eigen::Vector2d p(s.x0 + x, s.y0 + y);
-          visit(p, static_cast<std::size_t>(y) * static_cast<std::size_t>(s.width) +
-                       static_cast<std::size_t>(x));
-        }
-      }
-    };
-    each([&](const Eigen::Vector2d& p, std::size_t at) {
+    each(center, [&](const Eigen::Vector2d& p, std::size_t at) {
       const double r = (p - center).norm();
-      if (r > half - 2.0 && r < half + 3.0) {
-        around[cfa_phase(static_cast<int>(p.x()), static_cast<int>(p.y()))].push_back(
-            s.signal_counts[at]);
+      if (r > half_ - 2.0 && r < half_ + 3.0) {
+        around[phase_at(p)].push_back(s_.signal_counts[at]);
       }
     });
-    for (std::size_t k = 0; k < 4; ++k)
-      level[k] = around[k].empty() ? 0.0 : middle_value(around[k]);
-    each([&](const Eigen::Vector2d& p, std::size_t at) {
+    std::array<double, 4> level{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      level[k] = around[k].empty() ? 0.0 : upper_median(around[k]);
+    }
+    std::array<PhaseSums, 4> sums{};
+    each(center, [&](const Eigen::Vector2d& p, std::size_t at) {
       const double r = (p - center).norm();
       // Samples fade out over the last one of the window: none enters or leaves as a whole.
-      const double taper = std::clamp(half + 0.5 - r, 0.0, 1.0);
+      const double taper = std::clamp(half_ + 0.5 - r, 0.0, 1.0);
       if (taper == 0.0) return;
-      const std::size_t k = cfa_phase(static_cast<int>(p.x()), static_cast<int>(p.y()));
-      const double w = taper * (s.signal_counts[at] - level[k]);
+      const std::size_t k = phase_at(p);
+      const double w = taper * (s_.signal_counts[at] - level[k]);
       PhaseSums& sum = sums[k];
       sum.w += w;
       sum.wx += w * (p.x() - center.x());
       sum.wy += w * (p.y() - center.y());
-      const double var = taper * taper * s.variance_counts2[at];
+      const double var = taper * taper * s_.variance_counts2[at];
       sum.vx += var * (p.x() - center.x()) * (p.x() - center.x());
       sum.vy += var * (p.y() - center.y()) * (p.y() - center.y());
       sum.noise2 += var;
-      if (r < 0.5 * found.width_px) {
-        ++in_blob;
-        saturated += s.clipped[at];
-      }
     });
+    return sums;
+  }
+
+  // Share of the samples within `radius` px, less than `half`, that are clipped.
+  double saturated_share(const Eigen::Vector2d& center, double radius) const {
+    std::size_t saturated = 0, in_blob = 0;
+    each(center, [&](const Eigen::Vector2d& p, std::size_t at) {
+      if (!((p - center).norm() < radius)) return;
+      ++in_blob;
+      saturated += s_.clipped[at];
+    });
+    return in_blob > 0 ? static_cast<double>(saturated) / static_cast<double>(in_blob) : 0.0;
+  }
+
+ private:
+  static std::size_t phase_at(const Eigen::Vector2d& p) {
+    return cfa_phase(static_cast<int>(p.x()), static_cast<int>(p.y()));
+  }
+
+  template <typename Visit>
+  void each(const Eigen::Vector2d& center, const Visit& visit) const {
+    const int reach = static_cast<int>(std::ceil(half_)) + 4;
+    const int cx = static_cast<int>(std::lround(center.x())) - s_.x0;
+    const int cy = static_cast<int>(std::lround(center.y())) - s_.y0;
+    for (int y = std::max(0, cy - reach); y < std::min(s_.height, cy + reach + 1); ++y) {
+      for (int x = std::max(0, cx - reach); x < std::min(s_.width, cx + reach + 1); ++x) {
+        visit(Eigen::Vector2d(s_.x0 + x, s_.y0 + y),
+              static_cast<std::size_t>(y) * static_cast<std::size_t>(s_.width) +
+                  static_cast<std::size_t>(x));
+      }
+    }
+  }
+
+  const CfaSamples& s_;
+  double half_;
+};
+
+// Sets image_px, std_px and saturated_share from the blob about `center`, width_px wide; or
+// says in `problem` why there is no centroid.
+void find_centroid(const CfaSamples& s, const HighlightOptions& options, Eigen::Vector2d center,
+                   FoundHighlight& found) {
+  // Its surroundings: a window of twice its size and more, as far as the sphere goes.
+  const double half = found.width_px / 2.0 + 6.0;
+  const BlobWindow window(s, half);
+  double saturated_share = 0.0, std_px = 0.0;
+  // The window is centred on the blob, so that what stays of the surroundings pulls nowhere.
+  for (int round = 0; round < 4; ++round) {
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     Eigen::Vector2d variance = Eigen::Vector2d::Zero();
     double phases = 0.0;
-    for (const PhaseSums& sum : sums) {
+    for (const PhaseSums& sum : window.sums_about(center)) {
       if (!(sum.w > options.min_snr * std::sqrt(sum.noise2))) continue;
       phases += 1.0;
       mean += Eigen::Vector2d(sum.wx, sum.wy) / sum.w;
@@ -252,20 +219,58 @@ FoundHighlight find_highlight(const CfaSamples& s, const SphereImage& sphere,
     }
     if (phases == 0.0) {
       found.problem = "the highlight is too weak";
-      return found;
+      return;
     }
     mean /= phases;
     variance /= phases * phases;
     if (mean.norm() > half) {
       found.problem = "no compact highlight on the sphere";
-      return found;
+      return;
     }
+    saturated_share = window.saturated_share(center, 0.5 * found.width_px);
     center += mean;
-    found.std_px = std::sqrt(0.5 * variance.sum() + options.model_std_px * options.model_std_px);
+    std_px = std::sqrt(0.5 * variance.sum() + options.model_std_px * options.model_std_px);
   }
   found.image_px = center;
-  found.saturated_share =
-      in_blob > 0 ? static_cast<double>(saturated) / static_cast<double>(in_blob) : 0.0;
+  found.std_px = std_px;
+  found.saturated_share = saturated_share;
+}
+
+}  // namespace
+
+FoundHighlight find_highlight(const CfaSamples& samples, const SphereImage& sphere,
+                              const HighlightOptions& options) {
+  FoundHighlight found;
+  found.image_px.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (samples.width < 4 || samples.height < 4) {
+    found.problem = "the sphere is out of view";
+    return found;
+  }
+  const CellSums cells = cell_sums(samples);
+  const Peak peak = brightest_cell(samples, cells, sphere);
+  if (peak.n_cells < 16) {
+    found.problem = "the sphere is too small in the frame, or out of it";
+    return found;
+  }
+  if (!(peak.value - peak.base > options.min_snr * peak.scatter)) {
+    found.problem = "no highlight on the sphere: is it hidden, or the LED off?";
+    return found;
+  }
+  const Blob blob =
+      grow(cells, peak.on_disc, peak.i, peak.j, peak.base + kFoot * (peak.value - peak.base));
+  if (static_cast<double>(blob.cells) > options.max_share * static_cast<double>(peak.n_cells)) {
+    found.problem = "the bright part of the sphere is not a compact highlight";
+    return found;
+  }
+  if (blob.touches_rim) {
+    found.problem = "the highlight lies at the rim of the sphere";
+    return found;
+  }
+  found.width_px = std::max(blob.high_x - blob.low_x, blob.high_y - blob.low_y) + 1;
+  find_centroid(samples, options,
+                {samples.x0 + 0.5 * (blob.low_x + blob.high_x),
+                 samples.y0 + 0.5 * (blob.low_y + blob.high_y)},
+                found);
   return found;
 }
 

@@ -5,10 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "calib/led/mirror_sphere.h"
-#include "core/camera/camera_model.h"
+#include "calib/led/sphere_image.h"
 #include "core/camera/cfa_samples.h"
-#include "core/camera/rigid3d.h"
 
 namespace scattermeter::calib {
 
@@ -27,16 +25,6 @@ struct FoundHighlight {
   double saturated_share = 0;  // of the blob's samples
   double width_px = 0;         // across the blob at a tenth of its height
 };
-
-// Rectangle (even x0, y0; cut to the frame) around the image of a sphere with a margin of some px;
-// empty (width 0) where it is out of view.
-struct SphereImage {
-  int x0 = 0, y0 = 0, width = 0, height = 0;  // px
-  Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
-  double radius_px = 0;
-};
-SphereImage sphere_image(const CameraIntrinsics& intrinsics, const Rigid3d& camera_from_world,
-                         const MirrorSphere& sphere);
 
 // The brightest compact blob on the sphere's disc. Nothing is assumed about where the lamp is.
 // Samples at or above the clip are taken as bright as the clip: the blob loses its top, its middle

@@ -7,10 +7,10 @@
 #include <Eigen/Cholesky>
 #include <fmt/core.h>
 
+#include "calib/led/cell_model.h"
 #include "calib/led/led_fit.h"
-#include "calib/led/led_solver.h"
 #include "calib/led/led_start.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 #include "core/camera/lens.h"
 
 namespace scattermeter::calib {
@@ -71,7 +71,7 @@ void hold_planes(const Led& led, const LedShots& shots, const LedFit& fit, LedCh
   for (std::size_t c = 0; c < 3; ++c) {
     const std::vector<double>& values = of_channel[c];
     if (values.empty()) continue;
-    const double middle = middle_value(values);
+    const double middle = upper_median(values);
     median[static_cast<Eigen::Index>(c)] = middle;
     check.power_change_percent[static_cast<Eigen::Index>(c)] = 100.0 * (middle - 1.0);
   }

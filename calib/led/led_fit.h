@@ -1,4 +1,4 @@
-// An LED's place, lobe and power from mirror spheres and white planes.
+// An LED's position, lobe and power from mirror spheres and white planes.
 #pragma once
 
 #include <string>
@@ -22,10 +22,10 @@ enum class AmbientModel {
 
 struct LedFitOptions {
   double inlier_px = 3.0;     // a highlight farther from where the others put the LED is left out
-  double outlier_stds = 6.0;  // a cell farther from the model than so many deviations of the
-                              // bulk is left out, with its neighbours
+  double outlier_stds = 6.0;  // a cell farther from the model than this many standard deviations
+                              // of the bulk is left out, with its neighbours
   double max_left_out = 0.4;  // share of a plane's cells; with more, nothing is concluded
-  // Without a plane, axis, exponent and intensity stay as they are told; how well they are known.
+  // Without a plane, axis, exponent and intensity stay as the start has them, known to these.
   double exponent_std = 0;
   double log_intensity_std = 0;
   AmbientModel ambient = AmbientModel::kWhereSeen;
@@ -35,7 +35,7 @@ struct LedFitOptions {
 // Each by its condition, in the order in which they are looked for.
 enum class LedStatus {
   kOk,
-  // No cell of a plane, and fewer than two highlights that agree on a place.
+  // No cell of a plane, and fewer than two highlights that agree on a position.
   kTooFewData,
   // The least squares did not settle.
   kNotConverged,
@@ -44,8 +44,8 @@ enum class LedStatus {
   // The data leave a combination of the unknowns open: the information matrix, scaled to a unit
   // diagonal, has an eigenvalue below 1e-12.
   kUndetermined,
-  // The place is uncertain by more than 5 % of the distance, the axis by more than 0.1 rad, or the
-  // exponent by more than 0.3 (of itself, where it exceeds 1): beyond that the linearised
+  // The position is uncertain by more than 5 % of the distance, the axis by more than 0.1 rad, or
+  // the exponent by more than 0.3 (of itself, where it exceeds 1): beyond that the linearised
   // covariance is not true.
   kIllConditioned,
 };
@@ -62,8 +62,8 @@ struct FittedAmbient {
 struct LedFit {
   LedStatus status = LedStatus::kTooFewData;
   std::string message;                // what is wrong and what to do; "" if ok
-  std::vector<std::string> warnings;  // of an answer that is ok
-  // From here on: valid if ok, for a look where kMisfit, kUndetermined or kIllConditioned.
+  std::vector<std::string> warnings;  // of a fit that is ok
+  // From here on: valid if ok, for inspection where kMisfit, kUndetermined or kIllConditioned.
   Led led;
   LedUncertainty uncertainty;
   bool lobe_fitted = false;  // a plane was seen: axis, exponent and intensity are the data's
@@ -84,16 +84,17 @@ struct LedFit {
   double highlight_inflation = 1, plane_inflation = 1;
 };
 
-// Robust start (the place from the highlights where two agree, else several about `start`), then
+// Robust start (the position from the highlights where two agree, else several about `start`), then
 // least squares over highlights and cells at once, cells that do not follow (dust, shadows) left
 // out, with the nuisances of LedScene within their priors. Covariance from the Jacobian there:
 // noise, poses, spheres and albedo. Where residuals scatter more than their noise allows, alone or
 // as means over blocks of 3 x 3 and 6 x 6 cells, the data's part is widened by that ratio.
 // Ambient light kWhereSeen: fitted without and, where that scatter shows, with constants too, and
 // ambient_is_seen() (calib/led/led_ambient.h) says which of the two the cells ask for: a layout
-// that cannot tell the LED from the constant is then refused as any other that says too little.
-// `start`: radius_mm is taken as it is; the place may be wrong by a fifth of the distance, axis and
-// exponent by much. Never throws on layouts that say too little: the status tells. Deterministic.
+// that cannot separate the LED from the constant is then refused as any other that says too little.
+// `start`: radius_mm is taken as it is; the position may be wrong by a fifth of the distance, axis
+// and exponent by much. Layouts that say too little are a status, never an exception.
+// Deterministic.
 LedFit fit_led(const LedScene& scene, const Led& start, const LedFitOptions& options = {});
 
 }  // namespace scattermeter::calib

@@ -1,7 +1,6 @@
 // What calibration shots show of one LED.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -32,12 +31,12 @@ struct SeenHighlight {
 struct ShadedCell {
   std::size_t view = 0;
   std::size_t plane = 0;
-  std::size_t shot = 0;                                  // cells of a shot share its ambient light
-  std::size_t setting = 0;                               // of LedScene::exposure_relative_std
-  int column = 0, row = 0;                               // of the plane's grid of cells
-  int channel = 0;                                       // 0 R, 1 G, 2 B
-  Eigen::Vector2d place_mm = Eigen::Vector2d::Zero();    // mean of the samples, on the plane
-  Eigen::Matrix2d spread_mm2 = Eigen::Matrix2d::Zero();  // covariance of their places
+  std::size_t shot = 0;                                   // cells of a shot share its ambient light
+  std::size_t setting = 0;                                // of LedScene::exposure_relative_std
+  int column = 0, row = 0;                                // of the plane's grid of cells
+  int channel = 0;                                        // 0 R, 1 G, 2 B
+  Eigen::Vector2d on_plane_mm = Eigen::Vector2d::Zero();  // mean of the samples, on the plane
+  Eigen::Matrix2d spread_mm2 = Eigen::Matrix2d::Zero();   // covariance of their places
   double radiance_W_per_mm2_sr = 0;
   double std_W_per_mm2_sr = 0;  // of the mean, by the noise of the samples; > 0
 };
@@ -57,12 +56,15 @@ struct LedScene {
   std::vector<bool> ambient_subtracted;
 
   std::size_t plane_shots() const;  // one more than the largest ShadedCell::shot; 0 without cells
-};
 
-inline std::size_t LedScene::plane_shots() const {
-  std::size_t n = 0;
-  for (const ShadedCell& cell : cells) n = std::max(n, cell.shot + 1);
-  return n;
-}
+  // World position of a cell's middle.
+  Eigen::Vector3d cell_mm(const ShadedCell& cell) const;
+
+  // World position about which the data in use lie: the mean of the cells in use or, without any,
+  // of the spheres whose highlights are in use (of a sphere once per highlight). One flag per cell
+  // and per highlight; NaN where none is set.
+  Eigen::Vector3d data_center_mm(const std::vector<bool>& use_cell,
+                                 const std::vector<bool>& use_highlight) const;
+};
 
 }  // namespace scattermeter::calib

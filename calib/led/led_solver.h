@@ -50,14 +50,10 @@ struct LedSolution {
   std::array<Eigen::Vector3d, 2> tangents;
 };
 
-// Levenberg-Marquardt (Ceres) from `start`. Model: highlights by highlight_px(), cells by
-//   L = albedo / pi * I * lobe(w) * cos / r^2 + ambient
-// (mean over four points that have the cell's spread, and over the LED's disc), with the poses of
-// the views, places and radii of the spheres and the albedo as nuisances within their priors. With
-// an intensity of 0 a channel's log must not be free.
+// Levenberg-Marquardt (Ceres) from `start`. Model: highlights by highlight_px(), cells by CellModel
+// plus the shot's ambient light, with the poses of the views, centres and radii of the spheres,
+// exposure times and the albedo as nuisances within their priors. With an intensity of 0 a
+// channel's log must not be free.
 LedSolution solve_led(const LedScene& scene, const Led& start, const LedSolve& what);
-
-// Radiance of a cell under an LED alone, at the scene's nominal poses and albedo.
-double cell_radiance(const LedScene& scene, const ShadedCell& cell, const Led& led);
 
 }  // namespace scattermeter::calib

@@ -1,4 +1,4 @@
-// A first place of an LED from its highlights, whatever the rig says.
+// A first estimate of an LED's position from its highlights, whatever the rig says.
 #pragma once
 
 #include <optional>

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calib/led/led_scene.h"
+#include "calib/led/plane_image.h"
 #include "calib/led/white_plane.h"
 #include "core/camera/camera_model.h"
 #include "core/camera/cfa_samples.h"
@@ -24,15 +25,6 @@ struct PlaneCellOptions {
   bool keep_faint = false;
 };
 
-// Rectangle (even x0, y0; cut to the frame) that holds the plane's image; width 0: out of view, or
-// seen from behind.
-struct PlaneImage {
-  int x0 = 0, y0 = 0, width = 0, height = 0;  // px
-  double mm_per_px = 0;                       // on the plane, the largest at its corners
-};
-PlaneImage plane_image(const CameraIntrinsics& intrinsics, const Rigid3d& camera_from_world,
-                       const WhitePlane& plane);
-
 struct PlaneCells {
   std::vector<ShadedCell> cells;
   int columns = 0, rows = 0;      // of the grid
@@ -40,11 +32,9 @@ struct PlaneCells {
   std::size_t spots = 0;          // samples left out: dust, hot pixels
 };
 
-// Means of the cells, each channel for itself. In a cell the samples are held against their own
-// linear trend; those farther from it than five deviations (of the noise, or of the bulk of the
-// samples if that is wider) are dust and left out. Clipped cells and those below the camera's floor
-// are left out. Radiance = signal / (exposure responsivity), W/(mm^2 sr). `samples` must hold the
-// rectangle of plane_image().
+// Means of the cells, each channel by itself, without dust (robust_cell_mean()). Clipped cells and
+// those below the camera's floor are left out. Radiance = signal / (exposure responsivity),
+// W/(mm^2 sr). `samples` must hold the rectangle of plane_image().
 PlaneCells plane_cells(const CfaSamples& samples, const CameraIntrinsics& intrinsics,
                        const Rigid3d& camera_from_world, const WhitePlane& plane,
                        const std::array<double, 3>& responsivity_counts_mm2_sr_per_W_s,

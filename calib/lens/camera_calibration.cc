@@ -88,6 +88,119 @@ void fill_residuals(const ViewSelection& used, const CameraBundle& bundle, Camer
   out->rms_px = std::sqrt(sum / static_cast<double>(out->residuals.size()));
 }
 
+bool too_few_views(const ViewSelection& used, std::size_t n_given, CameraCalibration* out) {
+  if (used.views.size() >= kMinViews || !used.fault.empty()) return false;
+  refuse(out, CameraCalibrationStatus::kTooFewViews,
+         std::to_string(used.views.size()) + " of " + std::to_string(n_given) +
+             " views can be used, at least " + std::to_string(kMinViews) +
+             " are needed (better ten): check the board's kind, squares and dictionary, and the "
+             "shots");
+  return true;
+}
+
+// The lens, its model and its uncertainty on views that were selected; views that pull too hard are
+// moved to left_out, and the lens chosen anew without them.
+class LensFit {
+ public:
+  LensFit(ViewSelection& used, const CameraCalibrationOptions& options, CameraCalibration* out)
+      : used_(used), options_(options), out_(out), bundle_(used.bundle) {}
+
+  // At most `most_left_out` views are left out. Fills model, intrinsics, layout and warnings; false
+  // where too few of the `n_given` views are left.
+  bool run(int width_px, int height_px, std::size_t most_left_out, std::size_t n_given) {
+    for (std::size_t left_out = 0;; ++left_out) {
+      choice_ = choose_lens(used_.views, width_px, height_px, bundle_, options_.model);
+      bundle_ = choice_.bundle;
+      out_->layout = camera_layout(used_.views, bundle_, width_px, height_px);
+      out_->warnings = layout_warnings(out_->layout, used_.views.size());
+      if (!choice_.chosen) return true;
+      out_->model = choice_.candidates[*choice_.chosen].model;
+      out_->intrinsics = intrinsics_of(bundle_.lens, width_px, height_px);
+      uncertainty_ = lens_uncertainty(
+          used_.views, equations_of(used_.views, bundle_, out_->intrinsics, out_->model),
+          options_.board_std_mm);
+      const auto bad =
+          uncertainty_.determined && left_out < most_left_out ? puller(uncertainty_) : std::nullopt;
+      if (!bad) return true;
+      leave_out(*bad);
+      if (too_few_views(used_, n_given, out_)) return false;
+    }
+  }
+
+  const LensChoice& choice() const { return choice_; }
+  const LensUncertainty& uncertainty() const { return uncertainty_; }
+  const CameraBundle& bundle() const { return bundle_; }
+
+ private:
+  void leave_out(std::size_t view_idx) {
+    const auto at = static_cast<std::ptrdiff_t>(view_idx);
+    used_.left_out.push_back({used_.views[view_idx].name,
+                              "it asks for another lens than the other views do (another camera, "
+                              "focal length or focus?)"});
+    used_.views.erase(used_.views.begin() + at);
+    bundle_.camera_from_board.erase(bundle_.camera_from_board.begin() + at);
+  }
+
+  ViewSelection& used_;
+  const CameraCalibrationOptions& options_;
+  CameraCalibration* out_;
+  CameraBundle bundle_;
+  LensChoice choice_;
+  LensUncertainty uncertainty_;
+};
+
+// Largest standard deviation of the image of a fixed ray over the frame's four corners, px.
+double frame_corner_std_px(const CameraCalibration& c) {
+  const double right = c.intrinsics.width_px - 1, bottom = c.intrinsics.height_px - 1;
+  double worst = 0;
+  for (const Eigen::Vector2d& corner :
+       {Eigen::Vector2d(0, 0), Eigen::Vector2d(right, 0), Eigen::Vector2d(0, bottom),
+        Eigen::Vector2d(right, bottom)}) {
+    const Eigen::MatrixXd j = image_shift_per_parameter(c.intrinsics, c.parameters, corner);
+    worst = std::max(worst, std::sqrt((j * c.covariance * j.transpose()).trace()));
+  }
+  return worst;
+}
+
+// The calibration of the views in use: status kOk, or a refusal with its message.
+void calibrate_selected(ViewSelection& used, int width_px, int height_px, std::size_t n_given,
+                        const CameraCalibrationOptions& options, CameraCalibration* out) {
+  if (!used.fault.empty()) {
+    refuse(out, CameraCalibrationStatus::kNoConsensus, used.fault);
+    return;
+  }
+  if (too_few_views(used, n_given, out)) return;
+  LensFit fit(used, options, out);
+  if (!fit.run(width_px, height_px, n_given / 4, n_given)) return;
+  out->candidates = fit.choice().candidates;
+  if (!fit.choice().chosen || !fit.uncertainty().determined) {
+    refuse(out, CameraCalibrationStatus::kNotDetermined,
+           with_warnings(
+               "the views do not determine the lens (" +
+                   (out->candidates.empty() ? std::string() : out->candidates.front().fault) + ")",
+               out->warnings));
+    return;
+  }
+  out->chosen = *fit.choice().chosen;
+  out->parameters = parameter_names(out->model);
+  out->covariance = fit.uncertainty().covariance;
+  out->noise_std_px = fit.uncertainty().noise_std_px;
+  out->view_scatter = fit.uncertainty().view_scatter;
+  out->widened = fit.uncertainty().widened;
+  const double focal_std = out->std(0) / out->value(0);
+  if (!(focal_std <= kMaxFocalStd)) {
+    std::ostringstream text;
+    text.precision(2);
+    text << "the views do not determine the focal length: it is known to " << 100 * focal_std
+         << " % only, " << 100 * kMaxFocalStd << " % is the limit";
+    refuse(out, CameraCalibrationStatus::kNotDetermined, with_warnings(text.str(), out->warnings));
+    return;
+  }
+  out->status = CameraCalibrationStatus::kOk;
+  fill_residuals(used, fit.bundle(), out);
+  out->frame_corner_std_px = frame_corner_std_px(*out);
+}
+
 }  // namespace
 
 void CameraCalibrationOptions::Check() const {
@@ -127,87 +240,10 @@ CameraCalibration calibrate_camera(const std::vector<BoardView>& views, int widt
   check_input(views, width_px, height_px);
   CameraCalibration out;
   ViewSelection used = select_views(views, width_px, height_px);
-  const auto too_few = [&] {
-    if (used.views.size() >= kMinViews || !used.fault.empty()) return false;
-    refuse(&out, CameraCalibrationStatus::kTooFewViews,
-           std::to_string(used.views.size()) + " of " + std::to_string(views.size()) +
-               " views can be used, at least " + std::to_string(kMinViews) +
-               " are needed (better ten): check the board's kind, squares and dictionary, and the "
-               "shots");
-    return true;
-  };
-  const auto end = [&]() -> CameraCalibration& {
-    out.left_out = used.left_out;
-    out.corners_left_out = used.corners_left_out;
-    return out;
-  };
-  if (!used.fault.empty()) {
-    refuse(&out, CameraCalibrationStatus::kNoConsensus, used.fault);
-    return end();
-  }
-  if (too_few()) return end();
-
-  CameraBundle bundle = used.bundle;
-  LensChoice choice;
-  LensUncertainty uncertainty;
-  const std::size_t most_left_out = views.size() / 4;
-  for (std::size_t left_out = 0;; ++left_out) {
-    choice = choose_lens(used.views, width_px, height_px, bundle, options.model);
-    bundle = choice.bundle;
-    out.layout = camera_layout(used.views, bundle, width_px, height_px);
-    out.warnings = layout_warnings(out.layout, used.views.size());
-    if (!choice.chosen) break;
-    out.model = choice.candidates[*choice.chosen].model;
-    out.intrinsics = intrinsics_of(bundle.lens, width_px, height_px);
-    uncertainty =
-        lens_uncertainty(used.views, equations_of(used.views, bundle, out.intrinsics, out.model),
-                         options.board_std_mm);
-    const auto bad =
-        uncertainty.determined && left_out < most_left_out ? puller(uncertainty) : std::nullopt;
-    if (!bad) break;
-    const auto at = static_cast<std::ptrdiff_t>(*bad);
-    used.left_out.push_back({used.views[*bad].name,
-                             "it asks for another lens than the other views do (another camera, "
-                             "focal length or focus?)"});
-    used.views.erase(used.views.begin() + at);
-    bundle.camera_from_board.erase(bundle.camera_from_board.begin() + at);
-    if (too_few()) return end();
-  }
-  out.candidates = choice.candidates;
-  if (!choice.chosen || !uncertainty.determined) {
-    refuse(
-        &out, CameraCalibrationStatus::kNotDetermined,
-        with_warnings(
-            "the views do not determine the lens (" +
-                (choice.candidates.empty() ? std::string() : choice.candidates.front().fault) + ")",
-            out.warnings));
-    return end();
-  }
-  out.chosen = *choice.chosen;
-  out.parameters = parameter_names(out.model);
-  out.covariance = uncertainty.covariance;
-  out.noise_std_px = uncertainty.noise_std_px;
-  out.view_scatter = uncertainty.view_scatter;
-  out.widened = uncertainty.widened;
-  const double focal_std = out.std(0) / out.value(0);
-  if (!(focal_std <= kMaxFocalStd)) {
-    std::ostringstream text;
-    text.precision(2);
-    text << "the views do not determine the focal length: it is known to " << 100 * focal_std
-         << " % only, " << 100 * kMaxFocalStd << " % is the limit";
-    refuse(&out, CameraCalibrationStatus::kNotDetermined, with_warnings(text.str(), out.warnings));
-    return end();
-  }
-  out.status = CameraCalibrationStatus::kOk;
-  fill_residuals(used, bundle, &out);
-  for (const Eigen::Vector2d& corner :
-       {Eigen::Vector2d(0, 0), Eigen::Vector2d(width_px - 1, 0), Eigen::Vector2d(0, height_px - 1),
-        Eigen::Vector2d(width_px - 1, height_px - 1)}) {
-    const Eigen::MatrixXd j = image_shift_per_parameter(out.intrinsics, out.parameters, corner);
-    out.frame_corner_std_px =
-        std::max(out.frame_corner_std_px, std::sqrt((j * out.covariance * j.transpose()).trace()));
-  }
-  return end();
+  calibrate_selected(used, width_px, height_px, views.size(), options, &out);
+  out.left_out = used.left_out;
+  out.corners_left_out = used.corners_left_out;
+  return out;
 }
 
 }  // namespace scattermeter::calib

@@ -78,36 +78,13 @@ void read_residuals(const std::string& path, const cv::FileNode& top, CameraCali
   }
 }
 
-}  // namespace
+void write_names(cv::FileStorage& out, const char* key, const std::vector<std::string>& names) {
+  out << key << "[";
+  for (const std::string& name : names) out << name;
+  out << "]";
+}
 
-std::string camera_calibration_text(const CameraCalibration& calibration,
-                                    const std::vector<std::string>& comments) {
-  if (calibration.status != CameraCalibrationStatus::kOk) {
-    throw std::invalid_argument("camera_calibration_text: the calibration was refused");
-  }
-  const CameraIntrinsics& k = calibration.intrinsics;
-  cv::FileStorage out(
-      ".yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
-  for (const std::string& comment : comments) out.writeComment(comment);
-  out << "image_width" << k.width_px << "image_height" << k.height_px;
-  out << "camera_matrix" << cv::Mat(cv::Matx33d(k.fx_px, 0, k.cx_px, 0, k.fy_px, k.cy_px, 0, 0, 1));
-  out << "distortion_coefficients" << cv::Mat(k.distortion, true);
-  out << "avg_reprojection_error" << calibration.rms_px;
-  out << "scattermeter_camera"
-      << "{"
-      << "version" << 1;
-  out << "parameters"
-      << "[";
-  for (const std::string& name : calibration.parameters) out << name;
-  out << "]"
-      << "covariance" << opencv_matrix(calibration.covariance);
-  out << "rms_px" << calibration.rms_px << "worst_px" << calibration.worst_px;
-  out << "noise_std_px" << calibration.noise_std_px;
-  out << "view_scatter" << calibration.view_scatter;
-  out << "covariance_widened" << static_cast<int>(calibration.widened);
-  out << "frame_corner_std_px" << calibration.frame_corner_std_px;
-  out << "widest_angle_rad" << calibration.layout.widest_angle_rad;
-  out << "covered_share" << calibration.layout.covered_share;
+void write_views(cv::FileStorage& out, const CameraCalibration& calibration) {
   out << "views"
       << "[";
   for (const CalibratedView& view : calibration.views) {
@@ -130,8 +107,11 @@ std::string camera_calibration_text(const CameraCalibration& calibration,
         << "view" << corner.view << "x_px" << corner.image_px.x() << "y_px" << corner.image_px.y()
         << "distance_px" << corner.distance_px << "}";
   }
-  out << "]"
-      << "models"
+  out << "]";
+}
+
+void write_candidates(cv::FileStorage& out, const CameraCalibration& calibration) {
+  out << "models"
       << "[";
   for (std::size_t i = 0; i < calibration.candidates.size(); ++i) {
     const LensCandidate& c = calibration.candidates[i];
@@ -145,21 +125,54 @@ std::string camera_calibration_text(const CameraCalibration& calibration,
     }
     out << "}";
   }
-  out << "]"
-      << "warnings"
-      << "[";
-  for (const std::string& warning : calibration.warnings) out << warning;
   out << "]";
-  cv::Mat_<double> residuals(static_cast<int>(calibration.residuals.size()), 5);
+}
+
+void write_residuals(cv::FileStorage& out, const std::vector<CornerResidual>& corners) {
+  cv::Mat_<double> residuals(static_cast<int>(corners.size()), 5);
   for (int i = 0; i < residuals.rows; ++i) {
-    const CornerResidual& r = calibration.residuals[static_cast<std::size_t>(i)];
+    const CornerResidual& r = corners[static_cast<std::size_t>(i)];
     residuals(i, 0) = static_cast<double>(r.view_idx);
     residuals(i, 1) = r.image_px.x();
     residuals(i, 2) = r.image_px.y();
     residuals(i, 3) = r.residual_px.x();
     residuals(i, 4) = r.residual_px.y();
   }
-  out << "residuals" << residuals << "}";
+  out << "residuals" << residuals;
+}
+
+}  // namespace
+
+std::string camera_calibration_text(const CameraCalibration& calibration,
+                                    const std::vector<std::string>& comments) {
+  if (calibration.status != CameraCalibrationStatus::kOk) {
+    throw std::invalid_argument("camera_calibration_text: the calibration was refused");
+  }
+  const CameraIntrinsics& k = calibration.intrinsics;
+  cv::FileStorage out(
+      ".yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
+  for (const std::string& comment : comments) out.writeComment(comment);
+  out << "image_width" << k.width_px << "image_height" << k.height_px;
+  out << "camera_matrix" << cv::Mat(cv::Matx33d(k.fx_px, 0, k.cx_px, 0, k.fy_px, k.cy_px, 0, 0, 1));
+  out << "distortion_coefficients" << cv::Mat(k.distortion, true);
+  out << "avg_reprojection_error" << calibration.rms_px;
+  out << "scattermeter_camera"
+      << "{"
+      << "version" << 1;
+  write_names(out, "parameters", calibration.parameters);
+  out << "covariance" << opencv_matrix(calibration.covariance);
+  out << "rms_px" << calibration.rms_px << "worst_px" << calibration.worst_px;
+  out << "noise_std_px" << calibration.noise_std_px;
+  out << "view_scatter" << calibration.view_scatter;
+  out << "covariance_widened" << static_cast<int>(calibration.widened);
+  out << "frame_corner_std_px" << calibration.frame_corner_std_px;
+  out << "widest_angle_rad" << calibration.layout.widest_angle_rad;
+  out << "covered_share" << calibration.layout.covered_share;
+  write_views(out, calibration);
+  write_candidates(out, calibration);
+  write_names(out, "warnings", calibration.warnings);
+  write_residuals(out, calibration.residuals);
+  out << "}";
   return out.releaseAndGetString();
 }
 

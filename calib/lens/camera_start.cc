@@ -10,7 +10,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "calib/board/opencv_quiet.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -115,7 +115,7 @@ double median_residual_px(const std::vector<BoardView>& views, const CameraBundl
       lengths.push_back(r.allFinite() ? r.norm() : std::numeric_limits<double>::infinity());
     }
   }
-  return middle_value(std::move(lengths));
+  return upper_median(std::move(lengths));
 }
 
 CameraBundle start_camera(const std::vector<BoardView>& views, int width_px, int height_px) {

@@ -11,7 +11,7 @@
 #include "calib/board/opencv_quiet.h"
 #include "calib/lens/camera_start.h"
 #include "calib/pose/pose_layout.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -34,7 +34,7 @@ std::string say(const char* format, Values... values) {
 
 double middle_or_none(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::infinity();
-  return middle_value(std::move(values));
+  return upper_median(std::move(values));
 }
 
 bool same_corners(const BoardView& a, const BoardView& b) {

@@ -22,7 +22,7 @@ using namespace edge_parameter;
 constexpr double kDoubt = 1e-4;    // p below which chance is out of the question
 constexpr double kCloseScore = 6;  // two causes nearer than that cannot be told apart
 constexpr double kCloseChi2 = 9;   // one that leaves no more than this is named beside the best
-// Standard deviations that keep what the outline does not tell from running away.
+// Standard deviations that keep what the outline does not determine from running away.
 constexpr double kLooseTurn_rad = 0.3;
 constexpr double kLooseDistance = 0.3;
 constexpr double kLooseLog = 0.2;
@@ -105,13 +105,8 @@ void describe(const EdgeFit& f, const std::vector<std::string>& names, EdgeExpla
   }
 }
 
-}  // namespace
-
-EdgeDiagnosis explain_edges(const std::vector<EdgePoint>& points,
-                            const CameraIntrinsics& intrinsics, const PoseResult& pose,
-                            const std::vector<std::string>& names,
-                            const EdgeExplanationOptions& options) {
-  if (points.empty()) throw std::invalid_argument("explain_edges: no points");
+// Causes that no knowledge of the rig limits, each to its loose deviation; the pose to its own.
+EdgeFitOptions loose_fit(const std::vector<EdgePoint>& points, const PoseResult& pose) {
   const int size = edge_parameters(points);
   const double distance_mm = pose.camera_from_world.translation_mm.norm();
   EdgeFitOptions fit;
@@ -125,84 +120,112 @@ EdgeDiagnosis explain_edges(const std::vector<EdgePoint>& points,
   for (int i = 0; i < size; ++i) {
     if (i == kFocal || i >= kScale) fit.prior(i, i) = 1 / std::pow(kLooseLog, 2);
   }
-  std::set<int> bodies;
-  std::set<std::pair<int, int>> lines;
-  for (const EdgePoint& p : points) {
-    bodies.insert(p.body_idx);
-    lines.insert({p.body_idx, p.line_idx});
-  }
-  // All causes at once. A turn and a move on top of a pose that is free are nothing new: the pose
-  // without its prior stands for both.
-  std::vector<int> all = {kFocal, kDistortion};
-  for (const int b : bodies) all.push_back(kScaleOfBody + b);
-  EdgeFitOptions every = fit;
-  every.free = with_pose(all);
-  every.prior.topLeftCorner<6, 6>() =
-      fit.prior.block<6, 6>(kTurn, kTurn);  // turn and move: as loose
-  EdgeDiagnosis out;
-  const EdgeScatter scatter =
-      edge_scatter(points, intrinsics, pose.camera_from_world, every, options.line_std_px);
-  out.line_std_px = fit.line_std_px = every.line_std_px = scatter.line_std_px;
-  out.piece_std_px = fit.piece_std_px = every.piece_std_px = scatter.piece_std_px;
-  const EdgeFit rich = fit_edges(points, intrinsics, pose.camera_from_world, every);
-  out.residual_px = rich.residual_px;
-  const auto rich_parameters = static_cast<int>(every.free.size());
+  return fit;
+}
 
-  // What the rig itself does not know exactly goes along with its pose.
-  std::vector<int> known;
-  Eigen::MatrixXd known_prior = fit.prior;
-  if (options.focal_relative_std > 0) {
-    known.push_back(kFocal);
-    known_prior(kFocal, kFocal) = 1 / std::pow(options.focal_relative_std, 2);
+// Fits one cause after the other on top of what the rig itself does not know exactly, which goes
+// along with its pose.
+class CauseFits {
+ public:
+  CauseFits(const std::vector<EdgePoint>& points, const CameraIntrinsics& intrinsics,
+            const PoseResult& pose, const std::vector<std::string>& names,
+            const EdgeExplanationOptions& options)
+      : points_(points),
+        intrinsics_(intrinsics),
+        pose_(pose.camera_from_world),
+        names_(names),
+        fit_(loose_fit(points, pose)) {
+    for (const EdgePoint& p : points) bodies_.insert(p.body_idx);
+    fit_all_causes(options.line_std_px);
+    known_prior_ = fit_.prior;
+    know(kFocal, options.focal_relative_std);
+    know(kDistortion, options.k1_std);
+    for (const int b : bodies_) know(kScaleOfBody + b, options.scale_relative_std);
   }
-  if (options.k1_std > 0) {
-    known.push_back(kDistortion);
-    known_prior(kDistortion, kDistortion) = 1 / std::pow(options.k1_std, 2);
+
+  const EdgeFit& all_causes() const { return rich_; }
+  const EdgeScatter& scatter() const { return scatter_; }
+
+  std::vector<EdgeExplanation> explanations() const {
+    std::vector<EdgeExplanation> out;
+    out.push_back(fit(EdgeCause::kNone, -1, {}));
+    out.push_back(fit(EdgeCause::kCameraTurned, -1, {kTurn, kTurn + 1, kTurn + 2}));
+    out.push_back(fit(EdgeCause::kCameraMoved, -1, {kMove, kMove + 1, kMove + 2}));
+    for (const int b : bodies_) out.push_back(fit(EdgeCause::kMeshScale, b, {kScaleOfBody + b}));
+    if (bodies_.size() > 1) out.push_back(fit(EdgeCause::kAllMeshScales, -1, {kScale}));
+    out.push_back(fit(EdgeCause::kFocalLength, -1, {kFocal, kDistortion}));
+    out.push_back(fit(EdgeCause::kCameraTurnedMoved, -1,
+                      {kTurn, kTurn + 1, kTurn + 2, kMove, kMove + 1, kMove + 2}));
+    return out;
   }
-  if (options.scale_relative_std > 0) {
-    for (const int b : bodies) {
-      known.push_back(kScaleOfBody + b);
-      known_prior(kScaleOfBody + b, kScaleOfBody + b) = 1 / std::pow(options.scale_relative_std, 2);
-    }
+
+ private:
+  // A turn and a move on top of a pose that is free are nothing new: the pose without its prior
+  // represents both.
+  void fit_all_causes(double line_std_px) {
+    std::vector<int> all = {kFocal, kDistortion};
+    for (const int b : bodies_) all.push_back(kScaleOfBody + b);
+    EdgeFitOptions every = fit_;
+    every.free = with_pose(all);
+    // As loose as turn and move.
+    every.prior.topLeftCorner<6, 6>() = fit_.prior.block<6, 6>(kTurn, kTurn);
+    scatter_ = edge_scatter(points_, intrinsics_, pose_, every, line_std_px);
+    fit_.line_std_px = every.line_std_px = scatter_.line_std_px;
+    fit_.piece_std_px = every.piece_std_px = scatter_.piece_std_px;
+    rich_ = fit_edges(points_, intrinsics_, pose_, every);
+    rich_parameters_ = static_cast<int>(every.free.size());
   }
-  const auto attempt = [&](EdgeCause cause, int body_idx, const std::vector<int>& extra) {
-    EdgeFitOptions o = fit;
-    o.prior = known_prior;
-    std::vector<int> more = known;
+
+  void know(int parameter, double std) {
+    if (!(std > 0)) return;
+    known_.push_back(parameter);
+    known_prior_(parameter, parameter) = 1 / std::pow(std, 2);
+  }
+
+  EdgeExplanation fit(EdgeCause cause, int body_idx, const std::vector<int>& extra) const {
+    EdgeFitOptions o = fit_;
+    o.prior = known_prior_;
+    std::vector<int> more = known_;
     for (const int p : extra) {
-      o.prior(p, p) = fit.prior(p, p);
+      o.prior(p, p) = fit_.prior(p, p);
       if (std::find(more.begin(), more.end(), p) == more.end()) more.push_back(p);
     }
     o.free = with_pose(more);
-    const EdgeFit f = fit_edges(points, intrinsics, pose.camera_from_world, o);
+    const EdgeFit f = fit_edges(points_, intrinsics_, pose_, o);
     EdgeExplanation e;
     e.cause = cause;
     e.body_idx = body_idx;
     e.parameters = static_cast<int>(extra.size());
     e.chi2 = f.chi2;
     e.rms_px = rms(f.residual_px);
-    const double left = std::max(0.0, f.chi2 - rich.chi2);
+    const double left = std::max(0.0, f.chi2 - rich_.chi2);
     e.explains =
-        f.converged && chi_square_tail(left, std::max(1, rich_parameters - e.parameters)) > kDoubt;
-    describe(f, names, e);
-    out.explanations.push_back(e);
-  };
-  attempt(EdgeCause::kNone, -1, {});
-  attempt(EdgeCause::kCameraTurned, -1, {kTurn, kTurn + 1, kTurn + 2});
-  attempt(EdgeCause::kCameraMoved, -1, {kMove, kMove + 1, kMove + 2});
-  for (const int b : bodies) attempt(EdgeCause::kMeshScale, b, {kScaleOfBody + b});
-  if (bodies.size() > 1) attempt(EdgeCause::kAllMeshScales, -1, {kScale});
-  attempt(EdgeCause::kFocalLength, -1, {kFocal, kDistortion});
-  attempt(EdgeCause::kCameraTurnedMoved, -1,
-          {kTurn, kTurn + 1, kTurn + 2, kMove, kMove + 1, kMove + 2});
-
-  out.agrees = rich.converged && out.explanations[0].explains;
-  if (out.agrees) {
-    out.is_told = true;
-    out.verdict = "the outline agrees with the rig";
-    return out;
+        f.converged && chi_square_tail(left, std::max(1, rich_parameters_ - e.parameters)) > kDoubt;
+    describe(f, names_, e);
+    return e;
   }
-  const double per_parameter = std::log(2.0 * static_cast<double>(lines.size()));
+
+  const std::vector<EdgePoint>& points_;
+  const CameraIntrinsics& intrinsics_;
+  const Rigid3d& pose_;
+  const std::vector<std::string>& names_;
+  EdgeFitOptions fit_;
+  std::set<int> bodies_;
+  EdgeScatter scatter_;
+  EdgeFit rich_;  // of all causes at once
+  int rich_parameters_ = 0;
+  std::vector<int> known_;
+  Eigen::MatrixXd known_prior_;
+};
+
+// Cause, body and verdict from the explanations that were tried, `n_lines` in all.
+void conclude(std::size_t n_lines, EdgeDiagnosis& out) {
+  if (out.agrees) {
+    out.is_unambiguous = true;
+    out.verdict = "the outline agrees with the rig";
+    return;
+  }
+  const double per_parameter = std::log(2.0 * static_cast<double>(n_lines));
   const auto score = [&](const EdgeExplanation& e) {
     return e.chi2 + e.parameters * per_parameter;
   };
@@ -212,14 +235,14 @@ EdgeDiagnosis explain_edges(const std::vector<EdgePoint>& points,
   }
   if (best == nullptr) {
     out.verdict =
-        "the outline contradicts the rig, and neither the camera's place, the mesh's scale nor the "
+        "the outline contradicts the rig, and neither the camera's pose, the mesh's scale nor the "
         "focal length alone explains it";
-    return out;
+    return;
   }
   out.cause = best->cause;
   out.body_idx = best->body_idx;
   out.verdict = best->text;
-  out.is_told = true;
+  out.is_unambiguous = true;
   std::string others;
   std::string unlikely;
   for (const EdgeExplanation& e : out.explanations) {
@@ -228,13 +251,32 @@ EdgeDiagnosis explain_edges(const std::vector<EdgePoint>& points,
         (best->cause == EdgeCause::kCameraTurned || best->cause == EdgeCause::kCameraMoved);
     if (&e == best || !e.explains || holds_best || e.chi2 > best->chi2 + kCloseChi2) continue;
     if (score(e) <= score(*best) + kCloseScore) {
-      out.is_told = false;
-      others += (others.empty() ? "; not told apart from: " : ", ") + e.text;
+      out.is_unambiguous = false;
+      others += (others.empty() ? "; cannot be told apart from: " : ", ") + e.text;
     } else {
-      unlikely += (unlikely.empty() ? "; fits as well with more freedom: " : ", ") + e.text;
+      unlikely += (unlikely.empty() ? "; as good a fit with more freedom: " : ", ") + e.text;
     }
   }
   out.verdict += others + unlikely;
+}
+
+}  // namespace
+
+EdgeDiagnosis explain_edges(const std::vector<EdgePoint>& points,
+                            const CameraIntrinsics& intrinsics, const PoseResult& pose,
+                            const std::vector<std::string>& names,
+                            const EdgeExplanationOptions& options) {
+  if (points.empty()) throw std::invalid_argument("explain_edges: no points");
+  const CauseFits fits(points, intrinsics, pose, names, options);
+  EdgeDiagnosis out;
+  out.line_std_px = fits.scatter().line_std_px;
+  out.piece_std_px = fits.scatter().piece_std_px;
+  out.residual_px = fits.all_causes().residual_px;
+  out.explanations = fits.explanations();
+  out.agrees = fits.all_causes().converged && out.explanations[0].explains;
+  std::set<std::pair<int, int>> lines;
+  for (const EdgePoint& p : points) lines.insert({p.body_idx, p.line_idx});
+  conclude(lines.size(), out);
   return out;
 }
 

@@ -1,4 +1,4 @@
-// What single change of the rig explains that an outline is not where it should be.
+// The single change of the rig that best explains an outline that is not where it should be.
 #pragma once
 
 #include <string>
@@ -33,20 +33,20 @@ struct EdgeExplanation {
 
 struct EdgeDiagnosis {
   bool agrees = false;                 // nothing contradicts the rig (p above 1e-4)
-  bool is_told = false;                // one cause explains, and no other does as well
+  bool is_unambiguous = false;         // one cause explains, and no other does as well
   EdgeCause cause = EdgeCause::kNone;  // the best of those that explain; kNone if none does
   int body_idx = -1;
   std::string verdict;                        // a sentence; says what cannot be told apart
   std::vector<EdgeExplanation> explanations;  // all that were tried, the first is kNone
-  double line_std_px = 0;  // scatter that no change explains: what the tests stand on
+  double line_std_px = 0;  // scatter that no change explains, on which the tests rest
   double piece_std_px = 0;
-  std::vector<double> residual_px;  // one a point: what all causes together leave
+  std::vector<double> residual_px;  // one per point, after the fit of all causes together
 };
 
 struct EdgeExplanationOptions {
   double line_std_px = 0.1;       // see SilhouetteOptions
   double focal_relative_std = 0;  // how well the rig knows it; 0: exactly
-  double k1_std = 0;              // the same of the radial distortion
+  double k1_std = 0;              // the same for the radial distortion
   double scale_relative_std = 0;  // of each mesh
 };
 

@@ -170,6 +170,52 @@ class PriorCost final : public ceres::CostFunction {
   Eigen::MatrixXd root_;
 };
 
+// The pieces of each line; in a robust fit each piece by itself.
+using EdgeLines = std::map<std::pair<int, int>, std::vector<std::size_t>>;
+EdgeLines lines_to_fit(const std::vector<EdgePoint>& points, bool robust) {
+  EdgeLines lines;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto key = robust ? std::pair<int, int>{static_cast<int>(i), 0}
+                            : std::pair<int, int>{points[i].body_idx, points[i].line_idx};
+    lines[key].push_back(i);
+  }
+  return lines;
+}
+
+// Inverse of J^T J at the problem's present values.
+Eigen::MatrixXd covariance_at(ceres::Problem& least_squares) {
+  ceres::CRSMatrix sparse;
+  double cost = 0;
+  least_squares.Evaluate({}, &cost, nullptr, nullptr, &sparse);
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
+  for (int row = 0; row < sparse.num_rows; ++row) {
+    for (int k = sparse.rows[static_cast<std::size_t>(row)];
+         k < sparse.rows[static_cast<std::size_t>(row) + 1]; ++k) {
+      jacobian(row, sparse.cols[static_cast<std::size_t>(k)]) =
+          sparse.values[static_cast<std::size_t>(k)];
+    }
+  }
+  // Scaled, as radians and millimetres differ by orders of magnitude.
+  const Eigen::VectorXd norms = jacobian.colwise().norm().cwiseMax(1e-300);
+  jacobian = (jacobian * norms.cwiseInverse().asDiagonal()).eval();
+  const Eigen::MatrixXd information = jacobian.transpose() * jacobian;
+  const Eigen::Index n = sparse.num_cols;
+  const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  return norms.cwiseInverse().asDiagonal() * covariance * norms.cwiseInverse().asDiagonal();
+}
+
+// Sum of squares of the lines as they are; none where a point has no image.
+std::optional<double> unfitted_chi2(const std::vector<std::unique_ptr<LineCost>>& costs) {
+  double chi2 = 0;
+  for (const auto& cost : costs) {
+    Eigen::VectorXd r(cost->num_residuals());
+    const double* none = nullptr;
+    if (!cost->Evaluate(&none, r.data(), nullptr)) return std::nullopt;
+    chi2 += r.squaredNorm();
+  }
+  return chi2;
+}
+
 }  // namespace
 
 int edge_parameters(const std::vector<EdgePoint>& points) {
@@ -208,40 +254,23 @@ EdgeFit fit_edges(const std::vector<EdgePoint>& points, const CameraIntrinsics& 
                                         [](int i) { return i == kFocal || i == kDistortion; });
   const Problem problem{points, intrinsics,       camera_from_world, options.free,
                         size,   Lens(intrinsics), lens_changes};
-  std::map<std::pair<int, int>, std::vector<std::size_t>> lines;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto key = options.robust ? std::pair<int, int>{static_cast<int>(i), 0}
-                                    : std::pair<int, int>{points[i].body_idx, points[i].line_idx};
-    lines[key].push_back(i);
-  }
-  ceres::Problem least_squares;
-  const auto n_free = static_cast<Eigen::Index>(options.free.size());
-  std::vector<double> values(options.free.size(), 0.0);
   std::vector<std::unique_ptr<LineCost>> costs;
-  for (const auto& [key, which] : lines) {
+  for (const auto& [key, which] : lines_to_fit(points, options.robust)) {
     costs.push_back(std::make_unique<LineCost>(problem, which, options));
   }
   if (options.free.empty()) {
-    for (const auto& cost : costs) {
-      Eigen::VectorXd r(cost->num_residuals());
-      const double* none = nullptr;
-      if (!cost->Evaluate(&none, r.data(), nullptr)) return finish();
-      out.chi2 += r.squaredNorm();
-    }
-    out.converged = true;
+    const std::optional<double> chi2 = unfitted_chi2(costs);
+    out.converged = chi2.has_value();
+    out.chi2 = chi2.value_or(0.0);
     return finish();
   }
+  ceres::Problem least_squares;
+  std::vector<double> values(options.free.size(), 0.0);
   for (auto& cost : costs) {
     least_squares.AddResidualBlock(
         cost.release(), options.robust ? new ceres::CauchyLoss(2.0) : nullptr, values.data());
   }
-  Eigen::MatrixXd prior(n_free, n_free);
-  for (Eigen::Index i = 0; i < n_free; ++i) {
-    for (Eigen::Index j = 0; j < n_free; ++j) {
-      prior(i, j) = options.prior(options.free[static_cast<std::size_t>(i)],
-                                  options.free[static_cast<std::size_t>(j)]);
-    }
-  }
+  const Eigen::MatrixXd prior = options.prior(options.free, options.free);
   if (prior.squaredNorm() > 0) {
     least_squares.AddResidualBlock(new PriorCost(covariance_root(prior).transpose()), nullptr,
                                    values.data());
@@ -250,34 +279,12 @@ EdgeFit fit_edges(const std::vector<EdgePoint>& points, const CameraIntrinsics& 
   solver.linear_solver_type = ceres::DENSE_QR;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &least_squares, &summary);
-  out.converged = summary.IsSolutionUsable();
   out.chi2 = 2 * summary.final_cost;
   out.value = problem.all(values.data());
-  ceres::CRSMatrix sparse;
-  double cost = 0;
-  least_squares.Evaluate({}, &cost, nullptr, nullptr, &sparse);
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(sparse.num_rows, sparse.num_cols);
-  for (int row = 0; row < sparse.num_rows; ++row) {
-    for (int k = sparse.rows[static_cast<std::size_t>(row)];
-         k < sparse.rows[static_cast<std::size_t>(row) + 1]; ++k) {
-      jacobian(row, sparse.cols[static_cast<std::size_t>(k)]) =
-          sparse.values[static_cast<std::size_t>(k)];
-    }
-  }
-  // Scaled, as radians and millimetres differ by orders of magnitude.
-  const Eigen::VectorXd norms = jacobian.colwise().norm().cwiseMax(1e-300);
-  jacobian = (jacobian * norms.cwiseInverse().asDiagonal()).eval();
-  const Eigen::MatrixXd information = jacobian.transpose() * jacobian;
-  Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(n_free, n_free));
-  covariance =
-      (norms.cwiseInverse().asDiagonal() * covariance * norms.cwiseInverse().asDiagonal()).eval();
-  out.converged = out.converged && covariance.allFinite() && covariance.diagonal().minCoeff() > 0;
-  for (Eigen::Index i = 0; i < n_free; ++i) {
-    for (Eigen::Index j = 0; j < n_free; ++j) {
-      out.covariance(options.free[static_cast<std::size_t>(i)],
-                     options.free[static_cast<std::size_t>(j)]) = covariance(i, j);
-    }
-  }
+  const Eigen::MatrixXd covariance = covariance_at(least_squares);
+  out.converged =
+      summary.IsSolutionUsable() && covariance.allFinite() && covariance.diagonal().minCoeff() > 0;
+  out.covariance(options.free, options.free) = covariance;
   return finish();
 }
 

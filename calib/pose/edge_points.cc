@@ -4,8 +4,9 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "calib/pose/cell_means.h"
 #include "calib/pose/edge_strip.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 #include "core/camera/lens.h"
 
 namespace scattermeter::calib {
@@ -95,7 +96,7 @@ std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
   for (const EdgeStrip& s : found) {
     if (s.found) blurs.push_back(s.blur_px);
   }
-  if (blurs.size() >= kBlurSample) found = locate_all(middle_value(blurs));
+  if (blurs.size() >= kBlurSample) found = locate_all(upper_median(blurs));
   std::vector<EdgePoint> out;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!found[i].found || found[i].std_px > options.max_std_px) continue;

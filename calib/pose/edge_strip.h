@@ -32,24 +32,15 @@ struct EdgeStrip {
 // Least squares over all samples of a strip that no other strip need share, each channel with its
 // own brightness, all with one edge:
 //   signal = b + a_0 S_0(t) + a_1 S_1(t) + a_2 S_2(t) [+ c t],   t = offset - s,
-// s the distance of the sample's centre along `outward`. S_k(t) is t^k for t > 0 and 0 else, after
-// a Gaussian blur (the lens's, fitted) and the mean over the pixel's square, both without
-// approximation: with F_0 = Phi(t / blur), k F_k = t F_k-1 + blur^2 F_k-2 (F_-1 the Gaussian's
-// density; repeated integrals of the normal distribution, Abramowitz and Stegun 7.2), the mean over
-// the square is a second difference of k! F_k+2 over the widths |n_x|, |n_y| that it has along the
-// normal. a_1 and a_2 stand for the glow that falls off towards the edge of a translucent body;
-// without them it moves the edge by some hundredths of a pixel. Each sample counts once, in one
-// channel: nothing is interpolated. Weights from the fitted signal, not from the noisy sample.
+// s the distance of the sample's centre along `outward`, S_k as in EdgeShape with the lens's blur,
+// fitted. a_1 and a_2 model the glow that falls off towards the edge of a translucent body; without
+// them it moves the edge by some hundredths of a pixel. Each sample counts once, in one channel:
+// nothing is interpolated. Weights from the fitted signal, not from the noisy sample.
 //
 // Not found: outside the samples, a clipped sample in the strip, step below min_snr or of the wrong
 // sign (the body is the brighter side unless both_bright), an end of the search reached, too few
 // samples. `outward` is a unit vector; else std::invalid_argument.
 EdgeStrip locate_edge(const CfaSamples& samples, const Eigen::Vector2d& at_px,
                       const Eigen::Vector2d& outward, const EdgeStripOptions& options = {});
-
-// Means of cells of factor x factor samples (factor even) as one channel, for coarse search: pixel
-// (x, y) of the result is centred at factor (x + 1/2) - 1/2 of the samples. A cell with a clipped
-// sample is clipped.
-CfaSamples cell_means(const CfaSamples& samples, int factor);
 
 }  // namespace scattermeter::calib

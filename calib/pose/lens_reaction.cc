@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "calib/pose/silhouette_pose.h"
 #include "core/camera/lens_parameters.h"
 
 namespace scattermeter::calib {

@@ -10,6 +10,7 @@
 #include "calib/pose/lens_reaction.h"
 #include "calib/pose/silhouette.h"
 #include "calib/pose/silhouette_check.h"
+#include "calib/pose/silhouette_pose.h"
 #include "capture/files/file_kind.h"
 #include "capture/shots/raw_shot.h"
 #include "core/base/input_error.h"

@@ -4,9 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calib/pose/edge_fit.h"
 #include "calib/pose/edge_points.h"
-#include "calib/pose/pose.h"
 #include "core/camera/camera_model.h"
 #include "core/camera/pixel_rect.h"
 #include "core/camera/rigid3d.h"
@@ -65,17 +63,5 @@ PixelRect silhouette_window(const RayScene& scene, const CameraIntrinsics& intri
 // std::invalid_argument on no shots and options out of range.
 Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntrinsics& intrinsics,
                            const Rigid3d& camera_from_world, const SilhouetteOptions& options = {});
-
-// Least squares of the silhouette's pieces and the pose `prior` together, which combine() judges;
-// not converged where they fail.
-EdgeFit fit_with_pose(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
-                      const PoseResult& prior);
-
-// The pose that silhouette and another, independent one give together: informations add. The
-// covariance's frame is that of PoseResult. Status kNoConsensus when the two contradict each other
-// (p below 1e-6 with six degrees of freedom), kIllConditioned when the fit fails. inlier and
-// residuals_px stay those of `prior`; rms and worst of the result are of the silhouette's pieces.
-PoseResult combine(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
-                   const PoseResult& prior);
 
 }  // namespace scattermeter::calib

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "calib/radiance/frame_blocks.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -40,7 +41,7 @@ DarkFrame dark_frame(std::span<const std::uint16_t> samples, std::span<const std
     std::vector<float> deviations = values[p];
     const double median = median_of(deviations);
     for (float& v : deviations) v = std::abs(v - static_cast<float>(median));
-    const double reach = std::max(8.0, 8.0 * 1.4826 * median_of(deviations));
+    const double reach = std::max(8.0, 8.0 * kStdPerMad * median_of(deviations));
     double sum = 0, squares = 0, n = 0;
     for (const float v : values[p]) {
       const double d = static_cast<double>(v) - median;

@@ -1,4 +1,4 @@
-// Glare, vignetting and the scale.
+// The responsivity from a white reference.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -6,9 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "calib/radiance/glare_fit.h"
 #include "calib/radiance/radiance_steps.h"
-#include "calib/radiance/vignetting_fit.h"
 #include "calib/radiance/white_pixels.h"
 #include "calib/radiance/white_scale.h"
 #include "capture/sensor/corrected_samples.h"
@@ -17,32 +15,7 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kMaxClippedGlare = 1e-3;  // of the frame: its mean must be known
-constexpr double kMaxTrapShare = 0.3;      // of the frame's mean, in a trap
 constexpr double kMaxClippedWhite = 0.01;  // of the plane
-
-double clipped_share(const capture::RawFrame& frame,
-                     const capture::RadianceCorrection& correction) {
-  const std::vector<std::uint8_t> marks = marks_of(frame, correction);
-  return static_cast<double>(std::count(marks.begin(), marks.end(), kSampleClipped)) /
-         static_cast<double>(marks.size());
-}
-
-TrapMean trap_mean(const CfaSamples& samples, std::size_t colour, double black_std,
-                   double frame_counts) {
-  double sum = 0, variance = 0, n = 0;
-  std::size_t i = 0;
-  for (int y = samples.y0; y < samples.y0 + samples.height; ++y) {
-    for (int x = samples.x0; x < samples.x0 + samples.width; ++x, ++i) {
-      if (samples.channel(x, y) != static_cast<int>(colour) || samples.clipped[i] != 0) continue;
-      sum += static_cast<double>(samples.signal_counts[i]);
-      variance += static_cast<double>(samples.variance_counts2[i]);
-      n += 1.0;
-    }
-  }
-  if (!(n > 0.0)) return {0.0, 1.0, 0.0};
-  return {sum / n, std::hypot(std::sqrt(variance) / n, black_std), frame_counts};
-}
 
 // Relative standard deviation of the plane's mean radiance by what the rig does not know of its
 // LED.
@@ -72,10 +45,15 @@ double led_relative_std(const WhiteReference& white, const PriorLed& light,
   return std::sqrt(variance);
 }
 
+// What a shot of the plane was taken with, and what it shows.
+struct WhiteLevel {
+  double stated_s;
+  double counts;  // mean over the plane
+};
+
 // Standard deviation of the shots' mean log light by the curve and the exposure times, which the
 // flats gave together.
-double log_light_std(const RadianceSteps& steps,
-                     const std::vector<std::pair<double, double>>& levels,
+double log_light_std(const RadianceSteps& steps, const std::vector<WhiteLevel>& levels,
                      const std::vector<WhiteSum>& sums) {
   const std::vector<double>& knots = steps.calibration.correction.response[0].knot_counts();
   const auto n = static_cast<Eigen::Index>(steps.settings_s.size());
@@ -85,10 +63,10 @@ double log_light_std(const RadianceSteps& steps,
   if (!(total > 0.0)) return 0.0;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const double share = white_weight(sums[i]) / total;
-    a.tail(a.size() - n) += share * ResponseCurve::weights(knots, levels[i].second);
+    a.tail(a.size() - n) += share * ResponseCurve::weights(knots, levels[i].counts);
     const auto setting =
         std::find_if(steps.settings_s.begin(), steps.settings_s.end(),
-                     [&](double t) { return std::abs(t - levels[i].first) <= 1e-3 * t; });
+                     [&](double t) { return std::abs(t - levels[i].stated_s) <= 1e-3 * t; });
     if (setting == steps.settings_s.end()) {
       elsewhere += share * steps.calibration.correction.shutter_relative_std;
     } else {
@@ -100,92 +78,62 @@ double log_light_std(const RadianceSteps& steps,
   return std::sqrt(std::max(0.0, variance) + elsewhere * elsewhere + single);
 }
 
-}  // namespace
+std::vector<WhitePixel> pixels_of_white(const RadianceSteps& steps, const WhiteReference& white,
+                                        const capture::RawFrame& frame, const std::string& file) {
+  const PoseResult pose = steps.input.pose.estimate(frame, file);
+  std::vector<WhitePixel> pixels =
+      white_pixels(white.plane, {steps.input.intrinsics, pose.camera_from_world},
+                   0.05 * std::min(white.plane.width_mm, white.plane.height_mm));
+  if (pixels.size() < 400) {
+    throw InputError(steps.input.shots.at(white.line) + ": calibration.radiance.white",
+                     fmt::format("the plane fills {} pixels of {}, at least 400 wanted; look at "
+                                 "origin_mm, the axes and the pose",
+                                 pixels.size(), file));
+  }
+  return pixels;
+}
 
-void find_glare(RadianceSteps& steps) {
-  const std::optional<GlareTarget>& glare = steps.input.shots.glare;
-  capture::RadianceCalibration& calibration = steps.calibration;
-  capture::RadianceCorrection& correction = calibration.correction;
-  if (!glare) {
-    calibration.notes.emplace_back("no glare shot: stray light is taken for none");
-    return;
+// One shot of the plane, summed over its pixels.
+struct WhiteShot {
+  std::array<WhiteSum, kRgb> sums{};
+  double clipped_share = 0;
+  double mean_counts = 0;
+};
+
+WhiteShot sum_white(const capture::CorrectedSamples& s, const WhiteReference& white, const Led& led,
+                    const std::vector<WhitePixel>& pixels,
+                    const std::array<double, kRgb>& glare_std) {
+  WhiteShot shot;
+  const CfaSamples& samples = s.samples;
+  const Eigen::Vector3d normal = white.plane.normal();
+  const auto width = static_cast<std::size_t>(samples.width);
+  const double exposure_s = samples.exposure_s;
+  double clipped = 0, signal = 0;
+  for (const WhitePixel& p : pixels) {
+    if (samples.clipped[p.pixel] == kSampleClipped) clipped += 1.0;
+    if (samples.clipped[p.pixel] != 0) continue;
+    const auto c = static_cast<std::size_t>(
+        samples.channel(static_cast<int>(p.pixel % width), static_cast<int>(p.pixel / width)));
+    WhiteSum& sum = shot.sums[c];
+    sum.counts_per_s += static_cast<double>(samples.signal_counts[p.pixel]) / exposure_s;
+    sum.variance +=
+        static_cast<double>(samples.variance_counts2[p.pixel]) / (exposure_s * exposure_s);
+    sum.radiance += white.plane.albedo[static_cast<Eigen::Index>(c)] *
+                    led.intensity_W_per_sr[static_cast<Eigen::Index>(c)] *
+                    white_radiance_per_intensity(led, p.point_mm, normal);
+    signal += static_cast<double>(samples.signal_counts[p.pixel]);
   }
-  std::array<std::vector<TrapMean>, kRgb> traps;
-  for (const RadianceShot& shot : glare->shots) {
-    const capture::RawFrame frame = open_radiance_shot(steps, shot);
-    const double clipped = clipped_share(frame, correction);
-    if (clipped > kMaxClippedGlare) {
-      throw InputError(shot.file, fmt::format("glare: {:.2f} % of the samples are clipped, limit "
-                                              "{:.2f} %; expose shorter",
-                                              100.0 * clipped, 100.0 * kMaxClippedGlare));
-    }
-    for (const PixelRect& r : glare->traps_px) {
-      if (r.x0 + r.width > frame.width_px || r.y0 + r.height > frame.height_px) {
-        throw InputError(
-            steps.input.shots.at(glare->line) + ": calibration.radiance.glare.traps_px",
-            fmt::format("[{}, {}, {}, {}] leaves the frame of {} x {}", r.x0, r.y0, r.width,
-                        r.height, frame.width_px, frame.height_px));
-      }
-      // Neither glare nor vignetting is in the correction yet.
-      const capture::CorrectedSamples s =
-          capture::corrected_samples(frame, correction, r.x0, r.y0, r.width, r.height);
-      for (std::size_t c = 0; c < kRgb; ++c) {
-        const TrapMean trap =
-            trap_mean(s.samples, c, correction.black_std_counts, s.frame_mean_counts[c]);
-        if (!(trap.frame_counts > 0.0) || trap.counts > kMaxTrapShare * trap.frame_counts) {
-          throw InputError(
-              shot.file,
-              fmt::format(
-                  "glare: the trap at [{}, {}] holds {:.1f} counts in channel {}, the frame "
-                  "{:.1f} in the mean; is the rectangle on a black trap, and is there light?",
-                  r.x0, r.y0, trap.counts, kRgbName[c], trap.frame_counts));
-        }
-        traps[c].push_back(trap);
-      }
-    }
-  }
-  double rms = 0, worst = 0;
+  shot.clipped_share = clipped / static_cast<double>(pixels.size());
+  shot.mean_counts = signal / static_cast<double>(pixels.size());
   for (std::size_t c = 0; c < kRgb; ++c) {
-    const GlareFit fit = fit_glare(traps[c], glare->relative_std);
-    correction.glare_share[c] = fit.share;
-    correction.glare_std[c] = fit.std;
-    rms = std::max(rms, fit.rms_counts);
-    worst = std::max(worst, fit.worst_counts);
+    // Black and glare are common to the shot's samples.
+    const double glare = glare_std[c] * s.frame_mean_counts[c];
+    shot.sums[c].relative_std = std::hypot(s.black_std_counts, glare) / shot.mean_counts;
   }
-  calibration.residuals.push_back({"glare in the traps", rms, worst, 5.0, "counts"});
+  return shot;
 }
 
-void find_vignetting(RadianceSteps& steps) {
-  capture::RadianceCalibration& calibration = steps.calibration;
-  capture::RadianceCorrection& correction = calibration.correction;
-  std::array<double, kRgb> sum{}, n{};
-  for (std::size_t k = 0; k < steps.blocks.size(); ++k) {
-    const auto c =
-        static_cast<std::size_t>(steps.cfa.phase[static_cast<std::size_t>(steps.blocks[k].phase)]);
-    if (!(steps.light[k].per_s > 0.0)) continue;
-    sum[c] += steps.light[k].per_s * steps.light[k].samples;
-    n[c] += steps.light[k].samples;
-  }
-  std::vector<FlatLight> lights;
-  for (std::size_t k = 0; k < steps.blocks.size(); ++k) {
-    const RadianceSteps::Light& l = steps.light[k];
-    if (!(l.per_s > 0.0)) continue;
-    const auto c =
-        static_cast<std::size_t>(steps.cfa.phase[static_cast<std::size_t>(steps.blocks[k].phase)]);
-    lights.push_back({steps.blocks[k], c, l.per_s - correction.glare_share[c] * sum[c] / n[c],
-                      l.relative_variance * l.per_s * l.per_s, l.shared});
-  }
-  const VignettingFit fit = fit_vignetting(lights, correction.width_px, correction.height_px);
-  if (!fit.ok) {
-    throw InputError(steps.input.shots.at(steps.input.shots.line) + ": calibration.radiance.flats",
-                     fmt::format("vignetting: {} of {} blocks of the frame are usable, too few",
-                                 lights.size(), steps.blocks.size()));
-  }
-  correction.vignetting = fit.vignetting;
-  correction.vignetting_std = fit.rms_std;
-  calibration.residuals.push_back({"flat field against vignetting", std::sqrt(fit.reduced_chi2),
-                                   100.0 * fit.worst, 2.0, "standard deviations (worst: %)"});
-}
+}  // namespace
 
 void find_scale(RadianceSteps& steps) {
   const std::optional<WhiteReference>& white = steps.input.shots.white;
@@ -198,59 +146,24 @@ void find_scale(RadianceSteps& steps) {
   const PriorLed& light = *steps.input.white_led;
   std::array<std::vector<WhiteSum>, kRgb> sums;
   std::vector<WhitePixel> pixels;
-  const Eigen::Vector3d normal = white->plane.normal();
-  std::vector<std::pair<double, double>> levels;  // stated time and counts of each shot used
+  std::vector<WhiteLevel> levels;  // of the shots used
   std::string last_problem = "no shot of it";
   for (const RadianceShot& shot : white->shots) {
     const capture::RawFrame frame = open_radiance_shot(steps, shot);
-    if (pixels.empty()) {
-      const PoseResult pose = steps.input.pose.estimate(frame, shot.file);
-      pixels = white_pixels(white->plane, {steps.input.intrinsics, pose.camera_from_world},
-                            0.05 * std::min(white->plane.width_mm, white->plane.height_mm));
-      if (pixels.size() < 400) {
-        throw InputError(
-            steps.input.shots.at(white->line) + ": calibration.radiance.white",
-            fmt::format("the plane fills {} pixels of {}, at least 400 wanted; look at "
-                        "origin_mm, the axes and the pose",
-                        pixels.size(), shot.file));
-      }
-    }
-    const capture::CorrectedSamples s =
-        capture::corrected_samples(frame, correction, 0, 0, frame.width_px, frame.height_px);
-    std::array<WhiteSum, kRgb> sum{};
-    double clipped = 0, signal = 0;
-    for (const WhitePixel& p : pixels) {
-      if (s.samples.clipped[p.pixel] == kSampleClipped) clipped += 1.0;
-      if (s.samples.clipped[p.pixel] != 0) continue;
-      const auto width = static_cast<std::size_t>(frame.width_px);
-      const auto c = static_cast<std::size_t>(
-          s.samples.channel(static_cast<int>(p.pixel % width), static_cast<int>(p.pixel / width)));
-      const double exposure_s = s.samples.exposure_s;
-      sum[c].counts_per_s += static_cast<double>(s.samples.signal_counts[p.pixel]) / exposure_s;
-      sum[c].variance +=
-          static_cast<double>(s.samples.variance_counts2[p.pixel]) / (exposure_s * exposure_s);
-      sum[c].radiance += white->plane.albedo[static_cast<Eigen::Index>(c)] *
-                         light.led.intensity_W_per_sr[static_cast<Eigen::Index>(c)] *
-                         white_radiance_per_intensity(light.led, p.point_mm, normal);
-      signal += static_cast<double>(s.samples.signal_counts[p.pixel]);
-    }
-    clipped /= static_cast<double>(pixels.size());
-    if (clipped > kMaxClippedWhite) {
+    if (pixels.empty()) pixels = pixels_of_white(steps, *white, frame, shot.file);
+    const WhiteShot seen = sum_white(
+        capture::corrected_samples(frame, correction, 0, 0, frame.width_px, frame.height_px),
+        *white, light.led, pixels, correction.glare_std);
+    if (seen.clipped_share > kMaxClippedWhite) {
       last_problem = fmt::format(
           "{:.1f} % of its samples are clipped, limit {:.0f} %; expose "
           "shorter",
-          100.0 * clipped, 100.0 * kMaxClippedWhite);
+          100.0 * seen.clipped_share, 100.0 * kMaxClippedWhite);
       calibration.notes.push_back(shot.file + ": left out, " + last_problem);
       continue;
     }
-    const double mean_counts = signal / static_cast<double>(pixels.size());
-    levels.emplace_back(frame.exposure_s, mean_counts);
-    for (std::size_t c = 0; c < kRgb; ++c) {
-      // Black and glare are common to the shot's samples.
-      const double glare = correction.glare_std[c] * s.frame_mean_counts[c];
-      sum[c].relative_std = std::hypot(s.black_std_counts, glare) / mean_counts;
-      sums[c].push_back(sum[c]);
-    }
+    levels.push_back({frame.exposure_s, seen.mean_counts});
+    for (std::size_t c = 0; c < kRgb; ++c) sums[c].push_back(seen.sums[c]);
   }
   calibration.responsivity.emplace();
   double statistical = 0, worst = 0;

@@ -55,14 +55,14 @@ std::vector<Eigen::Array3d> binned_radiosity(const std::vector<Eigen::Vector3d>&
   const SourceCloud sources(light, origin_mm);
   std::vector<Eigen::Array3d> out(points_mm.size());
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, points_mm.size(), SourceCloud::kSideBySide),
+      tbb::blocked_range<std::size_t>(0, points_mm.size(), kSitesSideBySide),
       [&](const tbb::blocked_range<std::size_t>& range) {
         std::vector<ExitSite> sites;
         for (std::size_t j = range.begin(); j < range.end(); ++j) {
           sites.push_back(exit_point(points_mm[j]));
         }
         std::vector<float> sums(range.size() * static_cast<std::size_t>(bins.size()));
-        sources.add_to(sites, bins, options, sums.data());
+        add_pair_sums(sources, sites, bins, options, sums.data());
         const Eigen::Map<const Eigen::MatrixXf> weights(sums.data(), bins.size(),
                                                         static_cast<Eigen::Index>(range.size()));
         for (std::size_t j = range.begin(); j < range.end(); ++j) {

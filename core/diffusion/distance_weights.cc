@@ -113,19 +113,18 @@ namespace {
 template <class Use>
 void for_smooth_rows(const std::vector<ExitSite>& sites, const SourceCloud& sources,
                      const DistanceKnots& knots, const PairSumOptions& options, const Use& use) {
-  constexpr std::size_t kSideBySide = SourceCloud::kSideBySide;
   const auto bins = static_cast<std::size_t>(knots.fine_bins().size());
   tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, (sites.size() + kSideBySide - 1) / kSideBySide),
+      tbb::blocked_range<std::size_t>(0, (sites.size() + kSitesSideBySide - 1) / kSitesSideBySide),
       [&](const tbb::blocked_range<std::size_t>& range) {
-        std::vector<float> fine(kSideBySide * bins);
+        std::vector<float> fine(kSitesSideBySide * bins);
         Eigen::RowVectorXd w(knots.size());
         for (std::size_t block = range.begin(); block < range.end(); ++block) {
-          const std::size_t first = block * kSideBySide;
+          const std::size_t first = block * kSitesSideBySide;
           const auto some =
-              std::span(sites).subspan(first, std::min(kSideBySide, sites.size() - first));
+              std::span(sites).subspan(first, std::min(kSitesSideBySide, sites.size() - first));
           std::fill(fine.begin(), fine.end(), 0.0F);
-          sources.add_to(some, knots.fine_bins(), options, fine.data());
+          add_pair_sums(sources, some, knots.fine_bins(), options, fine.data());
           for (std::size_t j = 0; j < some.size(); ++j) {
             knots.fold(fine.data() + j * bins, w.data());
             use(static_cast<Eigen::Index>(first + j), w);
@@ -158,9 +157,9 @@ WeightMatrix uniform_weights(const std::vector<ExitSite>& sites, const SourceClo
   WeightMatrix w = WeightMatrix::Zero(static_cast<Eigen::Index>(sites.size()), bins.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sites.size(), 16),
                     [&](const tbb::blocked_range<std::size_t>& range) {
-                      sources.add_to(std::span(sites).subspan(range.begin(), range.size()), bins,
-                                     options,
-                                     w.row(static_cast<Eigen::Index>(range.begin())).data());
+                      add_pair_sums(sources, std::span(sites).subspan(range.begin(), range.size()),
+                                    bins, options,
+                                    w.row(static_cast<Eigen::Index>(range.begin())).data());
                     });
   return w;
 }

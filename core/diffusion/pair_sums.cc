@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -12,119 +11,19 @@
 #include "core/mesh/triangle_parts.h"
 
 namespace scattermeter {
-PowerMoments SourceCloud::build(const std::vector<PowerMoments>& leaves, std::int32_t* begin,
-                                std::int32_t* end) {
-  const std::size_t at = nodes_.size();
-  nodes_.emplace_back();
-  PowerMoments m;
-  std::int32_t right = -1;
-  if (end - begin == 1) {
-    m = leaves[static_cast<std::size_t>(*begin)];
-  } else {
-    Eigen::Vector3d min = leaves[static_cast<std::size_t>(*begin)].mean;
-    Eigen::Vector3d max = min;
-    for (const std::int32_t* i = begin; i != end; ++i) {
-      min = min.cwiseMin(leaves[static_cast<std::size_t>(*i)].mean);
-      max = max.cwiseMax(leaves[static_cast<std::size_t>(*i)].mean);
-    }
-    Eigen::Index axis = 0;
-    (max - min).maxCoeff(&axis);
-    std::int32_t* middle = begin + (end - begin) / 2;
-    std::nth_element(begin, middle, end, [&](std::int32_t a, std::int32_t b) {
-      const double xa = leaves[static_cast<std::size_t>(a)].mean[axis];
-      const double xb = leaves[static_cast<std::size_t>(b)].mean[axis];
-      return xa != xb ? xa < xb : a < b;
-    });
-    const PowerMoments first = build(leaves, begin, middle);
-    right = static_cast<std::int32_t>(nodes_.size());
-    m = PowerMoments::joined(first, build(leaves, middle, end));
-  }
-  const Eigen::Matrix3f c = m.covariance.cast<float>();
-  const Eigen::Vector3f p = m.mean.cast<float>();
-  nodes_[at] = {p.x(),
-                p.y(),
-                p.z(),
-                static_cast<float>(m.power),
-                static_cast<float>(m.radius_mm()),
-                c(0, 0),
-                c(0, 1),
-                c(0, 2),
-                c(1, 1),
-                c(1, 2),
-                c(2, 2),
-                right < 0 ? *begin : -1,
-                right};
-  return m;
-}
-
-SourceCloud::Rule SourceCloud::rule_of(const LitTriangle& t) {
-  const Eigen::Vector3d center = middle_mm(t.corners_mm);
-  const auto& e = t.irradiance_sr_per_mm2;
-  const double mean = (e[0] + e[1] + e[2]) / 3.0, area = area_mm2(t.corners_mm);
-  Rule rule;
-  const auto fill = [&](const auto& orbits, auto& points) {
-    Eigen::Index k = 0;
-    for (const TriangleOrbit& orbit : orbits) {
-      for (std::size_t i = 0; i < 3; ++i, ++k) {
-        const Eigen::Vector3f from_center =
-            ((orbit.a - orbit.b()) * (t.corners_mm[i] - center)).template cast<float>();
-        const double density = 3.0 * orbit.b() * mean + (orbit.a - orbit.b()) * e[i];
-        points.x[k] = from_center.x();
-        points.y[k] = from_center.y();
-        points.z[k] = from_center.z();
-        points.power[k] = static_cast<float>(density * area * orbit.weight);
-      }
-    }
-  };
-  rule.center = center.cast<float>();
-  rule.edge = static_cast<float>(longest_edge_mm(t.corners_mm));
-  fill(kThreePoints, rule.three);
-  fill(kCowper, rule.six);
-  rule.density = static_cast<float>(mean);
-  rule.area = static_cast<float>(area);
-  for (std::size_t i = 0; i < 3; ++i) {
-    rule.corner[i] = (t.corners_mm[i] - center).cast<float>();
-    rule.rise[i] = static_cast<float>(e[i] - mean);
-  }
-  rule.precise_center = center;
-  return rule;
-}
-
-SourceCloud::SourceCloud(const IncidentLight& light, const Eigen::Vector3d& origin_mm)
-    : origin_mm_(origin_mm) {
-  if (light.lit.empty()) return;
-  std::vector<LitTriangle> triangles = light.lit;
-  std::vector<PowerMoments> leaves;
-  leaves.reserve(triangles.size());
-  for (LitTriangle& t : triangles) {
-    // Positions relative to the origin from here on.
-    for (Eigen::Vector3d& corner : t.corners_mm) corner -= origin_mm_;
-    leaves.push_back(PowerMoments::of(t));
-  }
-  std::vector<std::int32_t> order(triangles.size());
-  std::iota(order.begin(), order.end(), 0);
-  nodes_.reserve(2 * triangles.size());
-  build(leaves, order.data(), order.data() + order.size());
-  rules_.reserve(triangles.size());
-  for (Node& node : nodes_) {
-    if (node.right >= 0) continue;
-    const auto triangle = static_cast<std::size_t>(node.triangle);
-    node.triangle = static_cast<std::int32_t>(rules_.size());
-    rules_.push_back(rule_of(triangles[triangle]));
-  }
-}
+namespace {
 
 // What one site is given of the tree. Pairs of distance and power go to the bins many at a time, so
 // that all but the adding itself is done in lanes.
 template <class Bins>
-class SourceCloud::Sum {
+class SiteSum {
  public:
-  Sum(const SourceCloud& cloud, const ExitSite& site, const Bins& bins,
-      const PairSumOptions& options, typename Bins::Sum* sums)
+  SiteSum(const SourceCloud& cloud, const ExitSite& site, const Bins& bins,
+          const PairSumOptions& options, typename Bins::Sum* sums)
       : cloud_(cloud),
         bins_(bins),
         sums_(sums),
-        near_(moved(site, -cloud.origin_mm_)),
+        near_(moved(site, -cloud.origin_mm())),
         at_(near_.center_mm.cast<float>()),
         covariance_(site.covariance_mm2.cast<float>()),
         radius_(static_cast<float>(site.radius_mm())),
@@ -147,7 +46,7 @@ class SourceCloud::Sum {
   const Eigen::Vector3f& center_mm() const { return at_; }
   float radius_mm() const { return radius_; }
 
-  void keep_cluster(const Node& node, float dx, float dy, float dz) {
+  void keep_cluster(const SourceCloud::Node& node, float dx, float dy, float dz) {
     const Eigen::Index i = clusters_++;
     x_[i] = dx;
     y_[i] = dy;
@@ -163,7 +62,7 @@ class SourceCloud::Sum {
   }
 
   void add_near(std::int32_t triangle) {
-    const Rule& rule = cloud_.rules_[static_cast<std::size_t>(triangle)];
+    const SourceCloud::Rule& rule = cloud_.rules()[static_cast<std::size_t>(triangle)];
     const float few = few_points_ratio_ * (rule.edge + radius_);
     if ((rule.center - at_).squaredNorm() >= few * few) {
       for (int i = 0; i < n_few_; ++i) {
@@ -250,18 +149,19 @@ class SourceCloud::Sum {
   // A triangle with a linear density, cut into four until its parts are small for their distance.
   // All parts are the triangle itself, `scale` times as large, turned over where that is negative.
   struct Cut {
-    const Rule& rule;
-    Points<8>::Lanes even, slope;  // power of a density of 1, and of one that rises as the rule's
+    const SourceCloud::Rule& rule;
+    SourceCloud::Points<8>::Lanes even,
+        slope;  // power of a density of 1, and of one that rises as the rule's
   };
-  static Cut cut_of(const Rule& rule, float weight) {
-    static const Points<8>::Lanes kShares = [] {
-      Points<8>::Lanes shares = Points<8>::Lanes::Zero();
+  static Cut cut_of(const SourceCloud::Rule& rule, float weight) {
+    static const SourceCloud::Points<8>::Lanes kShares = [] {
+      SourceCloud::Points<8>::Lanes shares = SourceCloud::Points<8>::Lanes::Zero();
       for (Eigen::Index k = 0; k < 6; ++k) {
         shares[k] = static_cast<float>(kCowper[static_cast<std::size_t>(k / 3)].weight);
       }
       return shares;
     }();
-    const Points<8>::Lanes even = (weight * rule.area) * kShares;
+    const SourceCloud::Points<8>::Lanes even = (weight * rule.area) * kShares;
     return {rule, even, weight * rule.six.power - rule.density * even};
   }
   void add_parts(const Cut& cut, const Eigen::Vector3f& v, float scale, float density) {
@@ -300,14 +200,14 @@ class SourceCloud::Sum {
 
 // Some sites against the tree, in lanes; each comes to its own verdict about every cluster.
 template <class Bins>
-class SourceCloud::Group {
+class SiteGroup {
  public:
-  Group(const SourceCloud& cloud, std::span<const ExitSite> sites, const Bins& bins,
-        const PairSumOptions& options, typename Bins::Sum* sums)
+  SiteGroup(const SourceCloud& cloud, std::span<const ExitSite> sites, const Bins& bins,
+            const PairSumOptions& options, typename Bins::Sum* sums)
       : cloud_(cloud), far_ratio_(static_cast<float>(options.far_ratio)) {
     for (std::size_t i = 0; i < sites.size(); ++i) {
-      const Sum<Bins>& sum = sums_[i].emplace(cloud, sites[i], bins, options,
-                                              sums + i * static_cast<std::size_t>(bins.size()));
+      const SiteSum<Bins>& sum = sums_[i].emplace(cloud, sites[i], bins, options,
+                                                  sums + i * static_cast<std::size_t>(bins.size()));
       x_[i] = sum.center_mm().x();
       y_[i] = sum.center_mm().y();
       z_[i] = sum.center_mm().z();
@@ -320,11 +220,11 @@ class SourceCloud::Group {
  private:
   // sites: a bit for each that has come here.
   void visit(std::int32_t at, int sites) {
-    const Node& node = cloud_.nodes_[static_cast<std::size_t>(at)];
+    const SourceCloud::Node& node = cloud_.nodes()[static_cast<std::size_t>(at)];
     const float far_of_node = far_ratio_ * node.radius;
-    std::array<float, kSideBySide> dx, dy, dz;
+    std::array<float, kSitesSideBySide> dx, dy, dz;
     int near = 0;
-    for (std::size_t i = 0; i < kSideBySide; ++i) {
+    for (std::size_t i = 0; i < kSitesSideBySide; ++i) {
       dx[i] = node.x - x_[i];
       dy[i] = node.y - y_[i];
       dz[i] = node.z - z_[i];
@@ -350,23 +250,25 @@ class SourceCloud::Group {
 
   const SourceCloud& cloud_;
   float far_ratio_;
-  std::array<float, kSideBySide> x_{}, y_{}, z_{}, far_of_site_{};
-  std::array<std::optional<Sum<Bins>>, kSideBySide> sums_;
+  std::array<float, kSitesSideBySide> x_{}, y_{}, z_{}, far_of_site_{};
+  std::array<std::optional<SiteSum<Bins>>, kSitesSideBySide> sums_;
 };
 
+}  // namespace
+
 template <class Bins>
-void SourceCloud::add_to(std::span<const ExitSite> sites, const Bins& bins,
-                         const PairSumOptions& options, typename Bins::Sum* sums) const {
-  if (nodes_.empty()) return;
-  for (std::size_t i = 0; i < sites.size(); i += kSideBySide) {
-    Group<Bins>(*this, sites.subspan(i, std::min(kSideBySide, sites.size() - i)), bins, options,
-                sums + i * static_cast<std::size_t>(bins.size()));
+void add_pair_sums(const SourceCloud& cloud, std::span<const ExitSite> sites, const Bins& bins,
+                   const PairSumOptions& options, typename Bins::Sum* sums) {
+  if (cloud.nodes().empty()) return;
+  for (std::size_t i = 0; i < sites.size(); i += kSitesSideBySide) {
+    SiteGroup<Bins>(cloud, sites.subspan(i, std::min(kSitesSideBySide, sites.size() - i)), bins,
+                    options, sums + i * static_cast<std::size_t>(bins.size()));
   }
 }
 
-template void SourceCloud::add_to(std::span<const ExitSite>, const UniformBins&,
-                                  const PairSumOptions&, double*) const;
-template void SourceCloud::add_to(std::span<const ExitSite>, const OctaveBins&,
-                                  const PairSumOptions&, float*) const;
+template void add_pair_sums(const SourceCloud&, std::span<const ExitSite>, const UniformBins&,
+                            const PairSumOptions&, double*);
+template void add_pair_sums(const SourceCloud&, std::span<const ExitSite>, const OctaveBins&,
+                            const PairSumOptions&, float*);
 
 }  // namespace scattermeter

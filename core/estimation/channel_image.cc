@@ -9,7 +9,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "core/diffusion/dipole_curve.h"
-#include "core/fit/numerics.h"
+#include "core/fit/method_errors.h"
 
 namespace scattermeter {
 namespace {
@@ -128,7 +128,7 @@ ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& task, cons
   }
   // Those of the method, as a shot without rows has them: its octaves', and its own.
   DenseSystem none{WeightMatrix(0, knots.size()), Eigen::VectorXd(0), Eigen::VectorXd(0)};
-  add_method_errors(none);
+  add_errors_of_method(none);
   octaves_ = static_cast<Eigen::Index>(none.nuisances.size()) - 1;
   nuisances_.insert(nuisances_.end(), static_cast<std::size_t>(octaves_) + shots(),
                     none.nuisances.front());
@@ -137,12 +137,12 @@ ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& task, cons
 DenseSystem ChannelImage::rows_of_shot(std::size_t s) const {
   DenseSystem system = channel_system(scene_, task_, s, rows_[s], weights_,
                                       1.0 / sigma_t_per_mm(first_.medium), patch_mm_);
-  add_method_errors(system);
+  add_errors_of_method(system);
   return system;
 }
 
-void ChannelImage::add_method_errors(DenseSystem& system) const {
-  add_numerics(
+void ChannelImage::add_errors_of_method(DenseSystem& system) const {
+  add_method_errors(
       knots_, r_, patch_mm_.value_or(patch_size_mm(task_)),
       {first_.medium.sigma_s_prime_per_mm, first_.medium.sigma_a_per_mm, task_.eta_int_over_ext},
       system);

@@ -15,11 +15,11 @@
 namespace scattermeter {
 
 // The used rows of the task under all their lights, with all that the rig knows only to a standard
-// deviation (core/estimation/nuisances.h) and with the errors of the method (core/fit/numerics.h).
-// What it is made of must outlive it, the rows as well: those that are left out later are gone from
-// the image. Nuisances of the rig that together can move no answer by more than a hundredth of the
-// deviation that the noise alone leaves it are left out: the length of what one deviation of them
-// changes, in deviations of the rows, is a bound for that.
+// deviation (core/estimation/nuisances.h) and with the errors of the method
+// (core/fit/method_errors.h). What it is made of must outlive it, the rows as well: those that are
+// left out later are gone from the image. Nuisances of the rig that together can move no answer by
+// more than a hundredth of the deviation that the noise alone leaves it are left out: the length of
+// what one deviation of them changes, in deviations of the rows, is a bound for that.
 class ChannelImage final : public ImageRows {
  public:
   // first: the material as known so far, for which nuisances and errors are computed.
@@ -37,7 +37,7 @@ class ChannelImage final : public ImageRows {
  private:
   // With the errors of the method alone.
   DenseSystem rows_of_shot(std::size_t shot) const;
-  void add_method_errors(DenseSystem& system) const;
+  void add_errors_of_method(DenseSystem& system) const;
 
   const Scene& scene_;
   const MaterialChannel& task_;

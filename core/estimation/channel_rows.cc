@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/fit/numerics.h"
+#include "core/fit/method_errors.h"
 #include "core/view/row_selection.h"
 
 namespace scattermeter {
@@ -20,8 +20,8 @@ LinearShot linear_shot(const Scene& scene, const MaterialChannel& channel, std::
   const ObservedShot* shot = channel.shots[shot_idx];
   LinearShot linear{{}, &rows, kFirstNumericalStd};
   if (mean_free_path_mm > 0.0) {
-    linear.numerical_relative_std =
-        row_numerics(patch_mm.value_or(shot->seen->patches->patch_size_mm()), mean_free_path_mm);
+    linear.numerical_relative_std = row_method_error(
+        patch_mm.value_or(shot->seen->patches->patch_size_mm()), mean_free_path_mm);
   }
   for (const std::string& name : shot->stated->lights) {
     const SceneLight& light = scene.light(name);

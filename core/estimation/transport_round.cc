@@ -35,8 +35,8 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
     : shots_(shots),
       at_(at),
       pilot_(pilot),
-      alike_(correlated_rows(shots.parts, at.scale * pilot.l, cells)),
-      joint_(shots.system, scale, pilot, at, expected, alike_) {
+      correlated_(correlated_rows(shots.parts, at.scale * pilot.l, cells)),
+      joint_(shots.system, scale, pilot, at, expected, correlated_) {
   const std::vector<Eigen::Index>& shot_rows = shots.system.shot_rows;
   if (shot_rows.size() < 2) return;
   Eigen::Index first = 0;
@@ -50,7 +50,7 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
     std::iota(rows.begin(), rows.end(), single.first);
     single.system = selected(shots.system, rows);
     single.equation.emplace(single.system, scale, part_of(pilot, single.first, n), at, expected,
-                            touching(alike_.middleRows(single.first, n)));
+                            touching(correlated_.middleRows(single.first, n)));
   }
 }
 
@@ -90,10 +90,10 @@ void TransportRound::take(const ChannelSimulation::Draw& draw) {
   step_ = joint_.step(image_, own, at_, scatter_);
 }
 
-ScatteringEquation::ScaleDoubt TransportRound::scale_doubt() const {
+ScatteringEquation::ScaleTest TransportRound::scale_test() const {
   if (joint_.scale_form().size() == 0) return {};
   const Eigen::Index row = covariance_.rows() - shots_.parts.n_cells() - 1;
-  return joint_.scale_doubt(residual(), at_.scale * at_.scale * covariance_(row, row), scatter_);
+  return joint_.scale_test(residual(), at_.scale * at_.scale * covariance_(row, row), scatter_);
 }
 
 Eigen::MatrixXd TransportRound::cell_covariance() const {
@@ -147,7 +147,7 @@ ShotAgreement TransportRound::agreement(const std::vector<ScatteringEquation::St
           at_.scale * at_.scale *
           covariance_.block((i + 1) * unknowns(), (k + 1) * unknowns(), unknowns(), unknowns());
       const Eigen::MatrixXd shared =
-          a.pushes * b.pushes.transpose() + a.inverse * paths * b.inverse.transpose();
+          a.common_causes * b.common_causes.transpose() + a.inverse * paths * b.inverse.transpose();
       all.block<2, 2>(2 * i, 2 * k) = shared.topLeftCorner<2, 2>();
       all.block<2, 2>(2 * k, 2 * i) = shared.topLeftCorner<2, 2>().transpose();
     }

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/estimation/channel_simulation.h"
+#include "core/estimation/transport_verdict.h"
 #include "core/fit/lack_of_fit.h"
 #include "core/fit/linear_shot.h"
 #include "core/fit/scattering_equation.h"
@@ -28,8 +29,6 @@ class TransportRound {
  public:
   // Shots of fewer rows have no answer of their own.
   static constexpr Eigen::Index kLeastRows = 20;
-  // Blocks of paths from which on the covariances of a shot's parts are worth something.
-  static constexpr int kLeastBlocks = 64;
 
   // pilot: smooth, not of the paths to come. expected: Monte Carlo variance of the rows to come and
   // of what else the shots err by, over the pilot's; cells: the covariance of the cells' relative
@@ -60,8 +59,8 @@ class TransportRound {
   // all (parts that are as improbable as 1 in 100 widen it by Birge's ratio).
   double scatter_within() const { return scatter_within_; }
   double scatter() const { return scatter_; }
-  // What the image has against the stated scale.
-  ScatteringEquation::ScaleDoubt scale_doubt() const;
+  // Whether the image contradicts the stated scale.
+  ScatteringEquation::ScaleTest scale_test() const;
 
   // Shots with an answer of their own (indices), and the steps to it; none for a single shot.
   std::vector<std::size_t> shots() const;
@@ -89,7 +88,7 @@ class TransportRound {
   TransportShots shots_;
   ScatteringPoint at_;
   ScatteringImage pilot_;
-  Eigen::MatrixXd alike_;  // rows that err together
+  Eigen::MatrixXd correlated_;  // rows that err together
   ScatteringEquation joint_;
   std::vector<Single> singles_;
   ScatteringImage image_;

@@ -9,12 +9,12 @@
 namespace scattermeter {
 namespace {
 
-// A misfit so improbable and so large that the answer is refused.
+// A misfit so improbable and so large refuses the result.
 constexpr double kMisfitPValue = 1e-6;
 constexpr double kMisfit = 0.003;
-// The same of a stated scale, one direction alone: three deviations widen the answer by the offset,
-// 4.4 and a per cent refuse it.
-constexpr double kDoubtedPValue = 3e-3;
+// The same for the stated scale, a single direction: an offset of three standard deviations widens
+// the result by it, one of 4.4 that exceeds a per cent refuses it.
+constexpr double kWideningScalePValue = 3e-3;
 constexpr double kRefusedScalePValue = 1e-5;
 constexpr double kRefusedScale = 0.01;
 
@@ -27,13 +27,12 @@ const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
 
 }  // namespace
 
-bool near(const TransportRound& r) {
+bool is_close(const ScatteringEquation::Step& step, int blocks) {
   constexpr double kShort = 0.02;
   constexpr double kOfStd = 0.15;
-  const ScatteringEquation::Step& step = r.step();
-  const double more = r.blocks() > TransportRound::kLeastBlocks ? 1.7 : 1.0;
+  const double more = blocks > kLeastBlocks ? 1.7 : 1.0;
   const Eigen::MatrixXd& paths = covariance_by(step, "Monte Carlo");
-  const double saved = 1.0 - std::min(1.0, r.blocks() / kFinalPathBlocks);
+  const double saved = 1.0 - std::min(1.0, blocks / kFinalPathBlocks);
   for (Eigen::Index k = 0; k < step.move.size(); ++k) {
     const double change = std::abs(step.move[k]) * step.size[k] / more;
     const double std = std::sqrt(step.covariance(k, k) - saved * paths(k, k)) * step.size[k];
@@ -42,71 +41,71 @@ bool near(const TransportRound& r) {
   return true;
 }
 
-bool fine(const TransportRound& r) {
+bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int blocks) {
   constexpr double kOfRest = 0.1;  // of the variance
   constexpr double kFloor[2] = {1e-3, 5e-3};
-  const double unit[2] = {1.0, std::max(r.at().sigma_a_per_mm, 1e-3)};
+  const double unit[2] = {1.0, std::max(sigma_a_per_mm, 1e-3)};
   for (Eigen::Index k = 0; k < 2; ++k) {
-    const double own = covariance_by(r.step(), "Monte Carlo")(k, k);
-    const double rest = r.step().covariance(k, k) - own;
+    const double own = covariance_by(step, "Monte Carlo")(k, k);
+    const double rest = step.covariance(k, k) - own;
     const double floor = kFloor[k] * unit[k];
     if (own > kOfRest * rest && own > floor * floor) return false;
   }
-  return r.blocks() >= TransportRound::kLeastBlocks;
+  return blocks >= kLeastBlocks;
 }
 
-void tell(const ScatteringEquation::Step& step, Estimate& e) {
+void report_step(const ScatteringEquation::Step& step, Estimate& estimate) {
   const double s = step.to.sigma_s_per_mm;
   const Eigen::MatrixXd& c = step.covariance;
-  e.converged = true;
-  e.sigma_s_prime_per_mm = normal_quantity(s, s * std::sqrt(c(0, 0)));
-  e.sigma_a_per_mm = normal_quantity(step.to.sigma_a_per_mm, std::sqrt(c(1, 1)));
-  e.correlation = c(0, 1) / std::sqrt(c(0, 0) * c(1, 1));
-  e.budget.clear();
+  estimate.converged = true;
+  estimate.sigma_s_prime_per_mm = normal_quantity(s, s * std::sqrt(c(0, 0)));
+  estimate.sigma_a_per_mm = normal_quantity(step.to.sigma_a_per_mm, std::sqrt(c(1, 1)));
+  estimate.correlation = c(0, 1) / std::sqrt(c(0, 0) * c(1, 1));
+  estimate.budget.clear();
   for (const auto& cause : step.causes) {
-    e.budget.push_back(
+    estimate.budget.push_back(
         {cause.name, s * std::sqrt(cause.covariance(0, 0)), std::sqrt(cause.covariance(1, 1))});
   }
-  e.scale = normal_quantity(step.to.scale, c.rows() > 2 ? std::sqrt(c(2, 2)) * step.to.scale : 0.0);
+  estimate.scale =
+      normal_quantity(step.to.scale, c.rows() > 2 ? std::sqrt(c(2, 2)) * step.to.scale : 0.0);
 }
 
-ScatteringEquation::Step doubted(const TransportRound& r) {
-  ScatteringEquation::Step step = r.step();
-  const ScatteringEquation::ScaleDoubt scale = r.scale_doubt();
-  if (scale.p_value < kDoubtedPValue) r.equation().widen_by_scale(scale.offset, step);
+ScatteringEquation::Step widened_by_scale(const ScatteringEquation& equation,
+                                          const ScatteringEquation::ScaleTest& scale,
+                                          ScatteringEquation::Step step) {
+  if (scale.p_value < kWideningScalePValue) equation.widen_by_scale(scale.offset, step);
   return step;
 }
 
-void judge(const TransportRound& r, Estimate& e) {
-  if (r.blocks() < TransportRound::kLeastBlocks) {
-    e.reasons.push_back(fmt::format(
-        "the time was too short: {} blocks of paths for each light, at least {} are needed",
-        r.blocks(), TransportRound::kLeastBlocks));
+void add_refusals(const LackOfFit& misfit, const ScatteringEquation::ScaleTest& scale, int blocks,
+                  Estimate& estimate) {
+  if (blocks < kLeastBlocks) {
+    estimate.reasons.push_back(fmt::format(
+        "the time was too short: {} blocks of paths for each light, at least {} are needed", blocks,
+        kLeastBlocks));
   }
-  const LackOfFit misfit = r.misfit();
-  e.misfit_relative = misfit.rms;
-  e.misfit_p_value = misfit.p_value;
+  estimate.misfit_relative = misfit.rms;
+  estimate.misfit_p_value = misfit.p_value;
   if (misfit.p_value < kMisfitPValue && misfit.rms > kMisfit) {
-    e.reasons.push_back(fmt::format(
+    estimate.reasons.push_back(fmt::format(
         "transport does not explain the shots: parts of the image are {:.2g} % off (scale, light, "
-        "pose, shape or eta are not what the rig says)",
+        "pose, shape or eta are not as the rig states)",
         100.0 * misfit.rms));
   }
-  const ScatteringEquation::ScaleDoubt scale = r.scale_doubt();
   if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {
-    e.reasons.push_back(fmt::format(
-        "the shots contradict the scale that the rig states: they would have it at least "
-        "{:.2g} +- {:.1g} % {} (or light, pose, shape or eta are not what the rig says)",
+    estimate.reasons.push_back(fmt::format(
+        "the shots contradict the scale that the rig states: it should be at least "
+        "{:.2g} +- {:.1g} % {} (or light, pose, shape or eta are not as the rig states)",
         100.0 * std::abs(std::expm1(scale.offset)), 100.0 * scale.std,
         scale.offset > 0.0 ? "larger" : "smaller"));
   }
   constexpr double kUndetermined = 0.5;
-  const double relative = e.sigma_s_prime_per_mm.std / e.sigma_s_prime_per_mm.value;
+  const double relative = estimate.sigma_s_prime_per_mm.std / estimate.sigma_s_prime_per_mm.value;
   if (!std::isfinite(relative) || relative > kUndetermined) {
-    e.reasons.push_back("these shots do not determine sigma_s'");
+    estimate.reasons.push_back("these shots do not determine sigma_s'");
   }
-  if (!std::isfinite(e.sigma_a_per_mm.std)) {
-    e.reasons.push_back("these shots set no upper limit to sigma_a");
+  if (!std::isfinite(estimate.sigma_a_per_mm.std)) {
+    estimate.reasons.push_back("these shots set no upper limit to sigma_a");
   }
 }
 

@@ -8,11 +8,11 @@
 
 #include "core/base/chi_square.h"
 #include "core/diffusion/dipole_curve.h"
-#include "core/fit/doubtful_input.h"
 #include "core/fit/fit_uncertainty.h"
 #include "core/fit/profile_interval.h"
 #include "core/fit/recovered_reflectance.h"
 #include "core/fit/residual.h"
+#include "core/fit/score_tests.h"
 
 namespace scattermeter {
 namespace {
@@ -72,8 +72,8 @@ std::string sentence(const Parts&... parts) {
   return out.str();
 }
 
-void judge(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& options,
-           Estimate& e) {
+void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& options,
+                  Estimate& e) {
   const double mfp_mm = std::exp(-p.u);
   if (!e.converged) e.reasons.push_back("the fit did not converge");
   // Knots are a sixteenth of the patch apart at the source; over patches longer than three mean
@@ -242,26 +242,26 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
     }
   }
   // What the image says against the rig's statements widens the answer, or refuses it.
-  const Doubts doubts =
-      doubtful_inputs(recovered, rows.nuisances(), knots, p, options.eta_int_over_ext,
-                      options.scale, recovered.noise_excess());
-  RecoveredReflectance doubted = recovered;
-  for (const auto& [doubt, name] : {std::pair{&doubts.scale, "scale"}, {&doubts.eta, "eta"}}) {
-    if (!(doubt->p_value < options.misfit_p_value)) continue;
-    doubted.sqrt_information.conservativeResize(Eigen::NoChange,
-                                                doubted.sqrt_information.cols() + 1);
-    doubted.sqrt_information.rightCols(1) = doubt->push;
-    nuisances.push_back({name, std::abs(doubt->offset), false});
-    if (doubt->image_relative > options.max_doubt_relative) {
+  const ScoreTests tests =
+      score_tests(recovered, rows.nuisances(), knots, p, options.eta_int_over_ext, options.scale,
+                  recovered.noise_excess());
+  RecoveredReflectance widened = recovered;
+  for (const auto& [test, name] : {std::pair{&tests.scale, "scale"}, {&tests.eta, "eta"}}) {
+    if (!(test->p_value < options.misfit_p_value)) continue;
+    widened.sqrt_information.conservativeResize(Eigen::NoChange,
+                                                widened.sqrt_information.cols() + 1);
+    widened.sqrt_information.rightCols(1) = test->per_offset;
+    nuisances.push_back({name, std::abs(test->offset), false});
+    if (test->image_relative > options.max_offset_relative) {
       estimate.reasons.push_back(sentence("the shots contradict the ", name,
-                                          " that the rig states: they would have it off by ",
-                                          doubt->offset));
+                                          " that the rig states: the best fit differs from it by ",
+                                          test->offset));
     }
   }
-  set_uncertainty(FitUncertainty(doubted, nuisances, curve, p.u, p.q, std::exp(p.log_s),
+  set_uncertainty(FitUncertainty(widened, nuisances, curve, p.u, p.q, std::exp(p.log_s),
                                  options.scale, inflation),
                   solver, p, inflation, estimate);
-  judge(knots, p, options, estimate);
+  add_refusals(knots, p, options, estimate);
   return fit;
 }
 

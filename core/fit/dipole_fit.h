@@ -29,10 +29,10 @@ struct DipoleFitOptions {
   double misfit_p_value = 1e-6;
   double misfit_margin = 2.0;
   double max_misfit_relative = 2e-3;
-  // Where the image has the stated scale or eta off (core/fit/doubtful_input.h), as significantly
+  // Where the image has the stated scale or eta off (core/fit/score_tests.h), as significantly
   // as that, the offset counts as an error of the method, and the answer is refused where it is
   // more than the last relative to the image.
-  double max_doubt_relative = 1e-2;
+  double max_offset_relative = 1e-2;
   // Of an image that shows what is expected, without the noise that its std_l states: fit quality,
   // what widens the errors by it, and verdicts are then those that are to be expected with that
   // noise (one more chi-square for each degree of freedom).

@@ -9,7 +9,7 @@
 #include "core/base/dense_solve.h"
 #include "core/base/log_spline.h"
 #include "core/diffusion/dipole_curve.h"
-#include "core/fit/eliminated_nuisances.h"
+#include "core/fit/marginal_information.h"
 #include "core/fit/reflectance_pilot.h"
 
 namespace scattermeter {
@@ -37,8 +37,8 @@ DipoleMisfit dipole_misfit(const RecoveredReflectance& recovered,
     out.reasons.push_back("no light reaches the object in these shots");
     return out;
   }
-  const EliminatedNuisances image =
-      eliminate_nuisances(recovered, nuisances, knots.size(), NuisanceUse::kAll);
+  const MarginalInformation image =
+      marginal_information(recovered, nuisances, knots.size(), NuisanceUse::kAll);
   const DipoleCurve dipole = dipole_curve(knots, std::log(sigma_t), medium.sigma_a_per_mm / sigma_t,
                                           medium.eta_int_over_ext);
 

@@ -42,7 +42,7 @@ void PartLight::correct(const ShotParts& parts, ScatteringImage& dipole) const {
   }
 }
 
-Eigen::MatrixXd PartLight::cells_alike(const ShotParts& parts) const {
+Eigen::MatrixXd PartLight::relative_cell_covariance(const ShotParts& parts) const {
   // Cells of one shot; those of others share few paths.
   constexpr double kCells = 64.0;
   const double share = blocks_ / (blocks_ + std::min(kCells, static_cast<double>(parts.n_cells())));

@@ -27,7 +27,7 @@ class PartLight {
   // Covariance of the cells' relative light from one block of paths. What few blocks say of cells
   // together is less than what they say of each: shrunk towards none, or some combination would
   // look free of error for lack of blocks. Precondition: blocks() > 0.
-  Eigen::MatrixXd cells_alike(const ShotParts& parts) const;
+  Eigen::MatrixXd relative_cell_covariance(const ShotParts& parts) const;
 
  private:
   Eigen::ArrayXd l_, per_log_sigma_s_, per_sigma_a_;  // ratio; differences

@@ -16,8 +16,8 @@ Eigen::VectorXd log_squared_depth(const DistanceKnots& knots, double source_dept
   return t;
 }
 
-std::optional<ReflectancePilot> reflectance_pilot(const EliminatedNuisances& nominal,
-                                                  const EliminatedNuisances& image,
+std::optional<ReflectancePilot> reflectance_pilot(const MarginalInformation& nominal,
+                                                  const MarginalInformation& image,
                                                   const DistanceKnots& knots) {
   std::optional<ReflectancePilot> best;
   for (double z0 = knots.resolution_mm(); z0 < knots.max_distance_mm(); z0 *= std::numbers::sqrt2) {

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/diffusion/distance_weights.h"
-#include "core/fit/eliminated_nuisances.h"
+#include "core/fit/marginal_information.h"
 
 namespace scattermeter {
 
@@ -22,8 +22,8 @@ struct ReflectancePilot {
 // goes there first, because where a nuisance looks like the level of r the chi-square of `image`
 // hardly tells a level, and Gauss-Newton from a shape still wrong would run off along it.
 // None: no positive r explains any of the image.
-std::optional<ReflectancePilot> reflectance_pilot(const EliminatedNuisances& nominal,
-                                                  const EliminatedNuisances& image,
+std::optional<ReflectancePilot> reflectance_pilot(const MarginalInformation& nominal,
+                                                  const MarginalInformation& image,
                                                   const DistanceKnots& knots);
 
 // log(d^2 + z0^2) on the knots.

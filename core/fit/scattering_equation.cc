@@ -101,11 +101,11 @@ ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
   const Eigen::MatrixXd monte_carlo = at.scale * at.scale * projected_covariance;
   add("Monte Carlo", monte_carlo);
   if (scatter > 1.0) add("scatter", (scatter - 1.0) * monte_carlo);
-  out.pushes = inverse * (projection_ * nuisances_);
+  out.common_causes = inverse * (projection_ * nuisances_);
   std::map<std::string, Eigen::MatrixXd> groups;
   for (Eigen::Index i = 0; i < nuisances_.cols(); ++i) {
     groups.try_emplace(causes_[static_cast<std::size_t>(i)], Eigen::MatrixXd::Zero(n, n))
-        .first->second += out.pushes.col(i) * out.pushes.col(i).transpose();
+        .first->second += out.common_causes.col(i) * out.common_causes.col(i).transpose();
   }
   for (const auto& [name, covariance] : groups) out.causes.push_back({name, covariance});
   out.covariance = Eigen::MatrixXd::Zero(n, n);
@@ -120,14 +120,14 @@ Eigen::VectorXd ScatteringEquation::residual(const ScatteringImage& m, const Sca
                      (to.sigma_a_per_mm - at.sigma_a_per_mm) * m.per_sigma_a);
 }
 
-ScatteringEquation::ScaleDoubt ScatteringEquation::scale_doubt(const Eigen::VectorXd& residual,
-                                                               double form_variance,
-                                                               double scatter) const {
+ScatteringEquation::ScaleTest ScatteringEquation::scale_test(const Eigen::VectorXd& residual,
+                                                             double form_variance,
+                                                             double scatter) const {
   if (scale_form_.size() == 0) return {};
   double variance = scale_form_.cwiseAbs2().dot(system_.std_l.cwiseAbs2()) +
                     std::max(1.0, scatter) * form_variance;
   variance += (scale_form_ * nuisances_).squaredNorm();
-  ScaleDoubt out;
+  ScaleTest out;
   out.offset = scale_form_.dot(residual);
   out.std = std::sqrt(variance);
   const double chi2 = out.offset * out.offset / variance;
@@ -136,8 +136,8 @@ ScatteringEquation::ScaleDoubt ScatteringEquation::scale_doubt(const Eigen::Vect
 }
 
 void ScatteringEquation::widen_by_scale(double offset, Step& step) const {
-  const Eigen::VectorXd push = offset * (step.inverse * (projection_ * per_log_scale_));
-  const Eigen::MatrixXd covariance = push * push.transpose();
+  const Eigen::VectorXd move = offset * (step.inverse * (projection_ * per_log_scale_));
+  const Eigen::MatrixXd covariance = move * move.transpose();
   step.causes.push_back({"doubted scale", covariance});
   step.covariance += covariance;
 }

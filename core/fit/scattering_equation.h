@@ -58,7 +58,7 @@ class ScatteringEquation {
     Eigen::MatrixXd inverse;  // from projection() * l to the move
     // What common causes of one deviation move: a column for every nuisance, and one for a scale
     // that has a prior.
-    Eigen::MatrixXd pushes;
+    Eigen::MatrixXd common_causes;
   };
   // One Newton step from `at`, m there, and the covariance of projection() * m at scale 1.
   // A step is cut to a change of 0.4 and at sigma_a = 0. scatter >= 1: over the Monte
@@ -80,15 +80,14 @@ class ScatteringEquation {
   // what is stated: 1 for scale * pilot.l, 0 for what the unknowns can do, of the least variance.
   // Empty where the scale is free, or where the unknowns make up for it.
   const Eigen::RowVectorXd& scale_form() const { return scale_form_; }
-  struct ScaleDoubt {
+  struct ScaleTest {
     double offset = 0;   // of log scale, wanted less stated
     double std = 0;      // of that where the statement is true, prior included
     double p_value = 1;  // of at least this much
   };
   // form_variance: of scale_form() times the predicted l, by its paths. Nuisances take part within
   // their priors; light that is even over the object leaves nothing to tell by: p is then 1.
-  ScaleDoubt scale_doubt(const Eigen::VectorXd& residual, double form_variance,
-                         double scatter) const;
+  ScaleTest scale_test(const Eigen::VectorXd& residual, double form_variance, double scatter) const;
   // What a log scale off by `offset`, sign unknown, adds to a step.
   void widen_by_scale(double offset, Step& step) const;
   // The most probable log of a scale with a prior; else 0.

@@ -45,9 +45,4 @@ struct ShotDepartures {
 inline constexpr double kWidest = 0.5;
 ShotDepartures shot_departures(const DenseSystem& system, const LinearModel& model);
 
-// Slope of y over x with a level of its own for each group: groups of one have no say.
-// std from the scatter about the lines (infinite without a degree of freedom left).
-Departure common_slope(const std::vector<double>& x, const std::vector<double>& y,
-                       const std::vector<int>& group);
-
 }  // namespace scattermeter

@@ -11,7 +11,7 @@
 #include "core/base/dense_solve.h"
 #include "core/base/log_linear_fit.h"
 #include "core/base/log_spline.h"
-#include "core/fit/eliminated_nuisances.h"
+#include "core/fit/marginal_information.h"
 #include "core/fit/reflectance_pilot.h"
 
 namespace scattermeter {
@@ -33,7 +33,7 @@ struct Breaks {
   std::vector<double> information;
 };
 
-Breaks place_breaks(const EliminatedNuisances& image, const ReflectancePilot& pilot,
+Breaks place_breaks(const MarginalInformation& image, const ReflectancePilot& pilot,
                     const Eigen::VectorXd& t, double wanted) {
   Breaks out;
   out.at.push_back(0);
@@ -147,9 +147,9 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
     out.reasons.push_back("the system holds values that are not finite");
     return out;
   }
-  const EliminatedNuisances image =
-      eliminate_nuisances(recovered, nuisances, knots.size(), NuisanceUse::kFitted);
-  const EliminatedNuisances nominal{
+  const MarginalInformation image =
+      marginal_information(recovered, nuisances, knots.size(), NuisanceUse::kFitted);
+  const MarginalInformation nominal{
       recovered.sqrt_information.leftCols(knots.size()), recovered.whitened, {}};
   const std::optional<ReflectancePilot> pilot =
       recovered.whitened.size() > 0 ? reflectance_pilot(nominal, image, knots) : std::nullopt;
@@ -193,15 +193,15 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
   const Smoothed& best = *std::max_element(
       tried.begin(), tried.end(),
       [](const Smoothed& a, const Smoothed& b) { return a.probability < b.probability; });
-  const Eigen::MatrixXd pushes = best.inverse_root * (best.inverse_root.transpose() *
-                                                      (best.jacobian.transpose() * image.held));
+  const Eigen::MatrixXd held_moves = best.inverse_root * (best.inverse_root.transpose() *
+                                                          (best.jacobian.transpose() * image.held));
   for (std::size_t k = 0; k < breaks.at.size(); ++k) {
     const Eigen::Index at = breaks.at[k];
     const Eigen::RowVectorXd f = problem.basis.row(at);
     ReflectanceKnot knot;
     knot.distance_mm = knots.knots_mm()[static_cast<std::size_t>(at)];
     knot.r_per_mm2 = out.r_per_mm2[at];
-    double variance = (f * pushes).squaredNorm();
+    double variance = (f * held_moves).squaredNorm();
     for (const Smoothed& s : tried) {
       variance += s.probability * (inflation * (f * s.inverse_root).squaredNorm() +
                                    std::pow(f.dot(s.fit.theta - theta), 2));

@@ -3,13 +3,19 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/base/input_error.h"
+
 namespace scattermeter {
 namespace {
 
 template <class Named>
+auto find_name(const std::vector<Named>& all, const std::string& name) {
+  return std::find_if(all.begin(), all.end(), [&](const Named& n) { return n.name == name; });
+}
+
+template <class Named>
 const Named& by_name(const std::vector<Named>& all, const std::string& name) {
-  const auto it =
-      std::find_if(all.begin(), all.end(), [&](const Named& n) { return n.name == name; });
+  const auto it = find_name(all, name);
   if (it == all.end()) throw std::out_of_range("Scene: no such name: " + name);
   return *it;
 }
@@ -22,6 +28,25 @@ const Light& SceneLight::operator*() const {
 
 const SceneObject& Scene::object(const std::string& name) const { return by_name(objects, name); }
 const SceneLight& Scene::light(const std::string& name) const { return by_name(lights, name); }
+
+std::string Scene::at(int line) const {
+  return line > 0 ? source + ":" + std::to_string(line) : source;
+}
+
+void require_known_names(const Scene& scene) {
+  for (const SceneShot& shot : scene.shots) {
+    const std::string where = scene.at(shot.line) + ": shots." + shot.file;
+    if (find_name(scene.objects, shot.object) == scene.objects.end()) {
+      throw InputError(where + ".object", shot.object + " is none of the objects");
+    }
+    if (shot.lights.empty()) throw InputError(where + ".lights", "expected at least one light");
+    for (const std::string& name : shot.lights) {
+      if (find_name(scene.lights, name) == scene.lights.end()) {
+        throw InputError(where + ".lights", name + " is none of the lights");
+      }
+    }
+  }
+}
 
 std::vector<std::string> SceneShot::files() const {
   std::vector<std::string> all = {file};

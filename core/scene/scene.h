@@ -102,8 +102,12 @@ struct Scene {
   const SceneLight& light(const std::string& name) const;    // std::out_of_range
   // Materials in the order of their first shot.
   std::vector<std::string> materials() const;
-  // "rig.yaml:12" for messages.
-  std::string at(int line) const { return source + ":" + std::to_string(line); }
+  // "rig.yaml:12" for messages; without a line (0) the source alone.
+  std::string at(int line) const;
 };
+
+// Throws InputError, with the shot and the field, unless every shot names an object and at least
+// one light of the scene.
+void require_known_names(const Scene& scene);
 
 }  // namespace scattermeter

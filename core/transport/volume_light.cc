@@ -9,7 +9,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "core/base/disjoint_sets.h"
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 #include "core/transport/patch_scores.h"
 
 namespace scattermeter {
@@ -111,7 +111,7 @@ VolumeLight volume_radiosity(const SurfaceField& field, const PatchMesh& patches
     }
   }
   if (!relative.empty()) {
-    out.median_relative_std = middle_value(std::move(relative));
+    out.median_relative_std = upper_median(std::move(relative));
   }
   return out;
 }

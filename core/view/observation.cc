@@ -17,8 +17,130 @@ struct Sum {
   std::size_t clipped = 0;
 };
 
-// What each exposure of a bracket has to do with each row: its parts of the samples, weighted as
-// their counts are in l.
+// Squared second differences of neighbouring samples, and what their variances predict of them.
+struct Scatter {
+  double squared = 0, expected = 0;
+
+  // Three samples of one phase in line: the second difference is free of the slope.
+  void add(const CfaSamples& samples, std::size_t i) {
+    const double d =
+        static_cast<double>(samples.signal_counts[i] - 2.0F * samples.signal_counts[i + 2] +
+                            samples.signal_counts[i + 4]);
+    squared += d * d;
+    expected += static_cast<double>(samples.variance_counts2[i]) +
+                4.0 * static_cast<double>(samples.variance_counts2[i + 2]) +
+                static_cast<double>(samples.variance_counts2[i + 4]);
+  }
+};
+
+struct SampleSums {
+  std::array<std::vector<Sum>, kRgb> channel;  // by row
+  std::array<Scatter, kRgb> scatter;
+  std::vector<Monomials> place;         // by row, sum over the samples of all channels
+  std::vector<Eigen::Vector2i> origin;  // by row: its first sample, px
+};
+
+// Sums over all samples of the map's rows; counts the samples of each channel in `out`.
+SampleSums sum_samples(const CfaSamples& samples, const SampleMap& map, Observation& out) {
+  const std::size_t n_rows = map.patch_of_row.size();
+  SampleSums sums;
+  for (auto& s : sums.channel) s.resize(n_rows);
+  sums.place.assign(n_rows, Monomials::Zero());
+  sums.origin.resize(n_rows);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                            static_cast<std::size_t>(x);
+      if (map.row_of_sample[i] < 0) continue;
+      const auto row = static_cast<std::size_t>(map.row_of_sample[i]);
+      const auto c = static_cast<std::size_t>(samples.channel(map.x0 + x, map.y0 + y));
+      if (sums.place[row][0] == 0.0) sums.origin[row] = {x, y};
+      const Monomials from_origin = monomials_at(Eigen::Vector2i(x, y) - sums.origin[row]);
+      sums.place[row] += from_origin;
+      Sum& s = sums.channel[c][row];
+      if (samples.clipped[i] == kSampleDefect) continue;
+      ++out.channel[c].samples;
+      if (samples.clipped[i] != 0) {
+        ++s.clipped;
+        ++out.channel[c].samples_clipped;
+        continue;
+      }
+      const auto factor = static_cast<double>(map.pi_over_transmittance[i]);
+      const auto counts = static_cast<double>(samples.signal_counts[i]);
+      s.counts += counts;
+      s.factor += factor;
+      s.growth += factor * (samples.variance_per_count_of.empty()
+                                ? samples.variance_per_count
+                                : static_cast<double>(samples.variance_per_count_of[i]));
+      s.l.add(from_origin, factor * counts,
+              factor * factor * static_cast<double>(samples.variance_counts2[i]));
+      const bool in_line = x + 4 < map.width && map.row_of_sample[i + 2] == map.row_of_sample[i] &&
+                           map.row_of_sample[i + 4] == map.row_of_sample[i];
+      if (in_line && samples.clipped[i + 2] == 0 && samples.clipped[i + 4] == 0) {
+        sums.scatter[c].add(samples, i);
+      }
+    }
+  }
+  return sums;
+}
+
+// Mean of channel c over the samples of all channels on the row, which is what the row's site
+// represents.
+RowMean mean_of_row(const SampleSums& sums, const SampleMap& map, std::size_t c, std::size_t row) {
+  RowFit fit(sums.channel[c][row].l);
+  if (!map.adjacent_rows.empty()) {
+    for (const std::int32_t k : map.adjacent_rows[row]) {
+      const auto other = static_cast<std::size_t>(k);
+      const Sum& s = sums.channel[c][other];
+      if (s.clipped > 0 || s.l.n() == 0.0) continue;
+      fit.add_neighbour(s.l, sums.origin[other] - sums.origin[row]);
+    }
+  }
+  return fit.mean_over(sums.place[row] / sums.place[row][0]);
+}
+
+// One channel of all rows. unit: W/(mm^2 sr) of one count.
+void observe_channel(const SampleSums& sums, const SampleMap& map, std::size_t c, double unit,
+                     double floor_counts, ChannelObservation& channel) {
+  const std::size_t n_rows = map.patch_of_row.size();
+  channel.l.assign(n_rows, 0.0);
+  channel.variance.assign(n_rows, 0.0);
+  channel.variance_per_l.assign(n_rows, 0.0);
+  channel.l_per_count.assign(n_rows, 0.0);
+  channel.state.assign(n_rows, RowState::kNoSamples);
+  const Scatter& scatter = sums.scatter[c];
+  if (scatter.expected > 0.0) channel.noise_ratio = scatter.squared / scatter.expected;
+  for (std::size_t row = 0; row < n_rows; ++row) {
+    const Sum& s = sums.channel[c][row];
+    const double n = s.l.n();
+    if (n == 0.0 && s.clipped == 0) continue;
+    // A clipped sample is a lower bound; leaving only it out would pull the mean down.
+    if (s.clipped > 0) {
+      channel.state[row] = RowState::kClipped;
+      ++channel.rows_clipped;
+      continue;
+    }
+    channel.brightest_counts = std::max(channel.brightest_counts, s.counts / n);
+    if (s.counts / n < floor_counts) {
+      channel.state[row] = RowState::kFloor;
+      ++channel.rows_floor;
+      continue;
+    }
+    const RowMean mean = mean_of_row(sums, map, c, row);
+    channel.l[row] = unit * mean.value;
+    channel.variance[row] = unit * unit * mean.variance;
+    // Samples of l / (unit factor) counts: sum of factor^2 variance_per_count l / (unit factor).
+    channel.variance_per_l[row] = unit * s.growth / (n * n) * mean.spread;
+    channel.l_per_count[row] = unit * s.factor / n;
+    channel.state[row] = RowState::kUsed;
+    channel.brightest_snr =
+        std::max(channel.brightest_snr, channel.l[row] / std::sqrt(channel.variance[row]));
+    ++channel.rows_used;
+  }
+}
+
+// How much each exposure of a bracket contributes to each row: its parts of the samples, weighted
+// as their counts are in l.
 void add_exposure_parts(const CfaSamples& samples, const SampleMap& map, Observation& out) {
   const std::size_t n_rows = map.patch_of_row.size();
   for (const std::vector<float>& part : samples.part_of_exposure) {
@@ -50,110 +172,18 @@ void add_exposure_parts(const CfaSamples& samples, const SampleMap& map, Observa
 }  // namespace
 
 Observation observe(const CfaSamples& samples, const SampleMap& map,
-                    const std::array<double, kRgb>& responsivity) {
+                    const std::array<double, kRgb>& responsivity_counts_mm2_sr_per_W_s) {
   if (samples.x0 != map.x0 || samples.y0 != map.y0 || samples.width != map.width ||
       samples.height != map.height) {
     throw std::invalid_argument("observe: the samples' rectangle is not the map's");
   }
   if (!(samples.exposure_s > 0.0))
     throw std::invalid_argument("observe: exposure_s is not positive");
-  const std::size_t n_rows = map.patch_of_row.size();
-  std::array<std::vector<Sum>, kRgb> sums;
-  for (auto& s : sums) s.resize(n_rows);
-  std::vector<Monomials> place(n_rows, Monomials::Zero());  // sum over all samples of a row
-  std::vector<Eigen::Vector2i> origin(n_rows);              // its first sample, px
-  struct Scatter {
-    double squared = 0, expected = 0;
-  };
-  std::array<Scatter, kRgb> scatter;
   Observation out;
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                            static_cast<std::size_t>(x);
-      if (map.row_of_sample[i] < 0) continue;
-      const auto row = static_cast<std::size_t>(map.row_of_sample[i]);
-      const auto c = static_cast<std::size_t>(samples.channel(map.x0 + x, map.y0 + y));
-      if (place[row][0] == 0.0) origin[row] = {x, y};
-      const Monomials from_origin = monomials_at(Eigen::Vector2i(x, y) - origin[row]);
-      place[row] += from_origin;
-      Sum& s = sums[c][row];
-      if (samples.clipped[i] == kSampleDefect) continue;
-      ++out.channel[c].samples;
-      if (samples.clipped[i] != 0) {
-        ++s.clipped;
-        ++out.channel[c].samples_clipped;
-        continue;
-      }
-      const auto factor = static_cast<double>(map.pi_over_transmittance[i]);
-      const auto counts = static_cast<double>(samples.signal_counts[i]);
-      s.counts += counts;
-      s.factor += factor;
-      s.growth += factor * (samples.variance_per_count_of.empty()
-                                ? samples.variance_per_count
-                                : static_cast<double>(samples.variance_per_count_of[i]));
-      s.l.add(from_origin, factor * counts,
-              factor * factor * static_cast<double>(samples.variance_counts2[i]));
-      // Three samples of one phase in line on one patch: the second difference is free of the
-      // slope.
-      const bool in_line = x + 4 < map.width && map.row_of_sample[i + 2] == map.row_of_sample[i] &&
-                           map.row_of_sample[i + 4] == map.row_of_sample[i];
-      if (in_line && samples.clipped[i + 2] == 0 && samples.clipped[i + 4] == 0) {
-        const double d =
-            static_cast<double>(samples.signal_counts[i] - 2.0F * samples.signal_counts[i + 2] +
-                                samples.signal_counts[i + 4]);
-        scatter[c].squared += d * d;
-        scatter[c].expected += static_cast<double>(samples.variance_counts2[i]) +
-                               4.0 * static_cast<double>(samples.variance_counts2[i + 2]) +
-                               static_cast<double>(samples.variance_counts2[i + 4]);
-      }
-    }
-  }
+  const SampleSums sums = sum_samples(samples, map, out);
   for (std::size_t c = 0; c < kRgb; ++c) {
-    ChannelObservation& channel = out.channel[c];
-    channel.l.assign(n_rows, 0.0);
-    channel.variance.assign(n_rows, 0.0);
-    channel.variance_per_l.assign(n_rows, 0.0);
-    channel.l_per_count.assign(n_rows, 0.0);
-    channel.state.assign(n_rows, RowState::kNoSamples);
-    if (scatter[c].expected > 0.0) channel.noise_ratio = scatter[c].squared / scatter[c].expected;
-    const double unit = 1.0 / (responsivity[c] * samples.exposure_s);
-    for (std::size_t row = 0; row < n_rows; ++row) {
-      const Sum& s = sums[c][row];
-      const double n = s.l.n();
-      if (n == 0.0 && s.clipped == 0) continue;
-      // A clipped sample is a lower bound; leaving only it out would pull the mean down.
-      if (s.clipped > 0) {
-        channel.state[row] = RowState::kClipped;
-        ++channel.rows_clipped;
-        continue;
-      }
-      channel.brightest_counts = std::max(channel.brightest_counts, s.counts / n);
-      if (s.counts / n < samples.floor_counts) {
-        channel.state[row] = RowState::kFloor;
-        ++channel.rows_floor;
-        continue;
-      }
-      RowFit fit(s.l);
-      if (!map.adjacent_rows.empty()) {
-        for (const std::int32_t k : map.adjacent_rows[row]) {
-          const Sum& other = sums[c][static_cast<std::size_t>(k)];
-          if (other.clipped > 0 || other.l.n() == 0.0) continue;
-          fit.add_neighbour(other.l, origin[static_cast<std::size_t>(k)] - origin[row]);
-        }
-      }
-      // Over the samples of all colours, which is what the row's site stands for.
-      const RowMean mean = fit.mean_over(place[row] / place[row][0]);
-      channel.l[row] = unit * mean.value;
-      channel.variance[row] = unit * unit * mean.variance;
-      // Samples of l / (unit factor) counts: sum of factor^2 variance_per_count l / (unit factor).
-      channel.variance_per_l[row] = unit * s.growth / (n * n) * mean.spread;
-      channel.l_per_count[row] = unit * s.factor / n;
-      channel.state[row] = RowState::kUsed;
-      channel.brightest_snr =
-          std::max(channel.brightest_snr, channel.l[row] / std::sqrt(channel.variance[row]));
-      ++channel.rows_used;
-    }
+    const double unit = 1.0 / (responsivity_counts_mm2_sr_per_W_s[c] * samples.exposure_s);
+    observe_channel(sums, map, c, unit, samples.floor_counts, out.channel[c]);
   }
   add_exposure_parts(samples, map, out);
   return out;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/base/middle_value.h"
+#include "core/base/median.h"
 
 namespace scattermeter {
 
@@ -52,8 +52,8 @@ std::vector<Eigen::Index> outliers(const Eigen::VectorXd& l, const Eigen::Vector
   std::vector<Eigen::Index> out;
   if (l.size() == 0) return out;
   const Eigen::VectorXd z = (l - predicted).cwiseQuotient(std_l).cwiseAbs();
-  const double middle = middle_value(std::vector<double>(z.begin(), z.end()));
-  const double limit = options.outlier_std * std::max(1.0, 1.4826 * middle);
+  const double middle = upper_median(std::vector<double>(z.begin(), z.end()));
+  const double limit = options.outlier_std * std::max(1.0, kStdPerMad * middle);
   for (Eigen::Index j = 0; j < z.size(); ++j) {
     if (z[j] > limit) out.push_back(j);
   }

@@ -23,7 +23,7 @@ struct RowSelectionOptions {
   // light decide there.
   double min_snr = 3.0;
   // Rows farther from the fit than this many deviations, and than this many robust deviations of
-  // all rows (1.4826 times the median of the absolute deviations), are outliers.
+  // all rows (kStdPerMad times the median absolute deviation), are outliers.
   double outlier_std = 6.0;
   // If more than this share of the rows were outliers the model is wrong, not the rows: none is
   // left out.

@@ -116,6 +116,84 @@ class Mapper {
   std::vector<Seen> seen_;
 };
 
+// Samples in the order of their patches: patch k has those from begin_of[k] to begin_of[k + 1].
+struct SamplesByPatch {
+  std::vector<std::size_t> begin_of;
+  std::vector<std::uint32_t> in_order;
+};
+
+SamplesByPatch by_patch(const std::vector<std::int32_t>& patch_of_sample, std::size_t n_patches) {
+  SamplesByPatch out;
+  out.begin_of.assign(n_patches + 1, 0);
+  for (const std::int32_t patch : patch_of_sample) {
+    if (patch >= 0) ++out.begin_of[static_cast<std::size_t>(patch) + 1];
+  }
+  std::partial_sum(out.begin_of.begin(), out.begin_of.end(), out.begin_of.begin());
+  out.in_order.resize(out.begin_of.back());
+  std::vector<std::size_t> next(out.begin_of.begin(), out.begin_of.end() - 1);
+  for (std::size_t i = 0; i < patch_of_sample.size(); ++i) {
+    if (patch_of_sample[i] < 0) continue;
+    out.in_order[next[static_cast<std::size_t>(patch_of_sample[i])]++] =
+        static_cast<std::uint32_t>(i);
+  }
+  return out;
+}
+
+// What the camera sees of each patch, by patch.
+struct SeenPatches {
+  std::vector<double> area_mm2;
+  std::vector<Eigen::Vector3d> mean_mm;  // of its samples, from the patch's centre
+  std::vector<Eigen::Matrix3d> spread_mm2;
+};
+
+SeenPatches seen_patches(const Mapper& mapper, const SamplesByPatch& samples,
+                         const PatchMesh& patches, std::size_t width) {
+  const auto n_patches = static_cast<std::size_t>(patches.size());
+  SeenPatches out{std::vector<double>(n_patches, 0.0), std::vector<Eigen::Vector3d>(n_patches),
+                  std::vector<Eigen::Matrix3d>(n_patches)};
+  tbb::parallel_for(std::size_t{0}, n_patches, [&](std::size_t k) {
+    const Eigen::Vector3d center_mm = patches.center_mm(static_cast<int>(k));
+    Eigen::Vector3d sum_mm = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d square_mm2 = Eigen::Matrix3d::Zero();
+    for (std::size_t at = samples.begin_of[k]; at < samples.begin_of[k + 1]; ++at) {
+      const std::size_t i = samples.in_order[at];
+      out.area_mm2[k] +=
+          mapper.footprint_mm2(static_cast<int>(i % width), static_cast<int>(i / width));
+      // Relative to the patch's centre: squares of small numbers keep their digits.
+      const Eigen::Vector3d p = mapper.point(i) - center_mm;
+      sum_mm += p;
+      square_mm2 += p * p.transpose();
+    }
+    const auto count = static_cast<double>(samples.begin_of[k + 1] - samples.begin_of[k]);
+    if (!(count > 0.0)) return;
+    out.mean_mm[k] = sum_mm / count;
+    out.spread_mm2[k] = square_mm2 / count - out.mean_mm[k] * out.mean_mm[k].transpose();
+  });
+  return out;
+}
+
+// Adds a row for each patch of which enough is seen; returns the rows of the patches, -1: none.
+std::vector<std::int32_t> add_rows(const SeenPatches& seen, const std::vector<std::size_t>& guarded,
+                                   const PatchMesh& patches, double min_coverage, SampleMap& map) {
+  std::vector<std::int32_t> row_of_patch(seen.area_mm2.size(), -1);
+  for (int k = 0; k < patches.size(); ++k) {
+    const auto idx = static_cast<std::size_t>(k);
+    if (!(seen.area_mm2[idx] > 0.0)) continue;
+    const double coverage = seen.area_mm2[idx] / patches.area_mm2(k);
+    if (coverage < min_coverage) {
+      ++map.patches_partly_seen;
+      continue;
+    }
+    row_of_patch[idx] = static_cast<std::int32_t>(map.patch_of_row.size());
+    map.patch_of_row.push_back(k);
+    map.coverage.push_back(coverage);
+    map.guarded_of_row.push_back(guarded[idx]);
+    map.mean_mm.push_back(patches.center_mm(k) + seen.mean_mm[idx]);
+    map.spread_mm2.push_back(seen.spread_mm2[idx]);
+  }
+  return row_of_patch;
+}
+
 }  // namespace
 
 PixelHit pixel_hit(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction) {
@@ -160,64 +238,19 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
     }
   });
 
-  // Samples in the order of their patches: patch k has those from begin_of[k] to begin_of[k + 1].
   const auto n_patches = static_cast<std::size_t>(patches.size());
-  std::vector<std::size_t> begin_of(n_patches + 1, 0);
   std::vector<std::size_t> guarded(n_patches, 0);
   for (std::size_t i = 0; i < n; ++i) {
     if (mapper.seen(i).patch < 0) continue;
     ++map.samples_on_object;
-    if (patch_of_sample[i] >= 0) {
-      ++begin_of[static_cast<std::size_t>(patch_of_sample[i]) + 1];
-    } else {
-      ++map.samples_guarded;
-      ++guarded[static_cast<std::size_t>(mapper.seen(i).patch)];
-    }
+    if (patch_of_sample[i] >= 0) continue;
+    ++map.samples_guarded;
+    ++guarded[static_cast<std::size_t>(mapper.seen(i).patch)];
   }
-  std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
-  std::vector<std::uint32_t> in_order(begin_of.back());
-  std::vector<std::size_t> next(begin_of.begin(), begin_of.end() - 1);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (patch_of_sample[i] < 0) continue;
-    in_order[next[static_cast<std::size_t>(patch_of_sample[i])]++] = static_cast<std::uint32_t>(i);
-  }
-  std::vector<double> seen_mm2(n_patches, 0.0);
-  std::vector<Eigen::Vector3d> mean_mm(n_patches);  // from the patch's centre
-  std::vector<Eigen::Matrix3d> spread_mm2(n_patches);
-  tbb::parallel_for(std::size_t{0}, n_patches, [&](std::size_t k) {
-    const Eigen::Vector3d center_mm = patches.center_mm(static_cast<int>(k));
-    Eigen::Vector3d sum_mm = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d square_mm2 = Eigen::Matrix3d::Zero();
-    for (std::size_t at = begin_of[k]; at < begin_of[k + 1]; ++at) {
-      const std::size_t i = in_order[at];
-      const auto width = static_cast<std::size_t>(rays.width);
-      seen_mm2[k] += mapper.footprint_mm2(static_cast<int>(i % width), static_cast<int>(i / width));
-      // Relative to the patch's centre: squares of small numbers keep their digits.
-      const Eigen::Vector3d p = mapper.point(i) - center_mm;
-      sum_mm += p;
-      square_mm2 += p * p.transpose();
-    }
-    const auto count = static_cast<double>(begin_of[k + 1] - begin_of[k]);
-    if (!(count > 0.0)) return;
-    mean_mm[k] = sum_mm / count;
-    spread_mm2[k] = square_mm2 / count - mean_mm[k] * mean_mm[k].transpose();
-  });
-  std::vector<std::int32_t> row_of_patch(seen_mm2.size(), -1);
-  for (int k = 0; k < patches.size(); ++k) {
-    const auto idx = static_cast<std::size_t>(k);
-    if (!(seen_mm2[idx] > 0.0)) continue;
-    const double coverage = seen_mm2[idx] / patches.area_mm2(k);
-    if (coverage < options.min_coverage) {
-      ++map.patches_partly_seen;
-      continue;
-    }
-    row_of_patch[idx] = static_cast<std::int32_t>(map.patch_of_row.size());
-    map.patch_of_row.push_back(k);
-    map.coverage.push_back(coverage);
-    map.guarded_of_row.push_back(guarded[idx]);
-    map.mean_mm.push_back(patches.center_mm(k) + mean_mm[idx]);
-    map.spread_mm2.push_back(spread_mm2[idx]);
-  }
+  const SeenPatches seen = seen_patches(mapper, by_patch(patch_of_sample, n_patches), patches,
+                                        static_cast<std::size_t>(rays.width));
+  const std::vector<std::int32_t> row_of_patch =
+      add_rows(seen, guarded, patches, options.min_coverage, map);
   map.row_of_sample.assign(n, -1);
   for (std::size_t i = 0; i < n; ++i) {
     if (patch_of_sample[i] >= 0) {

@@ -7,6 +7,6 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  (void)scattermeter::apps::decoded_shot({data, size});
+  (void)scattermeter::capture::decoded_shot({data, size});
   return 0;
 }

@@ -108,7 +108,7 @@ int main(int count, char** words) {
   write(out / "result/result.json",
         scattermeter::apps::made_result({{"PP", {{0.62, 0.7, 0.8}, {0.0012, 0.001, 0.0018}}}})
             .dump(1));
-  scattermeter::apps::DecodedShot shot;
+  scattermeter::DecodedShot shot;
   for (scattermeter::ChannelObservation& o : shot.observation.channel) {
     o.l = o.variance = o.variance_per_l = o.l_per_count = {0.5, 0.25};
     o.state = {scattermeter::RowState::kUsed, scattermeter::RowState::kClipped};
@@ -116,7 +116,7 @@ int main(int count, char** words) {
     o.exposures = {{o.l, 2}};
   }
   shot.exposures = {{"a.dng", 0.1, 0.1, 0.01, 0.2, {}}};
-  const std::vector<std::uint8_t> bytes = scattermeter::apps::to_bytes(shot);
+  const std::vector<std::uint8_t> bytes = scattermeter::capture::to_bytes(shot);
   write(out / "cache/a.shot", {bytes.begin(), bytes.end()});
   for (const char* mesh : {"cube.obj", "pyramid_on_pedestal.obj"}) {
     copy_into(source / "samples/three_plastics" / mesh, out / "mesh");

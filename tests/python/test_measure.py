@@ -3,7 +3,6 @@ import os
 import threading
 import time
 
-import numpy as np
 import pytest
 
 import scattermeter
@@ -122,21 +121,3 @@ def test_a_file_that_is_no_result_is_reported(tmp_path):
     path.write_text(json.dumps({"results": 3}))
     with pytest.raises(scattermeter.InputError, match="results"):
         scattermeter.read_result(path)
-
-
-def test_estimate_says_what_is_missing():
-    with pytest.raises(scattermeter.InputError, match="image_size_px"):
-        scattermeter.estimate({}, {}, {}, [])
-    camera = {"image_size_px": [64, 48], "fx_px": 100, "fy_px": 100, "cx_px": 32, "cy_px": 24}
-    shot = {
-        "object": "cube",
-        "material": "POM",
-        "lights": [],
-        "camera_from_world": np.eye(4),
-        "xy_px": np.zeros((3, 2), int),
-        "value_counts": np.ones(3),
-        "variance_counts2": np.ones(2),
-        "exposure_s": 0.1,
-    }
-    with pytest.raises(scattermeter.InputError, match="differ in length: 3, 3, 2"):
-        scattermeter.estimate(camera, {}, {}, [shot])

@@ -1,9 +1,9 @@
 """Scattering and absorption of translucent materials, from raw camera shots.
 
-Lengths are mm, coefficients 1/mm. The functions call the instrument's library in this process: no
-program is started, Ctrl-C ends long work, and `progress` is told how far it is. Bad input raises
-InputError with a message that names file, field and value; a file or folder that is not there
-raises FileNotFoundError.
+Lengths are mm, coefficients 1/mm. The functions call the library in this process: no program is
+started, Ctrl-C ends long work, and `progress` is called with the steps done. Bad input raises
+InputError with a message that names file, field and value; a missing file or folder raises
+FileNotFoundError.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Sequence, Union
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence
 
 from . import _native
 from ._native import (
@@ -22,6 +22,7 @@ from ._native import (
     fresnel_transmittance,
     half_space_albedo,
 )
+from ._result import PathLike, Result, read_result, values
 
 __all__ = [
     "InputError",
@@ -44,94 +45,7 @@ __all__ = [
     "values",
 ]
 
-PathLike = Union[str, "os.PathLike[str]"]
 ProgressCallback = Callable[[str, int, int], None]
-
-
-class Result(Mapping[str, Any]):
-    """The content of a result.json: a read-only mapping of plain dictionaries, lists and numbers.
-
-    `results` has one entry per material and channel; sigma_s_prime_per_mm and sigma_a_per_mm in it
-    have value, std and interval95, all in 1/mm; None stands for what is not known.
-    """
-
-    def __init__(self, content: Dict[str, Any]) -> None:
-        self._content = content
-
-    def __getitem__(self, key: str) -> Any:
-        return self._content[key]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._content)
-
-    def __len__(self) -> int:
-        return len(self._content)
-
-    def __eq__(self, other: object) -> bool:
-        return dict(self) == (dict(other) if isinstance(other, Mapping) else other)
-
-    def __repr__(self) -> str:
-        lines = ["material  channel  sigma_s' /mm          sigma_a /mm            model      verdict"]
-        for e in self._content["results"]:
-            cells = []
-            for key in ("sigma_s_prime_per_mm", "sigma_a_per_mm"):
-                q = e[key]
-                known = q["value"] is not None and q["std"] is not None
-                cells.append(f"{q['value']:.5g} +- {q['std']:.2g}" if known else "-")
-            lines.append(
-                f"{e['material']:<9} {e['channel']:<8} {cells[0]:<21} {cells[1]:<22} "
-                f"{e['model']:<10} {e['verdict']}"
-            )
-        return "\n".join(lines)
-
-    def to_dict(self) -> Dict[str, Any]:
-        """The content as plain dictionaries, as json.loads() of the file gives it."""
-        return self._content
-
-    def to_dataframe(self) -> Any:
-        """A pandas.DataFrame with one row per material and channel (needs pandas).
-
-        Columns: material, channel, model, verdict, reasons, eta; sigma_s_prime_per_mm and
-        sigma_a_per_mm with _std, _low and _high (the 95 % interval), 1/mm; correlation.
-        """
-        import pandas
-
-        rows: List[Dict[str, Any]] = []
-        for e in self._content["results"]:
-            row = {k: e.get(k) for k in ("material", "channel", "model", "verdict", "eta")}
-            row["reasons"] = "; ".join(e.get("reasons", []))
-            for key in ("sigma_s_prime_per_mm", "sigma_a_per_mm"):
-                low, high = e[key].get("interval95") or (None, None)
-                row[key] = e[key]["value"]
-                row[key + "_std"] = e[key]["std"]
-                row[key + "_low"], row[key + "_high"] = low, high
-            row["correlation"] = e.get("correlation")
-            rows.append(row)
-        return pandas.DataFrame(rows)
-
-
-def read_result(path: PathLike) -> Result:
-    """The content of a result.json.
-
-    Raises FileNotFoundError where there is no such file, InputError where it is no result.
-    """
-    try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise
-    except (OSError, ValueError) as error:
-        raise InputError(f"{os.fspath(path)}: {error}") from error
-    if not isinstance(content, dict) or not isinstance(content.get("results"), list):
-        raise InputError(f"{os.fspath(path)}: results: is missing")
-    return Result(content)
-
-
-def values(result: Mapping[str, Any]) -> Dict[str, Dict[str, Dict[str, Any]]]:
-    """Entries of a result by material and channel: values(result)["POM"]["R"]."""
-    out: Dict[str, Dict[str, Dict[str, Any]]] = {}
-    for entry in result["results"]:
-        out.setdefault(entry["material"], {})[entry["channel"]] = entry
-    return out
 
 
 def measure(
@@ -152,10 +66,10 @@ def measure(
 
     shots: folder of the raws. rig: the rig file (YAML). out: folder for result.json (default: none
     is written). model: auto, dipole, transport or paper. patch_size_mm: edge of the surface
-    patches, mm. time_limit_s: of transport, s per material and channel. materials, channels: only
-    these (letters of "RGB"). cache: folder that keeps decoded shots. threads: all cores by default.
-    progress: called with (stage, steps done, steps in all). A refused value is stated by its
-    entry's verdict and reasons.
+    patches, mm. time_limit_s: limit for transport, s per material and channel. materials, channels:
+    only these (letters of "RGB"). cache: folder for decoded shots. threads: all cores by default.
+    progress: called with (stage, steps done, steps in total). The verdict and reasons of an entry
+    show whether its value is refused.
     """
     text = _native.measure(
         os.fspath(shots),
@@ -195,9 +109,9 @@ def simulate(
     noise: bool = True,
     progress: Optional[ProgressCallback] = None,
 ) -> List[Path]:
-    """Make the raw shots that a rig would have taken of its truth materials.
+    """Make simulated raw shots of a rig's truth materials.
 
-    out: folder for the DNG files, made where missing. transport: dipole or volume (Monte Carlo, with
+    out: folder for the DNG files, created if missing. transport: dipole or volume (Monte Carlo, with
     `paths` light paths for each light of a shot and channel). Returns the paths of the files.
     """
     if transport not in ("dipole", "volume"):
@@ -211,9 +125,9 @@ def simulate(
 def plan(
     rig: PathLike, *, other_shots: bool = True, progress: Optional[ProgressCallback] = None
 ) -> Dict[str, Any]:
-    """Forecast what measuring a rig's shots would state, before they are taken.
+    """Predict the uncertainty of what a rig's shots will measure, before they are taken.
 
-    other_shots: also what further shots would add. Returns the content of plan.json.
+    other_shots: also suggest further shots. Returns the content of plan.json.
     """
     content: Dict[str, Any] = json.loads(_native.plan(os.fspath(rig), other_shots, progress))
     return content
@@ -267,9 +181,9 @@ def export(
     """Write measured materials as a renderer's material or as a table; returns the path.
 
     result: a result.json. format: mitsuba, pbrt, blender, openpbr, materialx or csv. materials: only
-    these. mm_per_unit: length of a scene unit, mm (default: the format's own). g: mean cosine of the
-    phase function that is written, -1 < g < 1. A refused channel raises InputError (csv: its row has
-    the verdict and no values).
+    these. mm_per_unit: length of a scene unit, mm (default: that of the format). g: mean cosine of the
+    phase function to write, -1 < g < 1. A refused channel raises InputError (csv: its row has the
+    verdict and no values).
     """
     _native.export(os.fspath(result), format, os.fspath(out), list(materials), mm_per_unit, g)
     return Path(out)
@@ -286,7 +200,7 @@ def estimate(
     time_limit_s: float = 50.0,
     progress: Optional[ProgressCallback] = None,
 ) -> Result:
-    """Estimate the materials in linear images that are at hand as arrays, without any file.
+    """Estimate materials from linear images given as arrays, without any file.
 
     camera: image_size_px (2), fx_px, fy_px, cx_px, cy_px; optional distortion (0, 4, 5 or 8 terms of
     OpenCV's model), cfa ("RGGB" and so on), responsivity_counts_mm2_sr_per_W_s (3) and
@@ -298,7 +212,7 @@ def estimate(
     shots, each: object, material, lights (names), camera_from_world (4, 4; OpenCV's axes, mm),
     exposure_s, and for each of its n samples xy_px (n, 2; column and row in the frame), value_counts
     (n; above black) and variance_counts2 (n); optional name, pose_covariance (6, 6; rad and mm) and
-    variance_per_count (of photon noise, 1 / gain). Samples that are not given are not used.
+    variance_per_count (of photon noise, 1 / gain). Other samples are not used.
     """
     text = _native.estimate(
         dict(camera),
@@ -314,6 +228,6 @@ def estimate(
 
 
 def _write(path: Path, text: str) -> Path:
-    """Writes the file by rename: it appears whole or not at all."""
+    """Write the file by rename, so that it appears complete or not at all."""
     _native.write_text_file(os.fspath(path), text)
     return path

@@ -21,7 +21,7 @@ TEST(BenchRig, TwoDraws) {
   ASSERT_EQ(bench.rows.size(), 9U);
   EXPECT_EQ(bench.singles.size(), 2U * 12U * 3U);
   for (const RigBenchRow& row : bench.rows) {
-    const AnswerStatistics& s = row.sigma_s_prime_per_mm.joint;
+    const EstimateStatistics& s = row.sigma_s_prime_per_mm.joint;
     if (s.n == 0) continue;  // refused
     EXPECT_LT(std::abs(s.bias_relative), 0.2) << row.material << row.channel;
     // The rig owns up to more than the noise.

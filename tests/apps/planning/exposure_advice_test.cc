@@ -17,14 +17,14 @@ TEST(ExposureAdvice, NeitherClipsNorIsDark) {
     Rig rig = body_rig("cube", 1);
     rig.scene.camera.exposure_s = exposure_s;
     PlanOptions options;
-    options.other_shots = false;
+    options.suggested_shots = false;
 
     return plan(rig, bodies_scenes(rig), options);
   };
   const Plan chosen = [] {
     const Rig rig = body_rig("cube", 1);
     PlanOptions options;
-    options.other_shots = false;
+    options.suggested_shots = false;
 
     return plan(rig, bodies_scenes(rig), options);
   }();

@@ -60,7 +60,7 @@ TEST(Plan, RadianceCalibrationWithoutItsCamera) {
   c.shutter_relative_std = 0.003;
   rig.decoding.radiance = radiance;
   PlanOptions options;
-  options.other_shots = false;
+  options.suggested_shots = false;
 
   const ObjectScenes scenes = bodies_scenes(rig);
   const Plan made = plan(rig, scenes, options);

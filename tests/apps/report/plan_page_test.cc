@@ -32,7 +32,7 @@ TEST(PlanPage, HoldsThePlansNumbers) {
 
 TEST(PlanPage, ARangeHasItsCorners) {
   Plan plan = made_plan();
-  plan.other_shots.clear();
+  plan.suggested_shots.clear();
   Forecast corner = plan.channels[0].expected;
   corner.estimate.sigma_a_per_mm = normal_quantity(0.01, 0.0098);
   corner.estimate.reasons = {"too dark"};

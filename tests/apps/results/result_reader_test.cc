@@ -43,7 +43,7 @@ TEST(ResultReader, NamesWhatIsWrong) {
   EXPECT_EQ(exported.run_format("obj").status, 2);
   EXPECT_EQ(run({"export", "/nowhere.json", "--format", "csv", "--out", exported.out()}).status, 2);
   write_file(exported.result(), std::string("{\"results\": ["));
-  EXPECT_THAT(exported.run_format("csv").err, HasSubstr("is no JSON"));
+  EXPECT_THAT(exported.run_format("csv").err, HasSubstr("is not JSON"));
 }
 
 TEST(ResultReader, ReadsWhatWasMeasured) {

@@ -47,8 +47,8 @@ TEST(YamlField, NamesPlaceAndValue) {
   expect_message([&] { top.at("b").numbers(2); }, "a.yaml:2: b[1]: expected a number, got y");
   expect_message([&] { top.at("c").number(4, 5); }, "c: expected a number from 4 to 5, got 3");
   expect_message([&] { top.at("c").number(4); }, "of at least 4");
-  expect_message([&] { top.at("d").text(); }, "d: expected a text, got nothing");
-  expect_message([&] { top.at("c2").integer(0, 9); }, "whole number, got 2.5");
+  expect_message([&] { top.at("d").text(); }, "d: expected text, got nothing");
+  expect_message([&] { top.at("c2").integer(0, 9); }, "integer, got 2.5");
   expect_message([&] { top.at("q"); }, "q: is missing");
   expect_message([&] { top.only({"a", "b", "c", "d"}); }, "a.yaml:5: c2: unknown key");
   expect_message([&] { top.at("a").items(); }, "expected a list");

@@ -89,29 +89,10 @@ TEST(Highlight, SaysWhyThereIsNone) {
   EXPECT_THAT(find_highlight(sphere_with({}, 1e9, 4), kSphere).problem, HasSubstr("no highlight"));
   const Spot wide{kSphere.center_px, 2500.0, 32.0};
   EXPECT_THAT(find_highlight(sphere_with({wide}, 1e9, 5), kSphere).problem,
-              HasSubstr("no compact"));
+              HasSubstr("not a compact"));
   const Spot rim{kSphere.center_px + Eigen::Vector2d(50.5, 0.0)};
   EXPECT_THAT(find_highlight(sphere_with({rim}, 1e9, 6), kSphere).problem, HasSubstr("rim"));
   EXPECT_THAT(find_highlight(CfaSamples{}, kSphere).problem, HasSubstr("out of view"));
-}
-
-TEST(Highlight, SphereImageHoldsTheOutline) {
-  CameraIntrinsics k;
-  k.width_px = 600;
-  k.height_px = 400;
-  k.fx_px = k.fy_px = 1000;
-  k.cx_px = 300;
-  k.cy_px = 200;
-  const MirrorSphere sphere{{5, -3, 200}, 10.0};
-  const SphereImage image = sphere_image(k, Rigid3d{}, sphere);
-  EXPECT_NEAR(image.center_px.x(), 325.0, 1e-9);
-  // tan of the outline's angle: R / sqrt(d^2 - R^2).
-  EXPECT_NEAR(image.radius_px, 50.1, 0.3);
-  EXPECT_LE(image.x0, 325 - 50);
-  EXPECT_GE(image.x0 + image.width, 325 + 50);
-  EXPECT_EQ(image.x0 % 2, 0);
-  EXPECT_EQ(sphere_image(k, Rigid3d{}, {{500, 0, 200}, 10.0}).width, 0);
-  EXPECT_EQ(sphere_image(k, Rigid3d{}, {{0, 0, -200}, 10.0}).width, 0);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "calib/led/led_solver.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "calib/led/cell_model.h"
 #include "tests/fixtures/calib/led_scenes.h"
 
 namespace scattermeter::calib {
@@ -16,21 +16,6 @@ LedSolve everything(const LedScene& scene) {
   what.use_cell.assign(scene.cells.size(), true);
   what.free.fill(true);
   return what;
-}
-
-TEST(LedSolver, RadianceIsLambertsLaw) {
-  LedScene scene = draw_led_scene(true_led(), {}, 1);
-  ShadedCell cell = scene.cells[10];
-  cell.spread_mm2.setIdentity();
-  cell.spread_mm2 *= 1e-8;
-  const WhitePlane& plane = scene.planes[0];
-  const Eigen::Vector3d point =
-      plane.origin_mm + Eigen::Vector3d(cell.place_mm.x(), cell.place_mm.y(), 0.0);
-  const Led led = true_led();
-  const double expected = plane.albedo[cell.channel] / std::numbers::pi *
-                          led.intensity_W_per_sr[cell.channel] *
-                          led.transmitted_irradiance_per_mm2(point, plane.normal(), 1.0);
-  EXPECT_NEAR(cell_radiance(scene, cell, led) / expected, 1.0, 1e-9);
 }
 
 // The information is J^T S^-1 J: its LED part against central differences of the prediction.
@@ -66,7 +51,7 @@ TEST(LedSolver, InformationIsThatOfTheDerivatives) {
   const LedMatrix found = solution.cell_information.topLeftCorner<9, 9>();
   for (Eigen::Index a = 0; a < 9; ++a) {
     for (Eigen::Index b = 0; b < 9; ++b) {
-      // The nuisances stand at their best there and at 0 here: a part in a thousand.
+      // The nuisances are at their best there and at 0 here: a part in a thousand.
       EXPECT_NEAR(found(a, b), numeric(a, b), 2e-2 * std::sqrt(numeric(a, a) * numeric(b, b)))
           << a << " " << b;
     }

@@ -49,7 +49,7 @@ CfaSamples samples_of(const WhitePlane& plane, double noise, std::uint64_t seed)
   return s;
 }
 
-TEST(PlaneCells, MeansAreThoseOfTheirPlaces) {
+TEST(PlaneCells, MeansAreThoseOfTheirPositions) {
   const WhitePlane plane = plane_of(50, 36);
   const CfaSamples samples = samples_of(plane, 10.0, 1);
   const PlaneCells cells = plane_cells(samples, led_camera(), led_camera_pose(), plane, kOne, 3, 4);
@@ -59,7 +59,7 @@ TEST(PlaneCells, MeansAreThoseOfTheirPlaces) {
   for (const ShadedCell& cell : cells.cells) {
     EXPECT_EQ(cell.view, 3U);
     EXPECT_EQ(cell.plane, 4U);
-    const double expected = (1000.0 + 5.0 * cell.place_mm.x()) / 2.0;
+    const double expected = (1000.0 + 5.0 * cell.on_plane_mm.x()) / 2.0;
     chi2 += std::pow((cell.radiance_W_per_mm2_sr - expected) / cell.std_W_per_mm2_sr, 2);
   }
   const double n = static_cast<double>(cells.cells.size());
@@ -84,7 +84,7 @@ TEST(PlaneCells, DustAndBordersAreLeftOut) {
   EXPECT_GT(cells.spots, specks);
   double worst = 0.0;
   for (const ShadedCell& cell : cells.cells) {
-    const double expected = (1000.0 + 5.0 * cell.place_mm.x()) / 2.0;
+    const double expected = (1000.0 + 5.0 * cell.on_plane_mm.x()) / 2.0;
     worst =
         std::max(worst, std::abs(cell.radiance_W_per_mm2_sr - expected) / cell.std_W_per_mm2_sr);
   }
@@ -105,17 +105,13 @@ TEST(PlaneCells, ClippedCellsAreLeftOut) {
   ASSERT_GT(cells.cells.size(), 50U);
   for (const ShadedCell& cell : cells.cells) {
     EXPECT_TRUE(std::isfinite(cell.radiance_W_per_mm2_sr));
-    EXPECT_LT(cell.place_mm.x(), 31.0);
+    EXPECT_LT(cell.on_plane_mm.x(), 31.0);
   }
 }
 
 TEST(PlaneCells, NothingOfAPlaneThatIsNotSeen) {
   WhitePlane behind = plane_of(50, 36);
   behind.y_axis = -behind.y_axis;
-  EXPECT_EQ(plane_image(led_camera(), led_camera_pose(), behind).width, 0);
-  WhitePlane away = plane_of(50, 36);
-  away.origin_mm.x() += 500;
-  EXPECT_EQ(plane_image(led_camera(), led_camera_pose(), away).width, 0);
   EXPECT_TRUE(
       plane_cells(CfaSamples{}, led_camera(), led_camera_pose(), behind, kOne, 0, 0).cells.empty());
 }

@@ -56,7 +56,7 @@ TEST_F(EdgeExplanations, NameWhatChanged) {
     const EdgeDiagnosis scaled = diagnose(small_lens(), cube_view(), 1.02, seed);
     EXPECT_EQ(scaled.cause, EdgeCause::kMeshScale) << scaled.verdict;
     EXPECT_EQ(scaled.body_idx, 0);
-    EXPECT_TRUE(scaled.is_told) << scaled.verdict;
+    EXPECT_TRUE(scaled.is_unambiguous) << scaled.verdict;
     const EdgeDiagnosis turned = diagnose(small_lens(), turn * cube_view(), 1, seed);
     EXPECT_EQ(turned.cause, EdgeCause::kCameraTurned) << turned.verdict;
     for (const EdgeExplanation& e : turned.explanations) {

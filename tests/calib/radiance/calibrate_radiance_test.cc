@@ -141,7 +141,7 @@ TEST_F(CalibrateRadiance, NeedsPairsAndThreeTimes) {
   EXPECT_EQ(refusal(nothing, told), "accepted");
   const capture::RadianceCalibration c = calibrated(told, rig_, 1);
   ASSERT_EQ(c.notes.size(), 1U);
-  EXPECT_NE(c.notes[0].find("0.008 s stands alone"), std::string::npos) << c.notes[0];
+  EXPECT_NE(c.notes[0].find("0.008 s has no partner"), std::string::npos) << c.notes[0];
   // No pair at all.
   std::vector<calib::RadianceShot> singles;
   for (std::size_t i = 0; i < 12; i += 2) {

@@ -214,7 +214,7 @@ TEST(PairSumsSite, ConservesPower) {
   const SourceCloud sources(light, {0, 0, 10});
   const UniformBins uniform(0.3, 40.0);
   std::vector<double> sums(static_cast<std::size_t>(uniform.size()));
-  sources.add_to(std::vector{exit_patch(patches, 11)}, uniform, {}, sums.data());
+  add_pair_sums(sources, std::vector{exit_patch(patches, 11)}, uniform, {}, sums.data());
   double total = 0.0;
   for (double s : sums) total += s;
   EXPECT_NEAR(total, power, 1e-5 * power);

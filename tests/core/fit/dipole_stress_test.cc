@@ -16,7 +16,7 @@
 namespace scattermeter {
 namespace {
 
-using test_support::fit_with_numerics;
+using test_support::fit_with_method_errors;
 using test_support::is_wrong;
 using test_support::kFree;
 using test_support::LitPlate;
@@ -72,7 +72,7 @@ void expect_sound(const Estimate& e) {
 Estimate fitted(const DenseSystem& system, const DistanceKnots& knots, double scale_std) {
   DipoleFitOptions options;
   options.scale.relative_std = scale_std;
-  const Estimate e = fit_with_numerics(system, knots, 1.0, options).estimate;
+  const Estimate e = fit_with_method_errors(system, knots, 1.0, options).estimate;
   expect_sound(e);
   return e;
 }

@@ -79,18 +79,21 @@ TEST(PartLight, CellsErrTogether) {
   };
   PartLight few;
   few.learn(parts, truth, from(8), truth, 8);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(few.cells_alike(parts));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(few.relative_cell_covariance(parts));
   EXPECT_GT(modes.eigenvalues().minCoeff(), 1e-5);
   PartLight many;
   for (int i = 0; i < 40; ++i) many.learn(parts, truth, from(256), truth, 256);
-  EXPECT_LT((many.cells_alike(parts) - block).norm(), 0.05 * block.norm());
+  EXPECT_LT((many.relative_cell_covariance(parts) - block).norm(), 0.05 * block.norm());
   // Rows of a cell are off together, by as much as their light.
-  const Eigen::MatrixXd alike = correlated_rows(parts, truth.l, many.cells_alike(parts));
+  const Eigen::MatrixXd alike =
+      correlated_rows(parts, truth.l, many.relative_cell_covariance(parts));
   const Eigen::MatrixXd rows = alike * alike.transpose();
-  EXPECT_NEAR(rows(0, 0), truth.l[0] * truth.l[0] * many.cells_alike(parts)(0, 0), 1e-9);
+  EXPECT_NEAR(rows(0, 0), truth.l[0] * truth.l[0] * many.relative_cell_covariance(parts)(0, 0),
+              1e-9);
   EXPECT_NEAR(rows(0, kLightRows - 1),
               truth.l[0] * truth.l[kLightRows - 1] *
-                  many.cells_alike(parts)(parts.cell_of_row(0), parts.cell_of_row(kLightRows - 1)),
+                  many.relative_cell_covariance(parts)(parts.cell_of_row(0),
+                                                       parts.cell_of_row(kLightRows - 1)),
               1e-9);
   many.forget();
   EXPECT_EQ(many.blocks(), 0.0);

@@ -13,7 +13,7 @@ TEST(ReflectancePilot, FindsItsOwnFamily) {
   for (double depth : {0.2, 0.8, 3.2}) {
     const Eigen::ArrayXd t = log_squared_depth(knots, depth).array();
     const Eigen::VectorXd log_r = 2.0 - 1.3 * t - 0.2 * (0.5 * t).exp();
-    const EliminatedNuisances image{
+    const MarginalInformation image{
         Eigen::MatrixXd((100.0 * (-log_r.array()).exp()).matrix().asDiagonal()),
         Eigen::VectorXd::Constant(knots.size(), 100.0),
         {}};
@@ -26,7 +26,7 @@ TEST(ReflectancePilot, FindsItsOwnFamily) {
 
 TEST(ReflectancePilot, OfNothingIsNone) {
   const DistanceKnots knots(0.1, 40.0);
-  EliminatedNuisances image{Eigen::MatrixXd::Zero(3, knots.size()), Eigen::VectorXd::Ones(3), {}};
+  MarginalInformation image{Eigen::MatrixXd::Zero(3, knots.size()), Eigen::VectorXd::Ones(3), {}};
   EXPECT_FALSE(reflectance_pilot(image, image, knots).has_value());
   image.kernel.setOnes();
   image.data.setConstant(-1.0);

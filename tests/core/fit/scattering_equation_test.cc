@@ -158,15 +158,15 @@ TEST(ScatteringEquation, Pushes) {
   ASSERT_EQ(equation.projection().rows(), 2);  // a scale with a prior is a nuisance
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(2, 2);
   const ScatteringEquation::Step nominal = equation.step(truth, none, at);
-  ASSERT_EQ(nominal.pushes.cols(), 2);
+  ASSERT_EQ(nominal.common_causes.cols(), 2);
   DenseSystem pushed = system;
   const ScatteringEquation same(pushed, {0.02}, truth, at);
   pushed.l += 0.02 * system.nuisance_columns;
-  EXPECT_LT((same.step(truth, none, at).move - nominal.pushes.col(0)).norm(),
-            1e-9 * nominal.pushes.col(0).norm());
+  EXPECT_LT((same.step(truth, none, at).move - nominal.common_causes.col(0)).norm(),
+            1e-9 * nominal.common_causes.col(0).norm());
   pushed.l = 1.02 * truth.l;
-  EXPECT_LT((same.step(truth, none, at).move - nominal.pushes.col(1)).norm(),
-            1e-9 * nominal.pushes.col(1).norm());
+  EXPECT_LT((same.step(truth, none, at).move - nominal.common_causes.col(1)).norm(),
+            1e-9 * nominal.common_causes.col(1).norm());
   // The image says where in its prior the scale lies, as far as the medium does not answer for it.
   EXPECT_NEAR(same.settled_log_scale(same.residual(truth, at, at)), 0.02, 0.002);
   EXPECT_EQ(ScatteringEquation(system, {0.0}, truth, at).settled_log_scale(truth.l), 0.0);
@@ -224,7 +224,7 @@ TEST(ScatteringEquation, DoubtsAScale) {
     for (const double off : {0.0, 0.05}) {
       constexpr int kDraws = 1000;
       double sum = 0.0, square = 0.0, std = 0.0;
-      int doubted = 0;
+      int significant = 0;
       for (int i = 0; i < kDraws; ++i) {
         const double drawn = off + prior * normal(random);
         DenseSystem system = system_of(std::exp(drawn) * truth.l, kNoise);
@@ -240,31 +240,32 @@ TEST(ScatteringEquation, DoubtsAScale) {
         EXPECT_NEAR(form.dot(pilot.per_log_sigma_s), 0.0, 1e-8);
         EXPECT_NEAR(form.dot(pilot.per_sigma_a), 0.0, 1e-6);
         const ScatteringEquation::Step step = equation.step(m, Eigen::MatrixXd::Zero(2, 2), at);
-        const ScatteringEquation::ScaleDoubt doubt = equation.scale_doubt(
+        const ScatteringEquation::ScaleTest test = equation.scale_test(
             equation.residual(m, at, step.to), kPaths * kPaths * form.squaredNorm(), 1.0);
-        sum += doubt.offset / kDraws;
-        square += (doubt.offset - off) * (doubt.offset - off) / kDraws;
-        std = doubt.std;
-        doubted += doubt.p_value < 0.01 ? 1 : 0;
+        sum += test.offset / kDraws;
+        square += (test.offset - off) * (test.offset - off) / kDraws;
+        std = test.std;
+        significant += test.p_value < 0.01 ? 1 : 0;
       }
       // 1000 draws: 2.2 % of a deviation.
       EXPECT_NEAR(std::sqrt(square) / std, 1.0, 0.1) << prior << " " << off;
       EXPECT_NEAR(sum, off, 4.0 * std / std::sqrt(kDraws) + 0.02 * off) << prior << " " << off;
       if (off == 0.0) {
-        EXPECT_LE(doubted, 25) << prior;  // of 1000, 10 expected
+        EXPECT_LE(significant, 25) << prior;  // of 1000, 10 expected
       } else if (prior == 0.0) {
-        EXPECT_GE(doubted, 900) << std;
+        EXPECT_GE(significant, 900) << std;
       }
     }
   }
-  // Free, there is nothing to doubt.
+  // Free, there is nothing to test.
   const ScatteringEquation free(system_of(truth.l, kNoise),
                                 {std::numeric_limits<double>::infinity()}, pilot, at);
   EXPECT_EQ(free.scale_form().size(), 0);
-  EXPECT_EQ(free.scale_doubt(truth.l, 0.0, 1.0).p_value, 1.0);
+  EXPECT_EQ(free.scale_test(truth.l, 0.0, 1.0).p_value, 1.0);
 }
 
-// The scale's place in the step: where it is doubted, the answer is as far out as it would move.
+// The scale's place in the step: where it is significant, the answer is as far out as it would
+// move.
 TEST(ScatteringEquation, DoubtedScaleWidens) {
   const ScatteringImage truth = image_of(2.0, 0.01);
   const ScatteringPoint at{2.0, 0.01, 1.0};
@@ -280,7 +281,7 @@ TEST(ScatteringEquation, DoubtedScaleWidens) {
     EXPECT_NEAR(step.covariance(k, k), before(k, k) + moved[k] * moved[k],
                 1e-6 * step.covariance(k, k));
   }
-  EXPECT_EQ(step.causes.back().name, "doubted scale");
+  EXPECT_EQ(step.causes.back().name, "significant scale");
 }
 
 }  // namespace

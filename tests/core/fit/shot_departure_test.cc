@@ -112,17 +112,5 @@ TEST(ShotDepartures, OfOneShotThePowerIsUnknown) {
   EXPECT_THROW(shot_departures(one, model), std::invalid_argument);
 }
 
-TEST(CommonSlope, LevelsOfGroupsDoNotMatter) {
-  const std::vector<double> x = {0, 1, 4, 5, 8, 9};
-  std::vector<double> y;
-  const std::vector<int> group = {0, 0, 1, 1, 2, 2};
-  for (std::size_t i = 0; i < x.size(); ++i) y.push_back(-0.01 * x[i] + 7.0 * group[i]);
-  const Departure d = common_slope(x, y, group);
-  EXPECT_NEAR(d.value, -0.01, 1e-12);
-  EXPECT_LT(d.std, 1e-7);
-  EXPECT_TRUE(std::isinf(common_slope({1, 2}, {1, 2}, {0, 1}).std));
-  EXPECT_THROW(common_slope({1}, {1, 2}, {0}), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace scattermeter

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/input_error.h"
+
 namespace scattermeter {
 namespace {
 
@@ -33,6 +35,32 @@ TEST(Scene, FindsByName) {
   EXPECT_THROW(scene.object("sphere"), std::out_of_range);
   EXPECT_THROW(scene.light("lamp"), std::out_of_range);
   EXPECT_EQ(scene.at(12), "rig.yaml:12");
+  EXPECT_EQ(scene.at(0), "rig.yaml");
+}
+
+TEST(Scene, ShotsThatNameWhatIsNotThereAreRefused) {
+  Scene scene = two_materials();
+  for (SceneShot& shot : scene.shots) {
+    shot.object = "cube";
+    shot.lights = {"led", "room"};
+  }
+  EXPECT_NO_THROW(require_known_names(scene));
+  const auto message = [](const Scene& bad) {
+    try {
+      require_known_names(bad);
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  Scene bad = scene;
+  bad.shots[1].object = "sphere";
+  EXPECT_EQ(message(bad), "rig.yaml: shots.PE2.dng.object: sphere is none of the objects");
+  bad = scene;
+  bad.shots[2].lights = {"led", "lamp"};
+  EXPECT_EQ(message(bad), "rig.yaml: shots.POM3.dng.lights: lamp is none of the lights");
+  bad.shots[2].lights.clear();
+  EXPECT_EQ(message(bad), "rig.yaml: shots.POM3.dng.lights: expected at least one light");
 }
 
 TEST(Scene, MaterialsComeInTheOrderOfTheirFirstShot) {

@@ -1,0 +1,121 @@
+#include "apps/rig/rig_camera_reader.h"
+
+#include <array>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/rig/radiance_file.h"
+#include "apps/rig/rig_fields.h"
+#include "calib/lens/camera_calibration_file.h"
+#include "calib/lens/intrinsics_file.h"
+
+namespace scattermeter::apps {
+namespace {
+
+CameraIntrinsics intrinsics_of(const YamlField& field, const std::string& rig_path) {
+  if (field.is_scalar()) return calib::read_intrinsics(beside(rig_path, field.text()));
+  field.only({"fx_px", "fy_px", "cx_px", "cy_px", "distortion"});
+  CameraIntrinsics k;
+  k.fx_px = field.at("fx_px").positive();
+  k.fy_px = field.at("fy_px").positive();
+  k.cx_px = field.at("cx_px").number();
+  k.cy_px = field.at("cy_px").number();
+  if (const auto distortion = field.find("distortion")) {
+    for (const YamlField& term : distortion->items()) k.distortion.push_back(term.number());
+    const std::size_t n = k.distortion.size();
+    if (n != 0 && n != 4 && n != 5 && n != 8) {
+      distortion->fail("expected 0, 4, 5 or 8 terms k1, k2, p1, p2, k3 ...");
+    }
+  }
+  return k;
+}
+
+SceneSensor read_sensor(const YamlField& field) {
+  field.only({"gain_e_per_count", "read_noise_counts", "cfa", "black_counts", "white_counts",
+              "tone_curve"});
+  SceneSensor s;
+  if (const auto f = field.find("gain_e_per_count")) s.noise.gain_e_per_count = f->positive();
+  if (const auto f = field.find("read_noise_counts")) {
+    s.noise.read_noise_counts = f->number(0.0, 4095.0);
+  }
+  if (const auto f = field.find("cfa")) {
+    try {
+      s.cfa = cfa_pattern_from_name(f->text());
+    } catch (const std::invalid_argument&) {
+      f->fail("expected RGGB, GRBG, GBRG or BGGR");
+    }
+  }
+  if (const auto f = field.find("white_counts")) s.white_counts = f->integer(1, 4095);
+  if (const auto f = field.find("black_counts")) {
+    if (f->is_scalar()) {
+      s.black_counts.fill(f->integer(0, 4094));
+    } else {
+      f->numbers(4);
+      for (std::size_t i = 0; i < 4; ++i) s.black_counts[i] = f->items()[i].integer(0, 4094);
+    }
+    for (int black : s.black_counts) {
+      if (black >= s.white_counts) f->fail("expected black below white_counts");
+    }
+  }
+  if (const auto f = field.find("tone_curve")) {
+    const std::string name = f->text();
+    if (name != "linear" && name != "nef_lossy") f->fail("expected linear or nef_lossy");
+    s.nef_lossy_curve = name == "nef_lossy";
+  }
+  return s;
+}
+
+}  // namespace
+
+void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
+  field.only({"model", "image_size_px", "intrinsics", "responsivity_counts_mm2_sr_per_W_s",
+              "responsivity_relative_std", "radiance", "sensor", "exposure_s", "iso", "f_number"});
+  SceneCamera& camera = rig.scene.camera;
+  if (const auto f = field.find("model")) camera.model = f->text();
+  const std::array<int, 2> size = integer_pair(field.at("image_size_px"), 2, 100'000);
+  const YamlField intrinsics = field.at("intrinsics");
+  camera.intrinsics = intrinsics_of(intrinsics, rig.path);
+  if (intrinsics.is_scalar()) {
+    rig.intrinsics_path = beside(rig.path, intrinsics.text());
+    rig.lens = std::make_shared<const calib::CameraCalibrationFile>(
+        calib::read_camera_calibration_file(rig.intrinsics_path));
+    camera.lens_root = lens_root(rig.lens->parameters, rig.lens->covariance);
+  }
+  camera.intrinsics.width_px = size[0];
+  camera.intrinsics.height_px = size[1];
+  if (const std::string problem = intrinsics_problem(camera.intrinsics); !problem.empty()) {
+    intrinsics.fail(problem);
+  }
+  if (const auto f = field.find("responsivity_counts_mm2_sr_per_W_s")) {
+    camera.responsivity = positive_rgb(*f);
+  }
+  if (const auto f = field.find("responsivity_relative_std")) {
+    if (!camera.responsivity) f->fail("is given without responsivity_counts_mm2_sr_per_W_s");
+    camera.responsivity_relative_std = f->number(0.0, 10.0);
+  }
+  if (const auto f = field.find("radiance"); f && with_radiance) {
+    const std::string file = beside(rig.path, f->text());
+    auto radiance = std::make_shared<const capture::RadianceCalibration>(read_radiance_file(file));
+    const capture::RadianceCorrection& c = radiance->correction;
+    if (c.width_px != camera.intrinsics.width_px || c.height_px != camera.intrinsics.height_px) {
+      f->fail("the calibration is of " + std::to_string(c.width_px) + " x " +
+              std::to_string(c.height_px) + " samples, not of camera.image_size_px");
+    }
+    if (radiance->responsivity) {
+      if (camera.responsivity) {
+        f->fail(
+            "contains a responsivity, but camera.responsivity_counts_mm2_sr_per_W_s is given, too");
+      }
+      camera.responsivity = radiance->responsivity;
+      camera.responsivity_relative_std = radiance->responsivity_relative_std;
+    }
+    use_radiance(rig, std::move(radiance), file);
+  }
+  if (const auto f = field.find("sensor")) camera.sensor = read_sensor(*f);
+  if (const auto f = field.find("exposure_s")) camera.exposure_s = f->positive();
+  if (const auto f = field.find("iso")) camera.iso = f->integer(1, 65535);
+  if (const auto f = field.find("f_number")) camera.f_number = f->positive();
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,71 @@
+#include "calib/pose/silhouette_pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "calib/pose/pose_prior.h"
+#include "core/base/chi_square.h"
+#include "core/base/cross_matrix.h"
+
+namespace scattermeter::calib {
+
+EdgeFit fit_with_pose(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
+                      const PoseResult& prior) {
+  const Eigen::Index size = edge_parameters(silhouette.points);
+  EdgeFitOptions fit;
+  fit.free = pose_parameters();
+  fit.line_std_px = silhouette.line_std_px;
+  fit.piece_std_px = silhouette.piece_std_px;
+  fit.prior = Eigen::MatrixXd::Zero(size, size);
+  fit.prior.topLeftCorner<6, 6>() = prior.covariance.ldlt().solve(Eigen::MatrixXd::Identity(6, 6));
+  return fit_edges(silhouette.points, intrinsics, prior.camera_from_world, fit);
+}
+
+PoseResult combine(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
+                   const PoseResult& prior) {
+  PoseResult out = prior;
+  const Eigen::Index size = edge_parameters(silhouette.points);
+  EdgeFitOptions fit;
+  fit.free = pose_parameters();
+  fit.line_std_px = silhouette.line_std_px;
+  fit.piece_std_px = silhouette.piece_std_px;
+  // The silhouette alone, then with the prior: what the least squares grow by is the distance of
+  // the two, a chi-square of six.
+  fit.prior = loose_pose_prior(size, prior.camera_from_world.translation_mm.norm());
+  const EdgeFit alone = fit_edges(silhouette.points, intrinsics, silhouette.camera_from_world, fit);
+  const EdgeFit both = fit_with_pose(silhouette, intrinsics, prior);
+  if (!alone.converged || !both.converged) {
+    out.status = PoseStatus::kIllConditioned;
+    out.message = "the silhouette's least squares do not settle";
+    return out;
+  }
+  if (chi_square_tail(std::max(0.0, both.chi2 - alone.chi2), 6) < 1e-6) {
+    out.status = PoseStatus::kNoConsensus;
+    out.message =
+        "the object's silhouette and the pose contradict each other: camera, object or lens have "
+        "changed since the points were measured, or the mesh is not the object";
+    return out;
+  }
+  out.camera_from_world = both.camera_from_world;
+  out.covariance = both.covariance.topLeftCorner<6, 6>();
+  out.noise_std_px = silhouette.line_std_px;
+  out.rms_px = 0;
+  out.worst_px = 0;
+  for (const double r : both.residual_px) {
+    out.rms_px += r * r / static_cast<double>(both.residual_px.size());
+    out.worst_px = std::max(out.worst_px, std::abs(r));
+  }
+  out.rms_px = std::sqrt(out.rms_px);
+  // Centre -R^T t: its displacement is -R^T (dt - w x t) = -R^T (dt + [t]_x w).
+  const Eigen::Matrix3d rt = out.camera_from_world.rotation.conjugate().toRotationMatrix();
+  const Eigen::Vector3d t = out.camera_from_world.translation_mm;
+  Eigen::Matrix<double, 3, 6> by_pose;
+  by_pose << -rt * cross_matrix(t), -rt;
+  out.center_std_mm =
+      (by_pose * out.covariance * by_pose.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+  return out;
+}
+
+}  // namespace scattermeter::calib

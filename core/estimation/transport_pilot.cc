@@ -1,0 +1,30 @@
+#include "core/estimation/transport_pilot.h"
+
+#include <cmath>
+
+#include "core/diffusion/dipole_curve.h"
+
+namespace scattermeter {
+
+ScatteringImage dipole_pilot(const WeightMatrix& weights, const DistanceKnots& knots,
+                             const ScatteringPoint& at, double eta_int_over_ext) {
+  const double sigma_t = at.sigma_s_per_mm + at.sigma_a_per_mm;
+  const double albedo = at.sigma_s_per_mm / sigma_t;
+  const DipoleCurve curve = dipole_curve(knots, std::log(sigma_t), 1.0 - albedo, eta_int_over_ext);
+  ScatteringImage out;
+  out.l = weights * curve.r;
+  const Eigen::VectorXd d_u = weights * curve.d_u;
+  const Eigen::VectorXd d_q = weights * curve.d_q;
+  out.per_log_sigma_s = albedo * d_u - albedo * (1.0 - albedo) * d_q;
+  out.per_sigma_a = (d_u + albedo * d_q) / sigma_t;
+  return out;
+}
+
+Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector<double>& area_mm2,
+                                     const Eigen::VectorXd& noisy_variance) {
+  const Eigen::Map<const Eigen::VectorXd> area(area_mm2.data(), l.size());
+  const Eigen::VectorXd share = l.cwiseMax(0.0).cwiseQuotient(area);
+  return share * (noisy_variance.sum() / share.sum());
+}
+
+}  // namespace scattermeter

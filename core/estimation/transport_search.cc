@@ -1,0 +1,256 @@
+#include "core/estimation/transport_search.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "core/estimation/channel_simulation.h"
+#include "core/estimation/transport_pilot.h"
+#include "core/estimation/transport_round.h"
+#include "core/estimation/transport_verdict.h"
+#include "core/fit/part_light.h"
+#include "core/fit/residual.h"
+#include "core/view/row_selection.h"
+
+namespace scattermeter {
+namespace {
+
+constexpr int kFirstBlocks = 8;
+constexpr int kMaxRounds = 30;
+// Blocks of paths from which the pilot must have learned before a round may be the last.
+constexpr double kLearnedBlocks = 32.0;
+// Relative change of the image by a step after which earlier paths say nothing of the new point.
+constexpr double kFarStep = 0.3;
+// Rows farther off than this many robust deviations are dust and scratches. Renderings by Monte
+// Carlo have longer tails than the noise of a camera.
+constexpr double kTransportOutlierStd = 8.0;
+
+class TransportSearch {
+ public:
+  TransportSearch(const Scene& scene, const MaterialChannel& channel, const DipoleSystem& dipole,
+                  const EstimateOptions& options, const ProgressStage& stage)
+      : channel_(channel),
+        knots_(dipole.knots),
+        system_(dipole.system()),
+        rows_(*dipole.rows),
+        scale_(scale_prior(scene)),
+        options_(options),
+        stage_(stage),
+        simulation_(scene, channel) {
+    // The image is that of whole patches.
+    keep([&](std::size_t shot, std::size_t row, Eigen::Index) {
+      return channel_.shots[shot]->seen->map.guarded_of_row[row] == 0 ? RowState::kUsed
+                                                                      : RowState::kEdge;
+    });
+  }
+
+  void run(ChannelResult& result) {
+    Estimate& estimate = result.estimate;
+    start_ = std::chrono::steady_clock::now();
+    ScatteringPoint at{estimate.sigma_s_prime_per_mm.value, estimate.sigma_a_per_mm.value,
+                       has_free_scale() ? estimate.scale.value : 1.0};
+    result.singles.clear();
+    result.agreement = {};
+    estimate.converged = false;
+    estimate.rows = static_cast<std::size_t>(system_.l.size());
+    if (system_.l.size() < TransportRound::kLeastRows) {
+      estimate.reasons = {fmt::format("only {} whole patches can be used, at least {} are needed",
+                                      estimate.rows, TransportRound::kLeastRows)};
+      return;
+    }
+    int blocks = kFirstBlocks;  // per light and view; more as the search closes in
+    Look last = first_look(at);
+    bool outliers_known = false;
+    for (int i = 0; i < kMaxRounds && elapsed_s() < options_.time_limit_s; ++i) {
+      stage_.check();
+      const bool learned = part_light_.blocks() >= kLearnedBlocks;
+      // On the way, a scale known to a deviation is taken as exact: the search is steadier.
+      TransportRound round(
+          {system_, parts_, simulation_}, learned || has_free_scale() ? scale_ : ScalePrior{}, at,
+          pilot(last.image, at), last.blocks / kFinalPathBlocks + last.scatter - 1.0,
+          (1.0 / kFinalPathBlocks + (last.scatter - 1.0) / last.blocks) *
+              part_light_.relative_cell_covariance(parts_));
+      trace(round, blocks, learned);
+      if (round.step().change > kFarStep) part_light_.forget();
+      last = {round.image(), round.blocks(), round.scatter()};
+      part_light_.learn(parts_, round.image(), round.cell_covariance(), dipole(at), round.blocks());
+      const ScatteringPoint to = round.step().to;
+      if (learned && is_close(round.step(), round.blocks())) {
+        if (outliers_known || !leave_outliers_out(round)) return report(round, result);
+        outliers_known = true;
+        last = first_look(to);
+      } else if (round.step().change < 0.2 || round.scatter_within() > 1.5) {
+        // Where the paths' noise decides how far the step goes, more of them.
+        blocks *= 2;
+      }
+      at = to;
+    }
+    estimate.reasons = {"the search for the medium by transport did not converge in time"};
+  }
+
+ private:
+  // What paths drawn elsewhere say of the errors to come.
+  struct Look {
+    ScatteringImage image;
+    int blocks = 0;
+    double scatter = 1;
+  };
+
+  bool has_free_scale() const { return !std::isfinite(scale_.relative_std); }
+  double elapsed_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  // `blocks` of paths at the round's point; where that is close enough for them to serve the root
+  // as well (may_be_last), as many as matter and time and options allow.
+  void trace(TransportRound& round, int blocks, bool may_be_last) {
+    const double started_s = elapsed_s();
+    ChannelSimulation::Draw draw = simulation_.draw(round.projection());
+    simulation_.trace(draw, round.at(), blocks);
+    round.take(draw);
+    while (may_be_last && is_close(round.step(), round.blocks()) &&
+           !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
+      stage_.check();
+      const double per_block_s = (elapsed_s() - started_s) / round.blocks();
+      const int affordable = static_cast<int>((options_.time_limit_s - elapsed_s()) / per_block_s);
+      const int left = static_cast<int>(std::min<std::int64_t>(
+          options_.paths / PathOptions{}.paths_per_block - round.blocks(), round.blocks()));
+      if (left < 1 || affordable < round.blocks() / 8 + 1) break;
+      simulation_.trace(draw, round.at(), std::min(left, affordable));
+      round.take(draw);
+    }
+  }
+
+  Look first_look(const ScatteringPoint& at) {
+    ChannelSimulation::Draw draw = simulation_.draw(parts_.cells());
+    simulation_.trace(draw, at, kFirstBlocks);
+    const Look look{simulation_.image(draw), kFirstBlocks, 1.0};
+    part_light_.learn(parts_, look.image, ChannelSimulation::covariance(draw), dipole(at),
+                      kFirstBlocks);
+    return look;
+  }
+
+  // Keeps rows of which `state_of(shot, row of its view, row of the system so far)` is kUsed.
+  template <class StateOf>
+  void keep(const StateOf& state_of) {
+    std::vector<Eigen::Index> kept;
+    Eigen::Index at = 0;
+    for (std::size_t s = 0; s < rows_.size(); ++s) {
+      for (std::size_t j = 0; j < rows_[s].state.size(); ++j) {
+        if (rows_[s].state[j] != RowState::kUsed) continue;
+        const RowState state = state_of(s, j, at);
+        if (state == RowState::kUsed) {
+          kept.push_back(at);
+        } else {
+          leave_out(rows_[s], j, state);
+        }
+        ++at;
+      }
+    }
+    system_ = selected(system_, kept);
+    simulation_.set_rows(rows_);
+    parts_ =
+        ShotParts(system_.shot_rows, simulation_.center_mm(), simulation_.area_mm2(), system_.l);
+    part_light_.forget();
+  }
+
+  // Whether there were any.
+  bool leave_outliers_out(const TransportRound& round) {
+    const Eigen::VectorXd rest = round.equation().without_nuisances(round.residual());
+    RowSelectionOptions options;
+    options.outlier_std = kTransportOutlierStd;
+    const std::vector<Eigen::Index> far =
+        outliers(rest, Eigen::VectorXd::Zero(rest.size()),
+                 row_variance(round, round.scatter()).cwiseSqrt(), options);
+    if (far.empty()) return false;
+    keep([&](std::size_t, std::size_t, Eigen::Index row) {
+      return std::binary_search(far.begin(), far.end(), row) ? RowState::kOutlier : RowState::kUsed;
+    });
+    return true;
+  }
+
+  // Of noise and smooth Monte Carlo; scatter: factor of the latter.
+  Eigen::VectorXd row_variance(const TransportRound& round, double scatter) const {
+    return system_.std_l.cwiseAbs2() + scatter * round.at().scale * round.at().scale *
+                                           smooth_path_variance(round.pilot().l,
+                                                                simulation_.area_mm2(),
+                                                                round.image().variance);
+  }
+
+  ScatteringImage dipole(const ScatteringPoint& at) const {
+    return dipole_pilot(system_.weights, knots_, at, channel_.eta_int_over_ext);
+  }
+
+  // The dipole's image and derivatives, corrected part by part.
+  ScatteringImage pilot(const ScatteringImage& noisy, const ScatteringPoint& at) const {
+    ScatteringImage out = dipole(at);
+    if (part_light_.blocks() >= kLearnedBlocks) part_light_.correct(parts_, out);
+    out.variance = smooth_path_variance(out.l, simulation_.area_mm2(), noisy.variance);
+    return out;
+  }
+
+  void report(const TransportRound& round, ChannelResult& result) const {
+    Estimate& estimate = result.estimate;
+    estimate.reasons.clear();
+    const ScatteringEquation::ScaleTest scale_test = round.scale_test();
+    report_step(widened_by_scale(round.equation(), scale_test, round.step()), estimate);
+    const Eigen::VectorXd rest = round.residual();
+    if (!has_free_scale()) {
+      const double scale = std::exp(round.equation().settled_log_scale(rest));
+      estimate.scale = normal_quantity(scale, scale * scale_.relative_std);
+    }
+    const Eigen::VectorXd variance = row_variance(round, 1.0);
+    estimate.reduced_chi2 =
+        round.equation().without_nuisances(rest).cwiseAbs2().cwiseQuotient(variance).mean();
+    const Residual whole = residual(system_.l, system_.l - rest, system_.std_l);
+    estimate.rms_relative = whole.rms_relative;
+    estimate.psnr_db = whole.psnr_db;
+    estimate.rows = static_cast<std::size_t>(system_.l.size());
+    report_rows(channel_, rows_, result);
+    if (options_.keep_rows) {
+      result.rows = shot_rows(channel_, rows_, system_.l - rest, variance.cwiseSqrt());
+    }
+    add_refusals(round.misfit(), scale_test, round.blocks(), estimate);
+    report_shots(round, result);
+  }
+
+  void report_shots(const TransportRound& round, ChannelResult& result) const {
+    const std::vector<std::size_t> shots = round.shots();
+    const std::vector<ScatteringEquation::Step> steps = round.steps_of_shots();
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+      ShotResult& single = result.singles.emplace_back();
+      single.file = channel_.shots[shots[i]]->stated->file;
+      single.estimate.rows = round.rows_of_shot(i);
+      report_step(steps[i], single.estimate);
+    }
+    if (steps.size() < 2) return;
+    result.agreement = round.agreement(steps);
+    widen_by_disagreement(result.agreement, result.estimate);
+  }
+
+  const MaterialChannel& channel_;
+  DistanceKnots knots_;
+  DenseSystem system_;
+  ChannelRows rows_;
+  ScalePrior scale_;
+  const EstimateOptions& options_;
+  const ProgressStage& stage_;
+  ChannelSimulation simulation_;
+  ShotParts parts_;
+  PartLight part_light_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace
+
+void search_by_transport(const Scene& scene, const MaterialChannel& channel,
+                         const DipoleSystem& dipole, const EstimateOptions& options,
+                         const ProgressStage& stage, ChannelResult& result) {
+  TransportSearch(scene, channel, dipole, options, stage).run(result);
+}
+
+}  // namespace scattermeter

@@ -1,0 +1,37 @@
+// Score tests of what the rig states as known: whether the image contradicts it.
+#pragma once
+
+#include <vector>
+
+#include "core/diffusion/distance_weights.h"
+#include "core/fit/dipole_solver.h"
+#include "core/fit/estimate.h"
+#include "core/fit/linear_shot.h"
+#include "core/fit/recovered_reflectance.h"
+
+namespace scattermeter {
+
+// How far the best fit of one stated quantity lies from what is stated, all else free.
+struct ScoreTest {
+  double offset = 0;           // best minus stated: of log scale, or of eta
+  double p_value = 1;          // of at least this much where the statement is true
+  double image_relative = 0;   // change of the image by the offset, relative to the image
+  Eigen::VectorXd per_offset;  // d (sqrt_information R) / d offset
+};
+
+// One-parameter score tests at the fit's optimum. They detect a single wrong quantity long before
+// the misfit over all directions of r does: with d of those, one cause must raise the chi-square by
+// some sqrt(2 d) times more to be as improbable. Linearised; all nuisances, also those that are not
+// fitted, take part within their priors, so errors of the method are not mistaken for the rig's.
+// `noise`: variance of the rows over the stated one. Where the light is even over the object, the
+// image hardly determines the scale, and no test can detect an error of it.
+struct ScoreTests {
+  ScoreTest scale;  // beyond its prior; p is 1 where it is free
+  ScoreTest eta;
+};
+ScoreTests score_tests(const RecoveredReflectance& recovered,
+                       const std::vector<Nuisance>& nuisances, const DistanceKnots& knots,
+                       const DipoleSolver::Point& optimum, double eta_int_over_ext,
+                       const ScalePrior& scale, double noise);
+
+}  // namespace scattermeter

@@ -1,0 +1,46 @@
+#include "core/estimation/channel_result.h"
+
+#include <gtest/gtest.h>
+
+namespace scattermeter {
+namespace {
+
+Estimate converged(double sigma_s_prime_per_mm, double sigma_a_per_mm) {
+  Estimate estimate;
+  estimate.converged = true;
+  estimate.sigma_s_prime_per_mm.value = sigma_s_prime_per_mm;
+  estimate.sigma_a_per_mm.value = sigma_a_per_mm;
+  return estimate;
+}
+
+TEST(ChannelResult, DipoleDistanceIsRelativeForScatteringAndAbsoluteForAbsorption) {
+  ChannelResult result;
+  result.estimate = converged(2.0, 0.010);
+  result.dipole = converged(1.9, 0.004);
+  const auto distance = dipole_distance(result);
+  ASSERT_TRUE(distance.has_value());
+  EXPECT_NEAR(distance->sigma_s_prime_relative, -0.05, 1e-15);
+  EXPECT_NEAR(distance->sigma_a_per_mm, -0.006, 1e-15);
+}
+
+TEST(ChannelResult, DipoleDistanceNeedsTwoEstimates) {
+  ChannelResult result;
+  result.estimate = converged(2.0, 0.010);
+  EXPECT_FALSE(dipole_distance(result).has_value());
+  result.dipole = converged(1.9, 0.004);
+  result.dipole->converged = false;
+  EXPECT_FALSE(dipole_distance(result).has_value());
+  result.dipole->converged = true;
+  result.estimate.converged = false;
+  EXPECT_FALSE(dipole_distance(result).has_value());
+}
+
+TEST(ChannelResult, IsRefusedByAnyReason) {
+  ChannelResult result;
+  EXPECT_FALSE(result.refused());
+  result.estimate.reasons = {"the fit did not converge"};
+  EXPECT_TRUE(result.refused());
+}
+
+}  // namespace
+}  // namespace scattermeter

@@ -1,0 +1,96 @@
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/core/cube_estimation.h"
+
+namespace scattermeter {
+namespace {
+
+using test_support::CubeEstimation;
+using test_support::DipoleCube;
+using test_support::kCubeMedium;
+
+TEST(DipoleEstimator, RecoversTheMediumOfANoiseFreeImage) {
+  DipoleCube cube(2);
+  cube.show(kCubeMedium, 1e-3);
+  CubeEstimation run(cube, "G");
+  estimate_dipole(run.estimation);
+  const ChannelResult& result = run.estimation.results[0];
+  ASSERT_FALSE(result.refused()) << result.estimate.reasons.front();
+  EXPECT_EQ(result.model, "dipole");
+  EXPECT_NEAR(result.estimate.sigma_s_prime_per_mm.value, kCubeMedium.sigma_s_prime_per_mm, 1e-5);
+  EXPECT_NEAR(result.estimate.sigma_a_per_mm.value, kCubeMedium.sigma_a_per_mm, 1e-6);
+  EXPECT_LT(result.estimate.reduced_chi2, 1e-3);
+  ASSERT_EQ(result.singles.size(), 2U);
+  for (const ShotResult& single : result.singles) {
+    EXPECT_NEAR(single.estimate.sigma_s_prime_per_mm.value, kCubeMedium.sigma_s_prime_per_mm, 1e-4);
+  }
+  EXPECT_EQ(result.singles[1].file, "b.dng");
+  EXPECT_LT(result.agreement.chi2, 1e-3);
+}
+
+// Three channels with noise of their own: no departure beyond four of the stated deviations.
+TEST(DipoleEstimator, StatesTheDeviationOfANoisyImage) {
+  DipoleCube cube(2);
+  cube.show(kCubeMedium, 0.01, 5);
+  CubeEstimation run(cube);
+  estimate_dipole(run.estimation);
+  for (const ChannelResult& result : run.estimation.results) {
+    ASSERT_FALSE(result.refused()) << result.estimate.reasons.front();
+    const Estimate& e = result.estimate;
+    EXPECT_GT(e.sigma_s_prime_per_mm.std, 0.0);
+    EXPECT_LT(e.sigma_s_prime_per_mm.std, 0.05);
+    EXPECT_LT(std::abs(e.sigma_s_prime_per_mm.value - 0.9), 4.0 * e.sigma_s_prime_per_mm.std);
+    EXPECT_LT(std::abs(e.sigma_a_per_mm.value - 0.01), 4.0 * e.sigma_a_per_mm.std);
+    // Of some 700 rows: 1 +- 0.05.
+    EXPECT_NEAR(e.reduced_chi2, 1.0, 0.25);
+    EXPECT_FALSE(result.agreement.disagree());
+  }
+}
+
+// A speck of dust: one row a third too dark.
+TEST(DipoleEstimator, LeavesOutliersOut) {
+  DipoleCube cube;
+  cube.show(kCubeMedium, 0.01, 5);
+  ChannelObservation& o = cube.shots[0].observation.channel[0];
+  std::size_t speck = 0;
+  while (o.state[speck] != RowState::kUsed) ++speck;
+  o.l[speck] *= 0.67;
+  EstimateOptions options;
+  options.keep_rows = true;
+  CubeEstimation run(cube, "R", options);
+  estimate_dipole(run.estimation);
+  const ChannelResult& result = run.estimation.results[0];
+  ASSERT_FALSE(result.refused());
+  EXPECT_EQ(result.patches_by_state[static_cast<std::size_t>(RowState::kOutlier)], 1U);
+  ASSERT_EQ(result.rows.size(), 1U);
+  EXPECT_EQ(result.rows[0].state[speck], RowState::kOutlier);
+  EXPECT_TRUE(std::isnan(result.rows[0].predicted[speck]));
+}
+
+// What transport starts from: of the channels that were fitted, with all their rows.
+TEST(DipoleEstimator, HandsOverTheSystemsOfOpenChannels) {
+  DipoleCube cube;
+  cube.show(kCubeMedium, 0.01);
+  cube.shots[0].observation.channel[1].brightest_snr = 1.0;
+  CubeEstimation run(cube);
+  std::vector<std::optional<DipoleSystem>> systems(3);
+  estimate_dipole(run.estimation, &systems);
+  ASSERT_TRUE(systems[0].has_value());
+  EXPECT_FALSE(systems[1].has_value());
+  EXPECT_THAT(run.estimation.results[1].estimate.reasons.front(), ::testing::HasSubstr("is dark"));
+  const DenseSystem system = systems[0]->system();
+  const auto n = static_cast<Eigen::Index>((*systems[0]->rows)[0].rows_used);
+  EXPECT_EQ(system.l.size(), n);
+  // Each row is some 100 deviations.
+  EXPECT_NEAR(systems[0]->image_in_std, 100.0 * std::sqrt(static_cast<double>(n)),
+              0.02 * systems[0]->image_in_std);
+}
+
+}  // namespace
+}  // namespace scattermeter

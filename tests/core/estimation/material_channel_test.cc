@@ -1,0 +1,85 @@
+#include "core/estimation/material_channel.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/input_error.h"
+#include "tests/fixtures/core/dipole_cube.h"
+
+namespace scattermeter {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(MaterialChannel, MaterialsFollowTheirFirstShots) {
+  test_support::DipoleCube cube(2);
+  cube.scene.shots[1].material = "wax";
+  const auto all = material_channels(cube.scene, cube.shots);
+  ASSERT_EQ(all.size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(all[i].material, i < 3 ? "POM" : "wax");
+    EXPECT_EQ(all[i].channel, i % 3);
+    ASSERT_EQ(all[i].shots.size(), 1U);
+    EXPECT_EQ(all[i].shots[0], &cube.shots[i / 3]);
+    EXPECT_EQ(all[i].eta_int_over_ext, 1.3);
+  }
+}
+
+TEST(MaterialChannel, ShotsOfOneMaterialAreTogetherAndChannelsAreChosen) {
+  const test_support::DipoleCube cube(2, 4.0);
+  const auto blue = material_channels(cube.scene, cube.shots, "B");
+  ASSERT_EQ(blue.size(), 1U);
+  EXPECT_EQ(blue[0].channel, 2U);
+  EXPECT_EQ(blue[0].shots.size(), 2U);
+  EXPECT_DOUBLE_EQ(patch_size_mm(blue[0]), 4.0);
+  EXPECT_EQ(material_channels(cube.scene, cube.shots, "RG").size(), 2U);
+}
+
+TEST(MaterialChannel, OneMaterialHasOneEta) {
+  test_support::DipoleCube cube(2);
+  SceneObject other = cube.scene.objects[0];
+  other.eta_int_over_ext = 1.5;
+  ObjectScene object;
+  object.stated = &other;
+  const auto seen = std::make_shared<SeenObject>(*cube.shots[1].seen);
+  seen->object = &object;
+  cube.shots[1].seen = seen;
+  cube.scene.shots[1].line = 9;
+  try {
+    material_channels(cube.scene, cube.shots);
+    FAIL() << "two eta were accepted";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("rig.yaml:9"));
+    EXPECT_THAT(e.what(), HasSubstr("POM has eta 1.5 here but 1.3"));
+  }
+}
+
+// Of a shot of ten rows.
+TEST(MaterialChannel, StatesWhatMakesAShotUseless) {
+  SceneShot stated;
+  stated.file = "a.dng";
+  ObservedShot shot;
+  shot.stated = &stated;
+  shot.exposure_s = 0.25;
+  EXPECT_EQ(shot_problem(shot, 1), "a.dng: no whole patch of the object is seen");
+  ChannelObservation& o = shot.observation.channel[1];
+  o.l.assign(10, 1.0);
+  o.brightest_snr = 11.0;
+  o.rows_clipped = 5;
+  EXPECT_EQ(shot_problem(shot, 1), "");
+  o.rows_clipped = 6;
+  EXPECT_EQ(shot_problem(shot, 1),
+            "a.dng: channel G is clipped on 60 % of the object (exposure 0.25 s)");
+  o.rows_clipped = 0;
+  o.brightest_snr = 9.0;
+  o.brightest_counts = 3.0;
+  EXPECT_EQ(shot_problem(shot, 1),
+            "a.dng: channel G is dark, brightest patch 3.0 counts above black");
+}
+
+}  // namespace
+}  // namespace scattermeter

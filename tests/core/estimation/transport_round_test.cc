@@ -1,0 +1,129 @@
+#include "core/estimation/transport_round.h"
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/estimation/transport_pilot.h"
+#include "tests/fixtures/core/dipole_cube.h"
+
+namespace scattermeter {
+namespace {
+
+constexpr ScatteringPoint kRoundPoint{0.9, 0.01, 1.0};
+constexpr int kRoundBlocks = 2;
+
+// Two shots that show exactly what the first draw of a simulation predicts of them; a round takes
+// the first draw of another one, which follows the same paths.
+class RoundOfTheCube : public ::testing::Test {
+ protected:
+  RoundOfTheCube() {
+    cube_.show(test_support::kCubeMedium, 0.01);
+    channel_ = material_channels(cube_.scene, cube_.shots, "R").front();
+    rows_ = channel_rows(cube_.scene, channel_);
+    system_ = channel_system(cube_.scene, channel_, rows_, cube_.weights, 0.0);
+    ChannelSimulation first(cube_.scene, channel_);
+    first.set_rows(rows_);
+    parts_ = ShotParts(system_.shot_rows, first.center_mm(), first.area_mm2(), system_.l);
+    ChannelSimulation::Draw draw = first.draw(parts_.cells());
+    first.trace(draw, kRoundPoint, kRoundBlocks);
+    image_ = first.image(draw);
+    cell_covariance_ = ChannelSimulation::covariance(draw);
+    system_.l = image_.l;
+    simulation_.emplace(cube_.scene, channel_);
+    simulation_->set_rows(rows_);
+    round_.emplace(TransportShots{system_, parts_, *simulation_}, ScalePrior{0.02}, kRoundPoint,
+                   pilot(), 1.0, Eigen::MatrixXd::Zero(parts_.n_cells(), parts_.n_cells()));
+  }
+
+  ScatteringImage pilot() const {
+    ScatteringImage out = dipole_pilot(system_.weights, smooth_knots(cube_.lit), kRoundPoint, 1.3);
+    std::vector<double> area_mm2;
+    for (const auto& [s, row] : used()) {
+      const SeenObject& seen = *cube_.shots[s].seen;
+      area_mm2.push_back(seen.patches->area_mm2(seen.map.patch_of_row[row]));
+    }
+    out.variance = smooth_path_variance(out.l, area_mm2, image_.variance);
+    return out;
+  }
+  std::vector<std::pair<std::size_t, std::size_t>> used() const {
+    std::vector<std::pair<std::size_t, std::size_t>> out;
+    for (std::size_t s = 0; s < rows_.size(); ++s) {
+      for (std::size_t j = 0; j < rows_[s].state.size(); ++j) {
+        if (rows_[s].state[j] == RowState::kUsed) out.emplace_back(s, j);
+      }
+    }
+    return out;
+  }
+  void take() {
+    ChannelSimulation::Draw draw = simulation_->draw(round_->projection());
+    simulation_->trace(draw, kRoundPoint, kRoundBlocks);
+    round_->take(draw);
+  }
+
+  test_support::DipoleCube cube_{2, 4.0};
+  MaterialChannel channel_;
+  ChannelRows rows_;
+  DenseSystem system_;
+  ShotParts parts_;
+  ScatteringImage image_;
+  Eigen::MatrixXd cell_covariance_;
+  std::optional<ChannelSimulation> simulation_;
+  std::optional<TransportRound> round_;
+};
+
+// Rows: of the joint unknowns, of each shot's own, of the scale, of the cells.
+TEST_F(RoundOfTheCube, ProjectionHoldsJointSinglesScaleAndCells) {
+  const Eigen::MatrixXd p = round_->projection();
+  ASSERT_EQ(round_->shots(), (std::vector<std::size_t>{0, 1}));
+  ASSERT_EQ(p.rows(), 2 + 2 * 2 + 1 + parts_.n_cells());
+  EXPECT_EQ(p.topRows(2), round_->equation().projection());
+  const Eigen::Index first = system_.shot_rows[0];
+  EXPECT_EQ(round_->rows_of_shot(0), static_cast<std::size_t>(first));
+  EXPECT_GT(p.block(2, 0, 2, first).norm(), 0.0);
+  EXPECT_EQ(p.block(2, first, 2, p.cols() - first).norm(), 0.0);
+  EXPECT_EQ(p.block(4, 0, 2, first).norm(), 0.0);
+  EXPECT_GT(p.block(4, first, 2, p.cols() - first).norm(), 0.0);
+  EXPECT_EQ(p.row(6), round_->equation().scale_form());
+  EXPECT_EQ(p.bottomRows(parts_.n_cells()), parts_.cells());
+}
+
+TEST_F(RoundOfTheCube, AnImageThatIsPredictedMovesNothing) {
+  take();
+  EXPECT_EQ(round_->blocks(), kRoundBlocks);
+  EXPECT_LT((round_->image().l - image_.l).norm(), 1e-12 * image_.l.norm());
+  EXPECT_LT(round_->residual().norm(), 1e-9 * image_.l.norm());
+  EXPECT_LT(round_->step().move.norm(), 1e-9);
+  EXPECT_EQ(round_->scatter(), 1.0);
+  EXPECT_EQ(round_->scatter_within(), 1.0);
+  EXPECT_NEAR(round_->scale_test().offset, 0.0, 1e-9);
+  EXPECT_NEAR(round_->scale_test().p_value, 1.0, 1e-6);
+  const auto steps = round_->steps_of_shots();
+  ASSERT_EQ(steps.size(), 2U);
+  for (const auto& step : steps) EXPECT_LT(step.move.norm(), 1e-9);
+  const ShotAgreement agreement = round_->agreement(steps);
+  EXPECT_EQ(agreement.dof, 2);
+  EXPECT_NEAR(agreement.chi2, 0.0, 1e-9);
+  // From so few blocks the parts' covariance is unusable: no misfit is stated.
+  EXPECT_EQ(round_->misfit().dof, 0.0);
+  EXPECT_LT((round_->cell_covariance() - cell_covariance_).norm(), 1e-9 * cell_covariance_.norm());
+}
+
+// The equation is linear: an image that departs along a derivative is met by exactly that step.
+TEST_F(RoundOfTheCube, AStepMeetsADepartureAlongTheDerivatives) {
+  constexpr double kLogSigmaS = 0.01, kSigmaA = 2e-4;
+  system_.l = image_.l + kLogSigmaS * image_.per_log_sigma_s + kSigmaA * image_.per_sigma_a;
+  round_.emplace(TransportShots{system_, parts_, *simulation_}, ScalePrior{}, kRoundPoint, pilot(),
+                 1.0, Eigen::MatrixXd::Zero(parts_.n_cells(), parts_.n_cells()));
+  take();
+  ASSERT_EQ(round_->step().move.size(), 2);
+  EXPECT_NEAR(round_->step().move[0], kLogSigmaS, 1e-9);
+  EXPECT_NEAR(round_->step().move[1], kSigmaA, 1e-10);
+  EXPECT_NEAR(round_->step().to.sigma_s_per_mm, 0.9 * std::exp(kLogSigmaS), 1e-9);
+  EXPECT_NEAR(round_->step().to.sigma_a_per_mm, 0.01 + kSigmaA, 1e-10);
+}
+
+}  // namespace
+}  // namespace scattermeter

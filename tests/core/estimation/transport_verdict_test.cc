@@ -1,0 +1,123 @@
+#include "core/estimation/transport_verdict.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace scattermeter {
+namespace {
+
+// A step of two unknowns: variances of noise and of paths, both the same for each unknown.
+ScatteringEquation::Step made_step(double move, double noise, double paths) {
+  ScatteringEquation::Step step;
+  step.to = {2.0, 0.01, 1.0};
+  step.size = Eigen::Vector2d::Ones();
+  step.move = Eigen::Vector2d(move, 0.0);
+  step.causes = {{"noise", noise * Eigen::Matrix2d::Identity()},
+                 {"Monte Carlo", paths * Eigen::Matrix2d::Identity()}};
+  step.covariance = (noise + paths) * Eigen::Matrix2d::Identity();
+  return step;
+}
+
+TEST(TransportVerdict, StepsAreCloseWhereTheirSquaresAreSmall) {
+  // Half the square of 0.1 is 0.005: 0.15 of a deviation of 1/30.
+  EXPECT_TRUE(is_close(made_step(0.1, 0.034 * 0.034, 0.0), 8));
+  EXPECT_FALSE(is_close(made_step(0.1, 0.033 * 0.033, 0.0), 8));
+  // Of less than 2 % whatever the deviation.
+  EXPECT_TRUE(is_close(made_step(-0.0199, 1e-12, 0.0), 8));
+  EXPECT_FALSE(is_close(made_step(-0.0201, 1e-12, 0.0), 8));
+  // Once many paths are spent, up to 1.7 times as long.
+  EXPECT_TRUE(is_close(made_step(0.0339, 1e-12, 0.0), 65));
+  EXPECT_FALSE(is_close(made_step(0.0339, 1e-12, 0.0), 64));
+}
+
+// Deviations of paths that further blocks will remove do not excuse a long step.
+TEST(TransportVerdict, ClosenessCountsOnTheFinalPaths) {
+  EXPECT_FALSE(is_close(made_step(0.1, 0.03 * 0.03, 0.03 * 0.03), 8));
+  EXPECT_TRUE(is_close(made_step(0.1, 0.03 * 0.03, 0.03 * 0.03), 512));
+}
+
+TEST(TransportVerdict, PathsArePreciseAgainstTheRestOrInThemselves) {
+  EXPECT_TRUE(is_precise(made_step(0.0, 1e-2, 0.9e-3), 0.01, 64));
+  EXPECT_FALSE(is_precise(made_step(0.0, 1e-2, 1.1e-3), 0.01, 64));
+  EXPECT_FALSE(is_precise(made_step(0.0, 1e-2, 0.9e-3), 0.01, 63));
+  // 1e-3 of sigma_s', 5e-3 of sigma_a (0.4 per mm here).
+  EXPECT_TRUE(is_precise(made_step(0.0, 0.0, 0.99e-6), 0.4, 64));
+  EXPECT_FALSE(is_precise(made_step(0.0, 0.0, 1.01e-6), 0.4, 64));
+  EXPECT_FALSE(is_precise(made_step(0.0, 0.0, 0.99e-6), 0.1, 64));
+}
+
+TEST(TransportVerdict, ReportHoldsValuesDeviationsAndBudget) {
+  ScatteringEquation::Step step = made_step(0.0, 0.0, 0.0);
+  step.covariance << 4e-4, 1e-5, 1e-5, 1e-6;
+  step.causes = {{"noise", (Eigen::Matrix2d() << 1e-4, 0, 0, 0.25e-6).finished()}};
+  Estimate estimate;
+  estimate.budget = {{"old", 1.0, 1.0}};
+  report_step(step, estimate);
+  EXPECT_TRUE(estimate.converged);
+  EXPECT_EQ(estimate.sigma_s_prime_per_mm.value, 2.0);
+  EXPECT_NEAR(estimate.sigma_s_prime_per_mm.std, 0.04, 1e-12);
+  EXPECT_EQ(estimate.sigma_a_per_mm.value, 0.01);
+  EXPECT_NEAR(estimate.sigma_a_per_mm.std, 0.001, 1e-12);
+  EXPECT_NEAR(estimate.correlation, 0.5, 1e-12);
+  ASSERT_EQ(estimate.budget.size(), 1U);
+  EXPECT_EQ(estimate.budget[0].cause, "noise");
+  EXPECT_NEAR(estimate.budget[0].std_sigma_s_prime_per_mm, 0.02, 1e-12);
+  EXPECT_NEAR(estimate.budget[0].std_sigma_a_per_mm, 0.0005, 1e-12);
+  EXPECT_EQ(estimate.scale.value, 1.0);
+  EXPECT_EQ(estimate.scale.std, 0.0);
+}
+
+Estimate trusted() {
+  Estimate estimate;
+  estimate.sigma_s_prime_per_mm = normal_quantity(2.0, 0.1);
+  estimate.sigma_a_per_mm = normal_quantity(0.01, 0.001);
+  return estimate;
+}
+
+TEST(TransportVerdict, NothingIsAddedToATrustedEstimate) {
+  Estimate estimate = trusted();
+  LackOfFit misfit;
+  misfit.rms = 0.1;
+  misfit.p_value = 1e-3;  // large, but not significant
+  add_refusals(misfit, {0.5, 0.2, 0.02}, kLeastBlocks, estimate);
+  EXPECT_TRUE(estimate.reasons.empty());
+  EXPECT_EQ(estimate.misfit_relative, 0.1);
+  EXPECT_EQ(estimate.misfit_p_value, 1e-3);
+}
+
+TEST(TransportVerdict, EachReasonIsStated) {
+  LackOfFit misfit;
+  misfit.rms = 0.04;
+  misfit.p_value = 1e-9;
+  Estimate estimate = trusted();
+  estimate.sigma_s_prime_per_mm = normal_quantity(2.0, 1.1);
+  estimate.sigma_a_per_mm.std = std::numeric_limits<double>::infinity();
+  add_refusals(misfit, {std::log(1.05), 0.01, 1e-7}, 2, estimate);
+  ASSERT_EQ(estimate.reasons.size(), 5U);
+  EXPECT_EQ(estimate.reasons[0],
+            "the time was too short: 2 blocks of paths for each light, at least 64 are needed");
+  EXPECT_EQ(estimate.reasons[1],
+            "transport does not explain the shots: parts of the image are 4 % off (scale, light, "
+            "pose, shape or eta are not as the rig states)");
+  EXPECT_EQ(estimate.reasons[2],
+            "the shots contradict the scale that the rig states: it should be at least 5 +- 1 % "
+            "larger (or light, pose, shape or eta are not as the rig states)");
+  EXPECT_EQ(estimate.reasons[3], "these shots do not determine sigma_s'");
+  EXPECT_EQ(estimate.reasons[4], "these shots set no upper limit to sigma_a");
+}
+
+TEST(TransportVerdict, SmallOrInsignificantScalesAreNoReason) {
+  Estimate estimate = trusted();
+  add_refusals({}, {0.009, 0.001, 1e-12}, kLeastBlocks, estimate);
+  add_refusals({}, {0.05, 0.02, 1e-4}, kLeastBlocks, estimate);
+  EXPECT_TRUE(estimate.reasons.empty());
+  add_refusals({}, {-0.05, 0.001, 1e-12}, kLeastBlocks, estimate);
+  ASSERT_EQ(estimate.reasons.size(), 1U);
+  EXPECT_NE(estimate.reasons[0].find("at least 4.9 +- 0.1 % smaller"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace scattermeter
