@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 
 // Places all over the upper hemisphere, every 5 degrees, that know sigma_a to 20 % but for one.
-OtherShots even_map(LedMap& map) {
+SuggestedShots even_map(LedMap& map) {
   map.object = "cube";
   map.center_mm = {1, 2, 10};
   map.distance_mm = 100;
@@ -23,16 +23,16 @@ OtherShots even_map(LedMap& map) {
     for (int azimuth = 0; azimuth < 360; azimuth += 5) {
       const double z = zenith * std::numbers::pi / 180.0;
       const double a = azimuth * std::numbers::pi / 180.0;
-      LedPlace place;
+      LedPosition place;
       place.position_mm =
           map.center_mm + 100.0 * Eigen::Vector3d(std::sin(z) * std::cos(a),
                                                   std::sin(z) * std::sin(a), std::cos(z));
       place.alone = 0.4;
       place.joined = 0.2;
-      map.places.push_back(place);
+      map.positions.push_back(place);
     }
   }
-  OtherShots other;
+  SuggestedShots other;
   other.material = "POM";
   other.planned = 0.25;
   return other;
@@ -40,7 +40,7 @@ OtherShots even_map(LedMap& map) {
 
 TEST(LedMapPlot, OneValueAllOver) {
   LedMap map;
-  const OtherShots other = even_map(map);
+  const SuggestedShots other = even_map(map);
   for (const bool joined : {true, false}) {
     const Plot plot = led_map_plot(other, map, joined).plot;
     const PlotSeries& cells = plot.series.at(0);
@@ -53,8 +53,8 @@ TEST(LedMapPlot, OneValueAllOver) {
 
 TEST(LedMapPlot, MarksWhatStandsThere) {
   LedMap map;
-  const OtherShots other = even_map(map);
-  map.places[9 * 72 + 18].joined = 0.1;  // 45 degrees from the zenith, towards +y
+  const SuggestedShots other = even_map(map);
+  map.positions[9 * 72 + 18].joined = 0.1;  // 45 degrees from the zenith, towards +y
   const PagePlot page = led_map_plot(other, map, true);
   const auto at = [&](const char* name) {
     for (const PlotSeries& s : page.plot.series) {
@@ -73,8 +73,8 @@ TEST(LedMapPlot, MarksWhatStandsThere) {
 // Cells whose nearest place has no value stay empty.
 TEST(LedMapPlot, NoValueNoCell) {
   LedMap map;
-  const OtherShots other = even_map(map);
-  for (LedPlace& place : map.places) {
+  const SuggestedShots other = even_map(map);
+  for (LedPosition& place : map.positions) {
     if (place.position_mm.x() > map.center_mm.x() + 1e-9) place.joined = std::nan("");
   }
   const PlotSeries cells = led_map_plot(other, map, true).plot.series.at(0);
