@@ -50,29 +50,29 @@ class CheckFitTest : public ::testing::Test {
 Rig* CheckFitTest::rig_ = nullptr;
 CheckedRig* CheckFitTest::checked_ = nullptr;
 
-TEST_F(CheckFitTest, ATaskForEachChannelOfShotsOfUse) {
-  const std::vector<CheckedTask>& tasks = checked_->fit.tasks;
-  ASSERT_EQ(tasks.size(), 3U);
+TEST_F(CheckFitTest, AFitForEachChannelOfShotsOfUse) {
+  const std::vector<CheckedChannel>& channels = checked_->fit.channels;
+  ASSERT_EQ(channels.size(), 3U);
   for (std::size_t c = 0; c < 3; ++c) {
-    EXPECT_EQ(tasks[c].material, "PE");
-    EXPECT_EQ(tasks[c].channel, c);
-    EXPECT_THAT(tasks[c].shots, ElementsAre(0, 1));  // not the dark one
-    ASSERT_TRUE(tasks[c].departures.has_value());
-    EXPECT_EQ(tasks[c].departures->power_relative.size(), 2U);
-    EXPECT_EQ(tasks[c].departures->nuisances.size(), tasks[c].nuisances.size());
-    ASSERT_EQ(tasks[c].singles.size(), 2U);
-    EXPECT_EQ(tasks[c].singles[1].file, "PE_cube_2.dng");
+    EXPECT_EQ(channels[c].material, "PE");
+    EXPECT_EQ(channels[c].channel, c);
+    EXPECT_THAT(channels[c].shots, ElementsAre(0, 1));  // not the dark one
+    ASSERT_TRUE(channels[c].departures.has_value());
+    EXPECT_EQ(channels[c].departures->power_relative.size(), 2U);
+    EXPECT_EQ(channels[c].departures->nuisances.size(), channels[c].nuisances.size());
+    ASSERT_EQ(channels[c].singles.size(), 2U);
+    EXPECT_EQ(channels[c].singles[1].file, "PE_cube_2.dng");
   }
 }
 
 // A tenth between two shots is 4.8 % up and down from their mean: 1.1 / 1 = (1 + x) / (1 - x).
 TEST_F(CheckFitTest, SeesThePowerOfAShot) {
-  for (const CheckedTask& task : checked_->fit.tasks) {
-    const std::vector<Departure>& power = task.departures->power_relative;
+  for (const CheckedChannel& fitted : checked_->fit.channels) {
+    const std::vector<Departure>& power = fitted.departures->power_relative;
     EXPECT_NEAR(power[1].value - power[0].value, 2.0 * 0.1 / 2.1, 0.03);
     EXPECT_LT(power[1].std, 0.02);
-    EXPECT_NEAR(task.departures->even_relative[0].value, 0.0, 0.02);
-    EXPECT_LT(task.departures->residual_relative[0], 0.05);
+    EXPECT_NEAR(fitted.departures->even_relative[0].value, 0.0, 0.02);
+    EXPECT_LT(fitted.departures->residual_relative[0], 0.05);
   }
 }
 

@@ -70,12 +70,12 @@ TEST(CheckIdentity, LightsExplainTheirShots) {
 TEST(CheckIdentity, ExchangedMaterialsScatter) {
   MadeCheckedRig made(4);
   const auto fill = [&](const std::vector<double>& sigma_s_prime) {
-    made.checked.fit.tasks.clear();
+    made.checked.fit.channels.clear();
     for (std::size_t m = 0; m < 2; ++m) {
-      CheckedTask& task = made.add_task(1, {2 * m, 2 * m + 1});
-      task.material = m == 0 ? "m" : "n";
-      for (const std::size_t shot : task.shots) {
-        ShotResult& single = task.singles.emplace_back();
+      CheckedChannel& fitted = made.add_channel(1, {2 * m, 2 * m + 1});
+      fitted.material = m == 0 ? "m" : "n";
+      for (const std::size_t shot : fitted.shots) {
+        ShotResult& single = fitted.singles.emplace_back();
         single.estimate.converged = true;
         single.estimate.sigma_s_prime_per_mm.value = sigma_s_prime[shot];
       }

@@ -24,16 +24,16 @@ TEST(CheckLedPlaces, AnLedThatMovedByTwoMillimetres) {
 TEST(CheckLedPlaces, MeanOverTheChannels) {
   MadeCheckedRig made(2);
   const auto fill = [&](double x_of_red, double x_of_green, double std) {
-    made.checked.fit.tasks.clear();
+    made.checked.fit.channels.clear();
     for (const double x : {x_of_red, x_of_green}) {
-      CheckedTask& task = made.add_task(0, {0, 1});
+      CheckedChannel& fitted = made.add_channel(0, {0, 1});
       // Among others, in any order.
-      task.nuisances.resize(4);
-      task.nuisances[0].name = "pose.x";
-      task.nuisances[1].name = "led1.position2";
-      task.nuisances[2].name = "led1.position0";
-      task.nuisances[3].name = "led1.position1";
-      task.departures->nuisances = {{99, 1}, {0.1, std}, {x, std}, {-0.2, std}};
+      fitted.nuisances.resize(4);
+      fitted.nuisances[0].name = "pose.x";
+      fitted.nuisances[1].name = "led1.position2";
+      fitted.nuisances[2].name = "led1.position0";
+      fitted.nuisances[3].name = "led1.position1";
+      fitted.departures->nuisances = {{99, 1}, {0.1, std}, {x, std}, {-0.2, std}};
     }
   };
   fill(0.5, 0.7, 0.01);
@@ -60,7 +60,7 @@ TEST(CheckLedPlaces, MeanOverTheChannels) {
 
 TEST(CheckLedPlaces, WithoutALedThereIsNothing) {
   MadeCheckedRig made(1);
-  made.add_task(0, {0});
+  made.add_channel(0, {0});
   made.rig.scene.lights[0].kind = AmbientLight{};
   EXPECT_TRUE(check_led_places(made.checked)[0].details.empty());
 }

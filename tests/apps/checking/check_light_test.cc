@@ -42,10 +42,10 @@ TEST(CheckLight, ApertureChangedUnseen) {
 
 TEST(CheckLight, DeparturesByHand) {
   MadeCheckedRig made(3);
-  CheckedTask& task = made.add_task(1, {0, 1, 2});
-  task.departures->power_relative[1] = {0.06, 0.01};
-  task.departures->even_relative[2] = {-0.03, 0.002};
-  task.departures->residual_relative[0] = 0.11;
+  CheckedChannel& fitted = made.add_channel(1, {0, 1, 2});
+  fitted.departures->power_relative[1] = {0.06, 0.01};
+  fitted.departures->even_relative[2] = {-0.03, 0.002};
+  fitted.departures->residual_relative[0] = 0.11;
   std::vector<CheckItem> items = check_light(made.checked);
   ASSERT_EQ(items.size(), 4U);
   EXPECT_EQ(items[0].what, "image residual");
@@ -62,8 +62,8 @@ TEST(CheckLight, DeparturesByHand) {
   EXPECT_NEAR(items[3].worst, -3.0, 1e-12);
   EXPECT_EQ(items[3].where, "c.dng G");
   // Within five deviations.
-  task.departures->power_relative[1].std = 0.013;
-  task.departures->even_relative[2].std = 0.007;
+  fitted.departures->power_relative[1].std = 0.013;
+  fitted.departures->even_relative[2].std = 0.007;
   items = check_light(made.checked);
   EXPECT_TRUE(items[1].passed);
   EXPECT_TRUE(items[3].passed);
@@ -72,7 +72,7 @@ TEST(CheckLight, DeparturesByHand) {
 // An LED that loses 3 % from shot to shot of five: 12 % over all, to the digit.
 TEST(CheckLight, Drift) {
   MadeCheckedRig made(5);
-  CheckedTask& red = made.add_task(0, {0, 1, 2, 3, 4});
+  CheckedChannel& red = made.add_channel(0, {0, 1, 2, 3, 4});
   for (std::size_t i = 0; i < 5; ++i) {
     const double scatter = i % 2 == 0 ? 1e-4 : -1e-4;
     red.departures->power_relative[i] = {-0.03 * static_cast<double>(i) + scatter, 0.001};
@@ -96,12 +96,12 @@ TEST(CheckLight, Drift) {
 // A shot alone has nothing to be held against; a material without a joint model neither.
 TEST(CheckLight, NothingToHoldAgainst) {
   MadeCheckedRig made(1);
-  made.add_task(0, {0});
+  made.add_channel(0, {0});
   std::vector<CheckItem> items = check_light(made.checked);
   EXPECT_TRUE(items[1].details.empty());
   EXPECT_TRUE(items[2].details.empty());
   EXPECT_EQ(items[3].details.size(), 1U);
-  made.checked.fit.tasks[0].departures.reset();
+  made.checked.fit.channels[0].departures.reset();
   for (const CheckItem& item : check_light(made.checked)) EXPECT_TRUE(item.details.empty());
 }
 

@@ -45,7 +45,7 @@ TEST(CheckedRig, OpensTheShotsAndFitsThem) {
     EXPECT_FALSE(frame.noise[0].empty());
     EXPECT_EQ(frame.png, "484 484 1");
   }
-  EXPECT_EQ(checked.fit.tasks.size(), 3U);
+  EXPECT_EQ(checked.fit.channels.size(), 3U);
   EXPECT_EQ(checked.fit.likeness.size(), 2U);
   // The shots shall say where the LEDs stand: within 2 mm, though the rig says exactly.
   EXPECT_EQ(checked.rig.scene.light("led1").led()->position_std_mm, 0.0);

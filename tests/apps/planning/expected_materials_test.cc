@@ -1,6 +1,5 @@
 #include "apps/planning/expected_materials.h"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -12,75 +11,67 @@
 namespace scattermeter::apps {
 namespace {
 
-// Shots of two materials, of which one has a truth.
-Rig two_materials() {
+// Materials PP, which the truth knows, and new, which it does not.
+Rig rig_of(const std::vector<std::string>& materials) {
   Rig rig;
   rig.path = "rig.yaml";
-  for (const char* material : {"known", "unknown"}) {
-    SceneShot& shot = rig.scene.shots.emplace_back();
+  for (const std::string& material : materials) {
+    SceneShot shot;
     shot.material = material;
+    rig.scene.shots.push_back(shot);
   }
-  rig.truth.materials["known"].fill({2.0, 0.01, 1.0});
+  rig.truth.materials["PP"] = {Medium{0.5, 0.003, 1.0}, Medium{0.6, 0.002, 1.0},
+                               Medium{0.7, 0.004, 1.0}};
   return rig;
 }
 
-constexpr ExpectedRange kScattering{0.5, 8.0};
-constexpr ExpectedRange kAbsorption{0.0, 0.01};
-
-TEST(ExpectedMaterials, AreTheTruthWithoutRanges) {
-  Rig rig = two_materials();
-  EXPECT_THROW(expected_materials(rig, {}, {}), InputError);
-  EXPECT_THROW(expected_materials(rig, kScattering, {}), InputError);
-  rig.scene.shots.pop_back();
-  const std::vector<TruthMaterials> out = expected_materials(rig, {}, {});
-  ASSERT_EQ(out.size(), 1U);
-  ASSERT_EQ(out[0].size(), 1U);
-  EXPECT_EQ(out[0].at("known")[2].sigma_s_prime_per_mm, 2.0);
-  EXPECT_EQ(out[0].at("known")[2].sigma_a_per_mm, 0.01);
+TEST(ExpectedMaterials, TheTruthAlone) {
+  const std::vector<TruthMaterials> all = expected_materials(rig_of({"PP", "PP"}), {}, {});
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].size(), 1U);
+  EXPECT_EQ(all[0].at("PP")[2].sigma_a_per_mm, 0.004);
+  try {
+    expected_materials(rig_of({"new"}), {}, ExpectedRange{0, 1});
+    ADD_FAILURE() << "expected what nobody knows";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), ::testing::HasSubstr("rig.yaml: truth.materials.new: is missing"));
+  }
 }
 
-// The middle is geometric in sigma_s', sqrt(0.5 * 8) = 2, and arithmetic in sigma_a.
-TEST(ExpectedMaterials, HaveAMiddleAndFourCorners) {
-  const std::vector<TruthMaterials> out =
-      expected_materials(two_materials(), kScattering, kAbsorption);
-  ASSERT_EQ(out.size(), 5U);
-  const double s[] = {2.0, 0.5, 0.5, 8.0, 8.0};
+// The geometric middle of sigma_s', the arithmetic one of sigma_a, then the four corners.
+TEST(ExpectedMaterials, MiddleAndCornersOfTheRanges) {
+  const std::vector<TruthMaterials> all =
+      expected_materials(rig_of({"new"}), ExpectedRange{0.5, 2.0}, ExpectedRange{0.0, 0.01});
+  ASSERT_EQ(all.size(), 5U);
+  const double s[] = {1.0, 0.5, 0.5, 2.0, 2.0};
   const double a[] = {0.005, 0.0, 0.01, 0.0, 0.01};
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    ASSERT_EQ(out[i].size(), 2U);
-    for (const char* material : {"known", "unknown"}) {
-      for (const Medium& m : out[i].at(material)) {
-        EXPECT_NEAR(m.sigma_s_prime_per_mm, s[i], 1e-12) << i;
-        EXPECT_NEAR(m.sigma_a_per_mm, a[i], 1e-15) << i;
-      }
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (const Medium& m : all[i].at("new")) {
+      EXPECT_NEAR(m.sigma_s_prime_per_mm, s[i], 1e-12) << i;
+      EXPECT_NEAR(m.sigma_a_per_mm, a[i], 1e-12) << i;
     }
   }
 }
 
-TEST(ExpectedMaterials, KeepTheTruthOfACoefficientWithoutRange) {
-  Rig rig = two_materials();
-  rig.scene.shots.pop_back();
-  const std::vector<TruthMaterials> out = expected_materials(rig, {}, kAbsorption);
-  ASSERT_EQ(out.size(), 3U);
-  for (const TruthMaterials& materials : out) {
-    EXPECT_EQ(materials.at("known")[0].sigma_s_prime_per_mm, 2.0);
-  }
-  EXPECT_EQ(out[2].at("known")[1].sigma_a_per_mm, 0.01);
-  // A range of a single value has no corners.
-  EXPECT_EQ(expected_materials(rig, ExpectedRange{1.0, 1.0}, ExpectedRange{0.0, 0.0}).size(), 1U);
+// The other coefficient stays the truth's; a range of one value has no corners.
+TEST(ExpectedMaterials, OneRange) {
+  const std::vector<TruthMaterials> two =
+      expected_materials(rig_of({"PP"}), {}, ExpectedRange{0.001, 0.003});
+  ASSERT_EQ(two.size(), 3U);
+  EXPECT_EQ(two[0].at("PP")[1].sigma_s_prime_per_mm, 0.6);
+  EXPECT_NEAR(two[0].at("PP")[1].sigma_a_per_mm, 0.002, 1e-15);
+  EXPECT_NEAR(two[2].at("PP")[0].sigma_a_per_mm, 0.003, 1e-15);
+  EXPECT_EQ(expected_materials(rig_of({"PP"}), ExpectedRange{1, 1}, ExpectedRange{0, 0}).size(),
+            1U);
 }
 
-TEST(ExpectedMaterials, RefuseInvalidRanges) {
-  const Rig rig = two_materials();
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (const ExpectedRange& range :
-       {ExpectedRange{2.0, 1.0}, ExpectedRange{-1.0, 1.0}, ExpectedRange{1.0, kInfinity},
-        ExpectedRange{std::nan(""), 1.0}}) {
-    EXPECT_THROW(expected_materials(rig, range, kAbsorption), std::invalid_argument);
-    EXPECT_THROW(expected_materials(rig, kScattering, range), std::invalid_argument);
-  }
-  EXPECT_THROW(expected_materials(rig, ExpectedRange{0.0, 1.0}, kAbsorption),
-               std::invalid_argument);
+TEST(ExpectedMaterials, RefusesWhatIsNoRange) {
+  const Rig rig = rig_of({"PP"});
+  EXPECT_THROW(expected_materials(rig, ExpectedRange{2, 1}, {}), std::invalid_argument);
+  EXPECT_THROW(expected_materials(rig, ExpectedRange{0, 1}, {}), std::invalid_argument);
+  EXPECT_THROW(expected_materials(rig, {}, ExpectedRange{-1, 1}), std::invalid_argument);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(expected_materials(rig, {}, ExpectedRange{0, infinity}), std::invalid_argument);
 }
 
 }  // namespace

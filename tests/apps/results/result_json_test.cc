@@ -29,5 +29,55 @@ TEST(ResultJson, HoldsTheContractsFields) {
   EXPECT_TRUE(j["version"].is_string());
 }
 
+TEST(ResultJson, EveryNumberOfAChannel) {
+  Measurement m = two_channels();
+  ChannelResult& r = m.results[0];
+  r.model = "transport";
+  r.estimate.correlation = -0.25;
+  r.estimate.budget = {{"noise", 0.01, 0.00002}};
+  r.estimate.scale = {1.01, 0.02, 0.97, 1.05};
+  r.estimate.reduced_chi2 = 1.5;
+  r.estimate.rows = 77;
+  r.patches_by_state[static_cast<std::size_t>(RowState::kClipped)] = 3;
+  r.patches_by_state[static_cast<std::size_t>(RowState::kOutlier)] = 4;
+  r.patches_partly_seen = 5;
+  r.singles.resize(1);
+  r.singles[0].file = "a.dng";
+  r.singles[0].estimate = r.estimate;
+  r.agreement = {3.5, 2, 0.17};
+  r.dipole = r.estimate;
+  r.dipole->sigma_s_prime_per_mm.value = 2.3;
+  r.why_transport = "the body is no half-space";
+  m.brackets = {{"a.dng", {{"b.dng", 0.25, {1, 2, 3}, {0.01, 0.002, 100}}}, {4, 5, 6}, {7, 8, 9}}};
+  m.patch_size_mm = {{"cube", 0.4}};
+  m.skipped.patches_unlit = 11;
+  const nlohmann::json j = nlohmann::json::parse(result_json(m));
+  const nlohmann::json& c = j["results"][0];
+  EXPECT_EQ(c["correlation"], -0.25);
+  EXPECT_EQ(c["budget"][0]["sigma_a_per_mm"], 0.00002);
+  EXPECT_EQ(c["scale"]["interval95"][0], 0.97);
+  EXPECT_EQ(c["residual"]["reduced_chi2"], 1.5);
+  EXPECT_EQ(c["residual"]["rms_relative"], 0.0123);
+  EXPECT_EQ(c["patches"], 77);
+  EXPECT_EQ(c["patches_left_out"]["clipped"], 3);
+  EXPECT_EQ(c["patches_left_out"]["outlier"], 4);
+  EXPECT_EQ(c["patches_left_out"]["silhouette_or_crease"], 5);
+  EXPECT_EQ(c["agreement"]["degrees_of_freedom"], 2);
+  EXPECT_EQ(c["agreement"]["p_value"], 0.17);
+  EXPECT_EQ(c["agreement"]["shots"][0]["shot"], "a.dng");
+  EXPECT_EQ(c["agreement"]["shots"][0]["sigma_s_prime_per_mm"]["value"], 2.1934);
+  EXPECT_EQ(c["dipole"]["sigma_s_prime_per_mm"]["value"], 2.3);
+  EXPECT_NEAR(c["dipole"]["sigma_s_prime_off_relative"].get<double>(), 2.3 / 2.1934 - 1.0, 1e-12);
+  EXPECT_EQ(c["why_transport"], "the body is no half-space");
+  EXPECT_EQ(j["brackets"][0]["files"][0]["exposure_s"], 0.25);
+  EXPECT_EQ(j["brackets"][0]["files"][0]["samples"]["B"], 3);
+  EXPECT_EQ(j["brackets"][0]["files"][0]["log_light_over_others"], 0.01);
+  EXPECT_EQ(j["brackets"][0]["samples"]["R"], 4);
+  EXPECT_EQ(j["brackets"][0]["samples_clipped_in_all"]["G"], 8);
+  EXPECT_EQ(j["patch_size_mm"]["cube"], 0.4);
+  EXPECT_EQ(j["skipped"]["patches_not_lit"], 11);
+  EXPECT_EQ(j["command"], "");
+}
+
 }  // namespace
 }  // namespace scattermeter::apps

@@ -1,5 +1,6 @@
 #include "apps/results/result_reader.h"
 
+#include <cmath>
 #include <functional>
 
 #include <gmock/gmock.h>
@@ -43,6 +44,43 @@ TEST(ResultReader, NamesWhatIsWrong) {
   EXPECT_EQ(run({"export", "/nowhere.json", "--format", "csv", "--out", exported.out()}).status, 2);
   write_file(exported.result(), std::string("{\"results\": ["));
   EXPECT_THAT(exported.run_format("csv").err, HasSubstr("is not JSON"));
+}
+
+TEST(ResultReader, ReadsWhatWasMeasured) {
+  nlohmann::json json = made_result(kExported);
+  json["results"][4]["verdict"] = "refused";
+  json["results"][4]["reasons"] = {"dark", "and wrong"};
+  json["results"][4]["sigma_a_per_mm"] = {
+      {"value", nullptr}, {"std", nullptr}, {"interval95", {nullptr, nullptr}}};
+  const Exported exported(json);
+  const ReadResult result = read_result(exported.result());
+  EXPECT_EQ(result.path, exported.result());
+  EXPECT_EQ(result.version, "0.1.0");
+  EXPECT_EQ(result.command, "scattermeter measure -- shots");
+  ASSERT_EQ(result.channels.size(), 6U);
+  const ReadChannel& blue = result.channels[5];
+  EXPECT_EQ(blue.material, "POM");
+  EXPECT_EQ(blue.channel, 'B');
+  EXPECT_EQ(blue.model, "dipole");
+  EXPECT_EQ(blue.eta_int_over_ext, 1.4);
+  EXPECT_EQ(blue.sigma_s_prime_per_mm.value, 1.75);
+  EXPECT_EQ(blue.sigma_s_prime_per_mm.std, 1.75 / 4);
+  EXPECT_EQ(blue.sigma_a_per_mm.low95, 0.004);
+  EXPECT_EQ(blue.sigma_a_per_mm.high95, 0.016);
+  EXPECT_EQ(blue.correlation, 0.5);
+  EXPECT_FALSE(blue.refused);
+  EXPECT_EQ(blue.medium().sigma_a_per_mm, 0.008);
+  EXPECT_TRUE(result.channels[4].refused);
+  EXPECT_TRUE(std::isnan(result.channels[4].sigma_a_per_mm.value));
+  EXPECT_EQ(result.channels[4].reasons, (std::vector<std::string>{"dark", "and wrong"}));
+
+  const std::vector<MeasuredMaterial> all = materials_of(result);
+  EXPECT_EQ(names_of(all), (std::vector<std::string>{kNasty, "POM"}));
+  EXPECT_FALSE(all[0].refused());
+  EXPECT_TRUE(all[1].refused());
+  EXPECT_EQ(all[1].rgb[0].sigma_s_prime_per_mm.value, 1.4);
+  EXPECT_EQ(refusals(all), std::vector<std::string>{"POM G is refused: dark"});
+  EXPECT_EQ(names_of(materials_of(result, {"POM"})), std::vector<std::string>{"POM"});
 }
 
 }  // namespace

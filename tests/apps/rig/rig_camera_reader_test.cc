@@ -1,12 +1,11 @@
 #include "apps/rig/rig_camera_reader.h"
 
-#include <string>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <yaml-cpp/yaml.h>
 
-#include "core/base/input_error.h"
+#include "apps/rig/radiance_file.h"
+#include "capture/sensor/radiance_calibration.h"
+#include "tests/fixtures/apps/yaml_text.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -14,78 +13,110 @@ namespace {
 using ::testing::HasSubstr;
 
 const std::string kCamera =
-    "image_size_px: [400, 300]\n"
-    "intrinsics: {fx_px: 1000, fy_px: 1001, cx_px: 199.5, cy_px: 149.5}\n";
+    "image_size_px: [484, 324]\n"
+    "intrinsics: {fx_px: 1229.5, fy_px: 1230.5, cx_px: 241.8, cy_px: 161.2}\n";
 
-SceneCamera camera_of(const std::string& more, const std::string& text = kCamera) {
-  Rig rig;
-  rig.path = "rig.yaml";
-  read_camera(YamlField(YAML::Load(text + more), "rig.yaml", "camera"), true, rig);
-  return rig.scene.camera;
-}
-
-std::string camera_error(const std::string& more, const std::string& text = kCamera) {
-  try {
-    camera_of(more, text);
-  } catch (const InputError& e) {
-    return e.what();
+class RigCameraReader : public ::testing::Test {
+ protected:
+  Rig camera(const std::string& text, bool with_radiance = true) const {
+    Rig rig;
+    rig.path = folder_ / "rig.yaml";
+    read_camera(yaml_text(text), with_radiance, rig);
+    return rig;
   }
-  return "";
+  std::string refused(const std::string& text) const {
+    return refusal_of([&] { camera(text); });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(RigCameraReader, ReadsEveryField) {
+  const Rig rig = camera(
+      "model: NIKON D80\nimage_size_px: [484, 324]\n"
+      "intrinsics: {fx_px: 1229.5, fy_px: 1230.5, cx_px: 241.8, cy_px: 161.2, distortion: [-0.1, "
+      "0.05, 0, 0.001]}\n"
+      "responsivity_counts_mm2_sr_per_W_s: [2.4e10, 2.9e10, 2.1e10]\n"
+      "responsivity_relative_std: 0.01\n"
+      "sensor: {gain_e_per_count: 6, read_noise_counts: 1.2, cfa: GRBG, black_counts: [1, 2, 3, "
+      "4], "
+      "white_counts: 4000, tone_curve: nef_lossy}\n"
+      "exposure_s: 0.05\niso: 200\nf_number: 5.6\n");
+  const SceneCamera& c = rig.scene.camera;
+  EXPECT_EQ(c.model, "NIKON D80");
+  EXPECT_EQ(c.intrinsics.width_px, 484);
+  EXPECT_EQ(c.intrinsics.height_px, 324);
+  EXPECT_EQ(c.intrinsics.fx_px, 1229.5);
+  EXPECT_EQ(c.intrinsics.fy_px, 1230.5);
+  EXPECT_EQ(c.intrinsics.cx_px, 241.8);
+  EXPECT_EQ(c.intrinsics.cy_px, 161.2);
+  EXPECT_EQ(c.intrinsics.distortion, (std::vector<double>{-0.1, 0.05, 0, 0.001}));
+  EXPECT_EQ(c.responsivity, (std::array<double, 3>{2.4e10, 2.9e10, 2.1e10}));
+  EXPECT_EQ(c.responsivity_relative_std, 0.01);
+  EXPECT_EQ(c.sensor.noise.gain_e_per_count, 6.0);
+  EXPECT_EQ(c.sensor.noise.read_noise_counts, 1.2);
+  EXPECT_EQ(c.sensor.cfa, cfa_pattern_from_name("GRBG"));
+  EXPECT_EQ(c.sensor.black_counts, (std::array<int, 4>{1, 2, 3, 4}));
+  EXPECT_EQ(c.sensor.white_counts, 4000);
+  EXPECT_TRUE(c.sensor.nef_lossy_curve);
+  EXPECT_EQ(c.exposure_s, 0.05);
+  EXPECT_EQ(c.iso, 200);
+  EXPECT_EQ(c.f_number, 5.6);
+  EXPECT_EQ(rig.intrinsics_path, "");
+  EXPECT_EQ(rig.lens, nullptr);
 }
 
-TEST(RigCameraReader, HasDefaults) {
-  const SceneCamera camera = camera_of("");
-  EXPECT_EQ(camera.intrinsics.width_px, 400);
-  EXPECT_EQ(camera.intrinsics.height_px, 300);
-  EXPECT_EQ(camera.intrinsics.fy_px, 1001.0);
-  EXPECT_TRUE(camera.intrinsics.distortion.empty());
-  EXPECT_EQ(camera.model, "");
-  EXPECT_FALSE(camera.responsivity);
-  EXPECT_FALSE(camera.exposure_s);
-  EXPECT_EQ(camera.iso, 100);
-  EXPECT_EQ(camera.f_number, 8.0);
-  EXPECT_EQ(camera.sensor.white_counts, 4095);
+TEST_F(RigCameraReader, TheLeast) {
+  const Rig rig = camera(kCamera);
+  EXPECT_EQ(rig.scene.camera.model, "");
+  EXPECT_FALSE(rig.scene.camera.responsivity || rig.scene.camera.exposure_s);
+  EXPECT_TRUE(rig.scene.camera.intrinsics.distortion.empty());
+  EXPECT_EQ(rig.decoding.radiance, nullptr);
+  EXPECT_EQ(camera(kCamera + "sensor: {black_counts: 50}\n").scene.camera.sensor.black_counts,
+            (std::array<int, 4>{50, 50, 50, 50}));
 }
 
-TEST(RigCameraReader, ReadsEveryKey) {
-  const SceneCamera camera = camera_of(
-      "model: X\nresponsivity_counts_mm2_sr_per_W_s: [1, 2, 3]\nresponsivity_relative_std: 0.5\n"
-      "exposure_s: 0.25\niso: 200\nf_number: 4\n"
-      "sensor: {gain_e_per_count: 3, read_noise_counts: 2, cfa: GBRG, black_counts: [1, 2, 3, 4], "
-      "white_counts: 4000, tone_curve: nef_lossy}\n");
-  EXPECT_EQ(camera.model, "X");
-  EXPECT_EQ(camera.responsivity->at(2), 3.0);
-  EXPECT_EQ(camera.responsivity_relative_std, 0.5);
-  EXPECT_EQ(camera.exposure_s, 0.25);
-  EXPECT_EQ(camera.iso, 200);
-  EXPECT_EQ(camera.f_number, 4.0);
-  EXPECT_EQ(camera.sensor.noise.gain_e_per_count, 3.0);
-  EXPECT_EQ(camera.sensor.noise.read_noise_counts, 2.0);
-  EXPECT_EQ(cfa_pattern_name(camera.sensor.cfa), "GBRG");
-  EXPECT_EQ(camera.sensor.black_counts, (std::array<int, 4>{1, 2, 3, 4}));
-  EXPECT_EQ(camera.sensor.white_counts, 4000);
-  EXPECT_TRUE(camera.sensor.nef_lossy_curve);
+// Its responsivity is the camera's; it belongs to frames of its size.
+TEST_F(RigCameraReader, RadianceCalibration) {
+  capture::RadianceCalibration made;
+  made.correction.width_px = 484;
+  made.correction.height_px = 324;
+  made.correction.vignetting = vignetting_of_frame(484, 324);
+  made.correction.noise.fill({6.0, 1.2});
+  made.correction.glare_std.fill(0.001);
+  made.responsivity = {1e10, 2e10, 3e10};
+  made.responsivity_relative_std = 0.02;
+  write_file(folder_ / "radiance.yaml", radiance_file_text(made));
+  const std::string text = kCamera + "radiance: radiance.yaml\n";
+  const Rig rig = camera(text);
+  ASSERT_NE(rig.decoding.radiance, nullptr);
+  EXPECT_EQ(rig.decoding.radiance_path, folder_ / "radiance.yaml");
+  EXPECT_EQ(rig.scene.camera.responsivity, (std::array<double, 3>{1e10, 2e10, 3e10}));
+  EXPECT_EQ(rig.scene.camera.responsivity_relative_std, 0.02);
+  EXPECT_EQ(rig.scene.camera.glare_std[1], 0.001);
+  EXPECT_EQ(camera(text, false).decoding.radiance, nullptr);
+  EXPECT_THAT(refused(text + "responsivity_counts_mm2_sr_per_W_s: [1, 1, 1]\n"),
+              HasSubstr("radiance: contains a responsivity"));
+  made.correction.width_px = 480;
+  write_file(folder_ / "radiance.yaml", radiance_file_text(made));
+  EXPECT_THAT(refused(text), HasSubstr("the calibration is of 480 x 324 samples"));
 }
 
-TEST(RigCameraReader, NamesTheField) {
-  EXPECT_THAT(camera_error("responsivity_relative_std: 0.1\n"),
-              HasSubstr("camera.responsivity_relative_std: is given without responsivity"));
-  EXPECT_THAT(camera_error("sensor: {black_counts: 100, white_counts: 100}\n"),
-              HasSubstr("camera.sensor.black_counts: expected black below white_counts"));
-  EXPECT_THAT(camera_error("sensor: {cfa: RGBG}\n"),
-              HasSubstr("expected RGGB, GRBG, GBRG or BGGR"));
-  EXPECT_THAT(camera_error("sensor: {tone_curve: log}\n"),
-              HasSubstr("expected linear or nef_lossy"));
-  EXPECT_THAT(camera_error("",
-                           "image_size_px: [400, 1]\nintrinsics: {fx_px: 1, fy_px: 1, cx_px: 0, "
-                           "cy_px: 0}\n"),
-              HasSubstr("camera.image_size_px[1]"));
-  EXPECT_THAT(camera_error("",
-                           "image_size_px: [400, 300]\nintrinsics: {fx_px: 1000, fy_px: 1000, "
-                           "cx_px: 0, cy_px: 0, distortion: [1, 2, 3]}\n"),
-              HasSubstr("camera.intrinsics.distortion: expected 0, 4, 5 or 8 terms"));
-  EXPECT_THAT(camera_error("radiance: /nowhere/radiance.yaml\n"),
-              HasSubstr("/nowhere/radiance.yaml"));
+TEST_F(RigCameraReader, NamesWhatIsWrong) {
+  EXPECT_THAT(refused("image_size_px: [484, 324]\nintrinsics: gone.yaml\n"),
+              HasSubstr(folder_ / "gone.yaml"));
+  EXPECT_THAT(refused("image_size_px: [484, 324]\nintrinsics: {fx_px: 1, fy_px: 1, cx_px: 2000, "
+                      "cy_px: 1}\n"),
+              HasSubstr("intrinsics"));
+  EXPECT_THAT(refused("image_size_px: [484, 324]\nintrinsics: {fx_px: 1, fy_px: 1, cx_px: 1, "
+                      "cy_px: 1, distortion: [0.1, 0.1]}\n"),
+              HasSubstr("distortion: expected 0, 4, 5 or 8 terms"));
+  EXPECT_THAT(refused(kCamera + "responsivity_relative_std: 0.1\n"),
+              HasSubstr("is given without responsivity"));
+  EXPECT_THAT(refused(kCamera + "sensor: {cfa: RGB}\n"), HasSubstr("sensor.cfa: expected RGGB"));
+  EXPECT_THAT(refused(kCamera + "sensor: {black_counts: 100, white_counts: 100}\n"),
+              HasSubstr("expected black below white_counts"));
+  EXPECT_THAT(refused(kCamera + "sensor: {tone_curve: log}\n"), HasSubstr("linear or nef_lossy"));
+  EXPECT_THAT(refused(kCamera + "iso: 0\n"), HasSubstr("iso"));
 }
 
 }  // namespace
