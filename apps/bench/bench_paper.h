@@ -41,8 +41,8 @@ const std::vector<PublishedRow>& published_table2();
 // One quantisation width, channel G.
 struct PaperBenchRow {
   PublishedRow published;
-  PaperAnswer paper;  // the paper's method on this image
-  Estimate ours;      // the dipole fitted to r on the same knots (core/fit/quantised_system.h)
+  PaperEstimate paper;  // the paper's method on this image
+  Estimate ours;        // the dipole fitted to r on the same knots (core/fit/quantised_system.h)
   double ours_psnr_db = 0;  // of the image re-rendered
 };
 

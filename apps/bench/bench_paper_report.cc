@@ -17,7 +17,7 @@ using Style = PlotSeries::Style;
 constexpr double kTruthEta = 1.3;
 constexpr double kNearest_mm = 0.03;  // position of d = 0 on a logarithmic axis
 
-const PaperAnswer& best_of_paper(const PaperBench& bench) {
+const PaperEstimate& best_of_paper(const PaperBench& bench) {
   return std::max_element(bench.widths.begin(), bench.widths.end(),
                           [](const PaperBenchRow& a, const PaperBenchRow& b) {
                             return a.paper.psnr_db < b.paper.psnr_db;
@@ -127,7 +127,7 @@ std::string paper_bench_csv(const PaperBench& bench) {
 std::string paper_reflectance_csv(const PaperBench& bench) {
   Csv csv({"curve", "distance_mm", "r_per_mm2", "log_std", "determined", "truth_per_mm2"});
   const Dipole truth({bench.truth.sigma_s_prime_per_mm, bench.truth.sigma_a_per_mm, kTruthEta});
-  const PaperAnswer& paper = best_of_paper(bench);
+  const PaperEstimate& paper = best_of_paper(bench);
   for (Eigen::Index i = 0; i < paper.r.size(); ++i) {
     const double d = static_cast<double>(i) * paper.width_mm;
     csv.add_row({"paper", csv_number(d), csv_number(paper.r[i]), "", "",
@@ -156,7 +156,7 @@ Plot paper_psnr_plot(const PaperBench& bench) {
 }
 
 Plot paper_reflectance_plot(const PaperBench& bench) {
-  const PaperAnswer& paper = best_of_paper(bench);
+  const PaperEstimate& paper = best_of_paper(bench);
   PlotSeries raw{"", Style::kPoints, {}, {}, {}};
   int hidden = 0;
   for (Eigen::Index i = 1; i < paper.r.size(); ++i) {
@@ -189,7 +189,7 @@ Plot paper_reflectance_plot(const PaperBench& bench) {
 
 Plot paper_reflectance_ratio_plot(const PaperBench& bench) {
   const Dipole truth({bench.truth.sigma_s_prime_per_mm, bench.truth.sigma_a_per_mm, kTruthEta});
-  const PaperAnswer& paper = best_of_paper(bench);
+  const PaperEstimate& paper = best_of_paper(bench);
   PlotSeries raw{fmt::format("pseudo-inverse, {:.2f} mm", paper.width_mm), Style::kPoints, {}, {}};
   for (Eigen::Index i = 0; i < paper.r.size(); ++i) {
     const double d = static_cast<double>(i) * paper.width_mm;

@@ -6,7 +6,7 @@
 
 namespace scattermeter {
 
-// The one exception type that stands for bad input. `what()` is a whole sentence for the user and
+// The one exception type for bad input. `what()` is a whole sentence for the user and
 // names the file, the field (where there is one) and the offending value, in this order:
 //   "rig.yaml:12: camera.image_size_px: expected two positive integers, got [0, 2592]"
 // The program prints it and exits with status 2. Broken preconditions between our own functions

@@ -36,20 +36,20 @@ Eigen::MatrixXd log_linear_jacobian(const LogLinearProblem& problem, const Eigen
   return out;
 }
 
-LogLinearFit fit_log_linear(const LogLinearProblem& p, const Eigen::VectorXd& start) {
+LogLinearFit fit_log_linear(const LogLinearProblem& problem, const Eigen::VectorXd& start) {
   constexpr int kIterations = 60;
   constexpr int kHalvings = 12;
   constexpr double kMaxLogStep = 2.0;
   const Eigen::Index n = start.size();
-  const Eigen::Index m = p.kernel.rows();
+  const Eigen::Index m = problem.kernel.rows();
   LogLinearFit out{start, 0.0, 0.0, false};
-  Cost now = cost_at(p, out.theta);
+  Cost now = cost_at(problem, out.theta);
   for (int k = 0; k < kIterations; ++k) {
-    Eigen::MatrixXd jacobian(m + p.penalty.rows(), n);
-    jacobian.topRows(m) = log_linear_jacobian(p, out.theta);
-    jacobian.bottomRows(p.penalty.rows()) = p.penalty;
+    Eigen::MatrixXd jacobian(m + problem.penalty.rows(), n);
+    jacobian.topRows(m) = log_linear_jacobian(problem, out.theta);
+    jacobian.bottomRows(problem.penalty.rows()) = problem.penalty;
     Eigen::VectorXd residual(jacobian.rows());
-    residual << now.residual, p.penalty * out.theta;
+    residual << now.residual, problem.penalty * out.theta;
     const Eigen::VectorXd gradient = jacobian.transpose() * residual;
     // Gauss-Newton among the free; whatever would cross its bound is taken to the bound and held
     // there, and the rest is solved for again.
@@ -81,12 +81,12 @@ LogLinearFit fit_log_linear(const LogLinearProblem& p, const Eigen::VectorXd& st
       break;
     }
     double length =
-        std::min(1.0, kMaxLogStep / std::max((p.basis * step).cwiseAbs().maxCoeff(), 1e-300));
+        std::min(1.0, kMaxLogStep / std::max((problem.basis * step).cwiseAbs().maxCoeff(), 1e-300));
     bool fell = false;
     for (int h = 0; h < kHalvings && !fell; ++h, length *= 0.5) {
       Eigen::VectorXd theta = out.theta + length * step;
       theta.tail(n - 1) = theta.tail(n - 1).cwiseMax(0.0);
-      const Cost trial = cost_at(p, theta);
+      const Cost trial = cost_at(problem, theta);
       if (std::isfinite(trial.total()) && trial.total() < now.total()) {
         fell = true;
         // A step that the bounds have all but swallowed has arrived.

@@ -22,10 +22,10 @@ struct LogLinearFit {
 };
 
 // Gauss-Newton; parameters that would cross their bound are held there and the others solved for
-// again, those at a bound are let go when the gradient says so; steps are cut back until the cost
-// falls, and none changes log r by more than 2. Converged: the step that
-// Gauss-Newton asks for promises to lower the cost by less than 1e-6, or by less than 1e-9 of it.
-// Not converged: 60 iterations, or no step falls. Any answer has a cost no higher than the start's.
+// again, those at a bound are released when the gradient points inwards; steps are cut back until
+// the cost falls, and none changes log r by more than 2. Converged: the step that Gauss-Newton asks
+// for promises to lower the cost by less than 1e-6, or by less than 1e-9 of it. Not converged: 60
+// iterations, or no step falls. Any result has a cost no higher than the start's.
 LogLinearFit fit_log_linear(const LogLinearProblem& problem, const Eigen::VectorXd& start);
 
 // d(kernel exp(basis theta)) / d theta.

@@ -28,7 +28,7 @@ enum class PoseStatus {
   // No pose explains more than half of the pairs within inlier_px.
   kNoConsensus,
   // As kNoConsensus, but one does that puts the points behind the camera: x -> -x. The world
-  // coordinates are those of a mirror image. (Of points in one plane that cannot be told: the
+  // coordinates are those of a mirror image. (Of points in one plane that cannot be decided: the
   // mirror image of a plane is the plane seen from behind.)
   kBehindCamera,
   // Some rotation is uncertain by more than 0.05 rad or the camera's place by more than 0.05 of its
@@ -65,7 +65,7 @@ struct PoseResult {
   // -(J^T J)^-1 J^T J_lens over the inliers. A pose that was fitted through a lens takes up much of
   // the lens's error: a focal length 1 % too long puts the camera 1 % too far away.
   PosePerLens per_lens_parameter = PosePerLens::Zero();
-  // Standard deviation per image coordinate on which the covariance stands, px: the larger of
+  // Standard deviation per image coordinate that the covariance is based on, px: the larger of
   // point_std_px and sqrt(sum r^2 / (2 n - 6)) over the n inliers.
   double noise_std_px = 0;
   std::vector<Eigen::Vector2d> residuals_px;  // projected - given, one per pair, outliers too; NaN

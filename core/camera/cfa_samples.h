@@ -18,7 +18,7 @@ inline std::size_t cfa_phase(int x, int y) {
 
 // Why a sample is not used.
 inline constexpr std::uint8_t kSampleClipped = 1;  // the light was at least as bright
-inline constexpr std::uint8_t kSampleDefect = 2;   // says nothing: a hot pixel
+inline constexpr std::uint8_t kSampleDefect = 2;   // carries no information: a hot pixel
 
 // A rectangle of samples of one shot. Pixel (x, y) counts from the first sample of the active area.
 struct CfaSamples {

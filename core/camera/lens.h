@@ -23,7 +23,7 @@ class Lens {
                           Eigen::Matrix<double, 2, 3>* jacobian = nullptr) const;
 
   // (X / Z, Y / Z) of the ray through a pixel, such that project() returns to the pixel within
-  // 1e-9 px; NaN where the distortion has no inverse. `guess`: a point near the answer saves steps.
+  // 1e-9 px; NaN where the distortion has no inverse. `guess`: a point near the result saves steps.
   Eigen::Vector2d unproject(const Eigen::Vector2d& pixel) const;
   Eigen::Vector2d unproject(const Eigen::Vector2d& pixel, const Eigen::Vector2d& guess) const;
 

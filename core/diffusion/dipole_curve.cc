@@ -6,14 +6,14 @@
 
 namespace scattermeter {
 
-Medium medium_of(double u, double q, double eta) {
+Medium medium_of(double u, double q, double eta_int_over_ext) {
   const double sigma_t = std::exp(u);
-  return {(1.0 - q) * sigma_t, q * sigma_t, eta};
+  return {(1.0 - q) * sigma_t, q * sigma_t, eta_int_over_ext};
 }
 
-DipoleCurve dipole_curve(const DistanceKnots& knots, double u, double q, double eta) {
+DipoleCurve dipole_curve(const DistanceKnots& knots, double u, double q, double eta_int_over_ext) {
   const double sigma_t = std::exp(u);
-  const Dipole dipole(medium_of(u, q, eta));
+  const Dipole dipole(medium_of(u, q, eta_int_over_ext));
   DipoleCurve c{Eigen::VectorXd(knots.size()), Eigen::VectorXd(knots.size()),
                 Eigen::VectorXd(knots.size())};
   for (Eigen::Index i = 0; i < knots.size(); ++i) {

@@ -51,7 +51,7 @@ class UniformBins {
 class OctaveBins {
  public:
   using Sum = float;
-  // s0 is rounded down to a power of two, so that the first knot stands at d = 0.
+  // s0 is rounded down to a power of two, so that the first knot is at d = 0.
   OctaveBins(double s0_mm2, double max_distance_mm, int bits)
       : s0_(static_cast<float>(std::exp2(std::floor(std::log2(s0_mm2))))),
         shift_(23 - bits),

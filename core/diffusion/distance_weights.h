@@ -21,7 +21,7 @@ using WeightMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen
 class DistanceKnots {
  public:
   // Throws std::invalid_argument unless 0 < resolution_mm < max_distance_mm.
-  // s0 is at most resolution_mm^2: finer structure of R than resolution_mm cannot be told apart.
+  // s0 is at most resolution_mm^2: structure of R finer than resolution_mm cannot be resolved.
   // fine_bits: pairs are gathered in 2^fine_bits bins an octave first, and R between these is taken
   // as linear: off by at most 0.4 4^-fine_bits of it, and as much above as below.
   DistanceKnots(double resolution_mm, double max_distance_mm, int per_octave = 6,
@@ -48,7 +48,7 @@ class DistanceKnots {
   struct Run {
     int bins;
     int first_knot;
-    std::size_t shares;  // where in `shares_` those of its first bin stand
+    std::size_t shares;  // where in `shares_` those of its first bin are
   };
   Shares shares(int bin, int first_knot) const;
 

@@ -13,8 +13,8 @@
 namespace scattermeter {
 namespace {
 
-// What one site is given of the tree. Pairs of distance and power go to the bins many at a time, so
-// that all but the adding itself is done in lanes.
+// The contributions of the tree to one site. Pairs of distance and power go to the bins many at a
+// time, so that all but the addition itself is done in lanes.
 template <class Bins>
 class SiteSum {
  public:
@@ -30,7 +30,7 @@ class SiteSum {
         near_ratio2_(static_cast<float>(options.near_ratio * options.near_ratio)),
         floor_mm_(static_cast<float>(options.floor_mm)),
         few_points_ratio_(static_cast<float>(options.few_points_ratio)) {
-    // Of six points the last three stand where those of the rule of three do, but farther out.
+    // Of six points the last three are in the directions of the rule of three, but farther out.
     constexpr TriangleOrbit kSix = kCowper[1], kThree = kThreePoints[0];
     constexpr double kCloser = (kThree.a - kThree.b()) / (kSix.a - kSix.b());
     const bool six = near_.n_points == 6;
@@ -110,8 +110,8 @@ class SiteSum {
     const ClusterLanes l11 = (c11 + kLeast).sqrt();
     const ClusterLanes l21 = (xy_ + covariance_(0, 1)) / l11;
     const ClusterLanes l31 = (xz_ + covariance_(0, 2)) / l11;
-    // What a plane parallel to an axis leaves is rounding: below 1e-6 it is none. What stands over
-    // a root of none is none, too.
+    // For a plane parallel to an axis only rounding is left: below 1e-6 it counts as zero, and so
+    // does what is divided by its root.
     const ClusterLanes c22 = yy_ + covariance_(1, 1);
     const ClusterLanes r22 = (c22 - l21 * l21 - 1e-6F * c22).max(0.0F);
     const ClusterLanes l22 = r22.sqrt();
@@ -198,7 +198,8 @@ class SiteSum {
                xz_ = x_, yy_ = x_, yz_ = x_, zz_ = x_;
 };
 
-// Some sites against the tree, in lanes; each comes to its own verdict about every cluster.
+// Some sites against the tree, in lanes; for each it is decided separately whether a cluster is far
+// enough.
 template <class Bins>
 class SiteGroup {
  public:

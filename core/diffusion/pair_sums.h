@@ -11,7 +11,7 @@
 namespace scattermeter {
 
 struct PairSumOptions {
-  // A cluster of sources stands for its members where the distance between its centroid and the
+  // A cluster of sources represents its members where the distance between its centroid and the
   // site's centre is at least this many times the sum of their radii. Both are then replaced by
   // points that keep the mean and the covariance of the difference vector, so the error is of third
   // order in radius / distance. Measured on a plane and a cube against adaptive quadrature: see

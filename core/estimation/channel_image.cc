@@ -96,24 +96,24 @@ Eigen::VectorXd reflectance(const LitMedium& first, const DistanceKnots& knots,
 
 }  // namespace
 
-ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& task, const ChannelRows& rows,
-                           const Weights& weights, const DistanceKnots& knots,
-                           const LitMedium& first,
+ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& channel,
+                           const ChannelRows& rows, const Weights& weights,
+                           const DistanceKnots& knots, const LitMedium& first,
                            const std::map<LightKey, ChannelSensitivity>& sensitivities,
                            std::optional<double> patch_mm)
     : scene_(scene),
-      task_(task),
+      channel_(channel),
       rows_(rows),
       weights_(weights),
       knots_(knots),
       first_(first),
-      r_(reflectance(first, knots, task.eta_int_over_ext)),
-      scene_nuisances_(scene, task.channel, sensitivities),
+      r_(reflectance(first, knots, channel.eta_int_over_ext)),
+      scene_nuisances_(scene, channel.channel, sensitivities),
       patch_mm_(patch_mm) {
   std::vector<std::vector<Effect>> of_shot(shots());
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::size_t{0}, shots(), [&](std::size_t s) {
-      of_shot[s] = effects(scene_nuisances_, *task.shots[s], rows[s]);
+      of_shot[s] = effects(scene_nuisances_, *channel.shots[s], rows[s]);
     });
   });
   const std::vector<Effect> all = summed(of_shot);
@@ -123,7 +123,7 @@ ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& task, cons
       ++negligible_;
       continue;
     }
-    place_[all[k].nuisance.name] = static_cast<Eigen::Index>(nuisances_.size());
+    index_[all[k].nuisance.name] = static_cast<Eigen::Index>(nuisances_.size());
     nuisances_.push_back(all[k].nuisance);
   }
   // Those of the method, as a shot without rows has them: its octaves', and its own.
@@ -134,8 +134,8 @@ ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& task, cons
                     none.nuisances.front());
 }
 
-DenseSystem ChannelImage::rows_of_shot(std::size_t s) const {
-  DenseSystem system = channel_system(scene_, task_, s, rows_[s], weights_,
+DenseSystem ChannelImage::rows_of_shot(std::size_t shot) const {
+  DenseSystem system = channel_system(scene_, channel_, shot, rows_[shot], weights_,
                                       1.0 / sigma_t_per_mm(first_.medium), patch_mm_);
   add_errors_of_method(system);
   return system;
@@ -143,32 +143,32 @@ DenseSystem ChannelImage::rows_of_shot(std::size_t s) const {
 
 void ChannelImage::add_errors_of_method(DenseSystem& system) const {
   add_method_errors(
-      knots_, r_, patch_mm_.value_or(patch_size_mm(task_)),
-      {first_.medium.sigma_s_prime_per_mm, first_.medium.sigma_a_per_mm, task_.eta_int_over_ext},
+      knots_, r_, patch_mm_.value_or(patch_size_mm(channel_)),
+      {first_.medium.sigma_s_prime_per_mm, first_.medium.sigma_a_per_mm, channel_.eta_int_over_ext},
       system);
 }
 
-ShotSystem ChannelImage::shot(std::size_t s) const {
-  auto system = std::make_shared<DenseSystem>(rows_of_shot(s));
+ShotSystem ChannelImage::shot(std::size_t shot) const {
+  auto system = std::make_shared<DenseSystem>(rows_of_shot(shot));
   std::vector<NuisanceColumn> own =
-      scene_nuisances_.columns(*task_.shots[s], rows_[s], used_rows(rows_[s]));
-  std::erase_if(own, [&](const NuisanceColumn& c) { return !place_.contains(c.nuisance.name); });
+      scene_nuisances_.columns(*channel_.shots[shot], rows_[shot], used_rows(rows_[shot]));
+  std::erase_if(own, [&](const NuisanceColumn& c) { return !index_.contains(c.nuisance.name); });
   // The rig's first, as in the image's list.
   const auto n_own = static_cast<Eigen::Index>(own.size());
   Eigen::MatrixXd columns(system->l.size(), n_own + system->nuisance_columns.cols());
   ShotSystem out;
   std::vector<Nuisance> nuisances;
   std::map<Eigen::Index, const NuisanceColumn*> in_order;
-  for (const NuisanceColumn& c : own) in_order[place_.at(c.nuisance.name)] = &c;
-  for (const auto& [place, c] : in_order) {
+  for (const NuisanceColumn& c : own) in_order[index_.at(c.nuisance.name)] = &c;
+  for (const auto& [index, c] : in_order) {
     columns.col(static_cast<Eigen::Index>(nuisances.size())) = c->change;
     nuisances.push_back(c->nuisance);
-    out.nuisances.push_back(place);
+    out.nuisances.push_back(index);
   }
   columns.rightCols(system->nuisance_columns.cols()) = system->nuisance_columns;
-  const auto first_held = static_cast<Eigen::Index>(place_.size());
+  const auto first_held = static_cast<Eigen::Index>(index_.size());
   for (Eigen::Index o = 0; o < octaves_; ++o) out.nuisances.push_back(first_held + o);
-  out.nuisances.push_back(first_held + octaves_ + static_cast<Eigen::Index>(s));
+  out.nuisances.push_back(first_held + octaves_ + static_cast<Eigen::Index>(shot));
   nuisances.insert(nuisances.end(), system->nuisances.begin(), system->nuisances.end());
   system->nuisance_columns = std::move(columns);
   system->nuisances = std::move(nuisances);
@@ -176,14 +176,18 @@ ShotSystem ChannelImage::shot(std::size_t s) const {
   return out;
 }
 
-FirstChannelImage::FirstChannelImage(const Scene& scene, const MaterialChannel& task,
+FirstChannelImage::FirstChannelImage(const Scene& scene, const MaterialChannel& channel,
                                      const ChannelRows& rows, const Weights& weights)
-    : scene_(scene), task_(task), rows_(rows), weights_(weights), has_ambient_(task.shots.size()) {
+    : scene_(scene),
+      channel_(channel),
+      rows_(rows),
+      weights_(weights),
+      has_ambient_(channel.shots.size()) {
   bool any = false;
-  for (std::size_t s = 0; s < task.shots.size(); ++s) {
-    for (const std::string& name : task.shots[s]->stated->lights) {
+  for (std::size_t s = 0; s < channel.shots.size(); ++s) {
+    for (const std::string& name : channel.shots[s]->stated->lights) {
       const SceneLight& light = scene.light(name);
-      if (light->is_fitted() && !light->nuisances(name, task.channel).empty()) {
+      if (light->is_fitted() && !light->nuisances(name, channel.channel).empty()) {
         has_ambient_[s] = any = true;
       }
     }
@@ -198,11 +202,11 @@ FirstChannelImage::FirstChannelImage(const Scene& scene, const MaterialChannel& 
   if (used > 0) mean_l_ /= static_cast<double>(used);
 }
 
-ShotSystem FirstChannelImage::shot(std::size_t s) const {
-  auto system =
-      std::make_shared<DenseSystem>(channel_system(scene_, task_, s, rows_[s], weights_, 0.0));
+ShotSystem FirstChannelImage::shot(std::size_t shot) const {
+  auto system = std::make_shared<DenseSystem>(
+      channel_system(scene_, channel_, shot, rows_[shot], weights_, 0.0));
   ShotSystem out;
-  if (has_ambient_[s]) {
+  if (has_ambient_[shot]) {
     system->nuisances = nuisances_;
     system->nuisance_columns = Eigen::MatrixXd::Constant(system->l.size(), 1, mean_l_);
     out.nuisances = {0};

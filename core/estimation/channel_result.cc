@@ -2,11 +2,12 @@
 
 namespace scattermeter {
 
-std::optional<DipoleDistance> dipole_distance(const ChannelResult& r) {
-  if (!r.dipole || !r.dipole->converged || !r.estimate.converged) return std::nullopt;
+std::optional<DipoleDistance> dipole_distance(const ChannelResult& result) {
+  if (!result.dipole || !result.dipole->converged || !result.estimate.converged)
+    return std::nullopt;
   return DipoleDistance{
-      r.dipole->sigma_s_prime_per_mm.value / r.estimate.sigma_s_prime_per_mm.value - 1.0,
-      r.dipole->sigma_a_per_mm.value - r.estimate.sigma_a_per_mm.value};
+      result.dipole->sigma_s_prime_per_mm.value / result.estimate.sigma_s_prime_per_mm.value - 1.0,
+      result.dipole->sigma_a_per_mm.value - result.estimate.sigma_a_per_mm.value};
 }
 
 }  // namespace scattermeter

@@ -1,4 +1,4 @@
-// What is estimated of one material in one channel.
+// The estimate of one material in one channel.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace scattermeter {
 
-// What a shot shows and what the model makes of it, by row of its map (a patch), W/mm^2 or up to
+// What a shot shows and what the model predicts of it, by row of its map (a patch), W/mm^2 or up to
 // one factor as ChannelObservation. NaN in predicted and std where the row took no part.
 struct ShotRows {
   std::string file;
@@ -49,24 +49,24 @@ struct ChannelResult {
       0;  // left out of the dipole's fit (core/estimation/channel_image.h)
   // Dipole and transport.
   std::vector<ShotResult> singles;  // each shot alone; empty for a single shot
-  ShotAgreement agreement;          // whether they tell the same
-  // r(d) without the dipole, and whether the dipole fits it. Of transport's answer, too, where it
-  // says why the dipole would not do.
+  ShotAgreement agreement;          // whether the shots agree
+  // r(d) without the dipole, and whether the dipole fits it. Also beside transport's estimate,
+  // where it shows why the dipole would not do.
   std::optional<SmoothReflectance> recovered;
   std::optional<DipoleMisfit> misfit;
-  // Of transport only: what the dipole answers, and why --model auto did not leave it at that.
+  // Of transport only: the dipole's estimate, and why --model auto did not keep it.
   std::optional<Estimate> dipole;
   std::string why_transport;
   std::vector<ShotRows> rows;  // by shot, where asked for and the model came to an end
   bool refused() const { return !estimate.reasons.empty(); }
 };
 
-// How far the dipole's answer lies from transport's.
+// How far the dipole's estimate lies from transport's.
 struct DipoleDistance {
   double sigma_s_prime_relative = 0;
   double sigma_a_per_mm = 0;
 };
-// Empty where there are not two answers.
+// Empty where there are not two estimates.
 std::optional<DipoleDistance> dipole_distance(const ChannelResult& result);
 
 }  // namespace scattermeter

@@ -6,21 +6,21 @@
 
 namespace scattermeter {
 
-ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& task)
-    : task_(task) {
-  for (std::size_t s = 0; s < task.shots.size(); ++s) {
-    const ObservedShot& shot = *task.shots[s];
+ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& channel)
+    : channel_(channel) {
+  for (std::size_t s = 0; s < channel.shots.size(); ++s) {
+    const ObservedShot& shot = *channel.shots[s];
     const SeenObject& seen = *shot.seen;
     const auto [view, is_new] = views_.try_emplace(&seen);
     if (is_new) {
       view->second.boundary = std::make_unique<PathBoundary>(*seen.object->rays);
       view->second.camera.emplace(*view->second.boundary, seen.camera_center_mm,
-                                  ScatteringMedium{1.0, 0.0, 0.0, task.eta_int_over_ext});
+                                  ScatteringMedium{1.0, 0.0, 0.0, channel.eta_int_over_ext});
       view->second.rows = scattering_view(*seen.patches, seen.map.patch_of_row);
     }
     for (const std::string& name : shot.stated->lights) {
       const SceneLight& light = scene.light(name);
-      const double power = light->power()[static_cast<Eigen::Index>(task.channel)];
+      const double power = light->power()[static_cast<Eigen::Index>(channel.channel)];
       if (!(power > 0.0)) continue;
       auto known = std::find_if(lit_.begin(), lit_.end(), [&](const LitView& v) {
         return v.seen == &seen && v.light == &light;
@@ -29,8 +29,8 @@ ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& 
         lit_.push_back({&seen,
                         &light,
                         &view->second,
-                        light->entry(*seen.object->rays, task.eta_int_over_ext,
-                                     static_cast<int>(task.channel)),
+                        light->entry(*seen.object->rays, channel.eta_int_over_ext,
+                                     static_cast<int>(channel.channel)),
                         power,
                         {},
                         {}});
@@ -46,8 +46,8 @@ void ChannelSimulation::set_rows(const ChannelRows& rows) {
   center_mm_.clear();
   for (LitView& v : lit_) v.rows.clear();
   Eigen::Index at = 0;
-  for (std::size_t s = 0; s < task_.shots.size(); ++s) {
-    const SeenObject& seen = *task_.shots[s]->seen;
+  for (std::size_t s = 0; s < channel_.shots.size(); ++s) {
+    const SeenObject& seen = *channel_.shots[s]->seen;
     std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
     for (std::size_t j = 0; j < rows[s].state.size(); ++j) {
       if (rows[s].state[j] != RowState::kUsed) continue;
@@ -81,7 +81,8 @@ ChannelSimulation::Draw ChannelSimulation::draw(const Eigen::MatrixXd& projectio
 }
 
 void ChannelSimulation::trace(Draw& draw, const ScatteringPoint& at, int blocks) const {
-  const ScatteringMedium medium{at.sigma_s_per_mm, at.sigma_a_per_mm, 0.0, task_.eta_int_over_ext};
+  const ScatteringMedium medium{at.sigma_s_per_mm, at.sigma_a_per_mm, 0.0,
+                                channel_.eta_int_over_ext};
   for (std::size_t i = 0; i < lit_.size(); ++i) {
     const LitView& v = lit_[i];
     const CameraConnection camera = v.view->camera->with(medium);

@@ -1,4 +1,4 @@
-// What volume Monte Carlo makes the shots of a task look like.
+// Simulation of the shots of one channel by volume Monte Carlo.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ namespace scattermeter {
 class ChannelSimulation {
  public:
   // Throws InputError where a light reaches no part of an object.
-  ChannelSimulation(const Scene& scene, const MaterialChannel& task);
+  ChannelSimulation(const Scene& scene, const MaterialChannel& channel);
 
   // The rows whose state is kUsed, shot by shot, are those of images and projections from now on.
   void set_rows(const ChannelRows& rows);
@@ -68,7 +68,7 @@ class ChannelSimulation {
     std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;
   };
 
-  const MaterialChannel& task_;
+  const MaterialChannel& channel_;
   std::map<const SeenObject*, View> views_;
   std::vector<LitView> lit_;
   std::vector<double> area_mm2_;

@@ -56,8 +56,8 @@ class DipoleEstimator {
     e_.watch.lap("first fit");
     std::vector<bool> open;
     for (const Work& w : work_) open.push_back(w.estimated);
-    // What ambient light adds depends on the material itself: those tasks go round again until they
-    // settle (an error falls to a sixth each time).
+    // What ambient light adds depends on the material itself: those channels are repeated until
+    // they settle (an error falls to a sixth each time).
     constexpr int kRounds = 8;
     for (int round = 0; round < kRounds; ++round) {
       sensitivities_ = sensitivities(e_, open, knots_);
@@ -79,20 +79,20 @@ class DipoleEstimator {
   }
 
  private:
-  DipoleFitOptions options_of(const MaterialChannel& task) const {
+  DipoleFitOptions options_of(const MaterialChannel& channel) const {
     DipoleFitOptions own = fit_;
-    own.eta_int_over_ext = task.eta_int_over_ext;
+    own.eta_int_over_ext = channel.eta_int_over_ext;
     return own;
   }
 
   void first_fit(std::size_t i) {
     Work& work = work_[i];
-    const MaterialChannel& task = e_.channels[i];
-    work.rows = channel_rows(e_.scene, task);
-    const DipoleFit fit =
-        fit_to_some(FirstChannelImage(e_.scene, task, work.rows, e_.kept.weights), task, work.rows);
+    const MaterialChannel& channel = e_.channels[i];
+    work.rows = channel_rows(e_.scene, channel);
+    const DipoleFit fit = fit_to_some(
+        FirstChannelImage(e_.scene, channel, work.rows, e_.kept.weights), channel, work.rows);
     e_.results[i].estimate = fit.estimate;
-    report_rows(task, work.rows, e_.results[i]);
+    report_rows(channel, work.rows, e_.results[i]);
     work.estimated = fit.estimate.converged;
     if (!work.estimated) return;
     Eigen::Index at = 0;
@@ -103,12 +103,12 @@ class DipoleEstimator {
     }
   }
 
-  // To some thousand rows evenly among all, which tell a material well enough to begin with; where
-  // they don't, to all of them.
-  DipoleFit fit_to_some(const ImageRows& image, const MaterialChannel& task,
+  // To some thousand rows evenly among all, which determine a material well enough to begin with;
+  // where they don't, to all of them.
+  DipoleFit fit_to_some(const ImageRows& image, const MaterialChannel& channel,
                         const ChannelRows& rows) const {
     constexpr std::size_t kRows = 4096;
-    const DipoleFitOptions options = options_of(task);
+    const DipoleFitOptions options = options_of(channel);
     std::size_t used = 0;
     for (const ChannelObservation& o : rows) used += o.rows_used;
     if (used / kRows > 1) {
@@ -124,8 +124,8 @@ class DipoleEstimator {
                       knots_, options);
   }
 
-  bool has_ambient(const MaterialChannel& task) const {
-    for (const ObservedShot* shot : task.shots) {
+  bool has_ambient(const MaterialChannel& channel) const {
+    for (const ObservedShot* shot : channel.shots) {
       for (const std::string& name : shot->stated->lights) {
         if (e_.scene.light(name)->is_fitted()) return true;
       }
@@ -165,13 +165,13 @@ class DipoleEstimator {
   }
 
   void final_fit(std::size_t i) {
-    const MaterialChannel& task = e_.channels[i];
+    const MaterialChannel& channel = e_.channels[i];
     ChannelResult& result = e_.results[i];
     const Estimate first = result.estimate;
-    const DipoleFitOptions options = options_of(task);
+    const DipoleFitOptions options = options_of(channel);
     const LitMedium medium{{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
                            first.scale.value};
-    const ChannelImage image(e_.scene, task, work_[i].rows, e_.kept.weights, knots_, medium,
+    const ChannelImage image(e_.scene, channel, work_[i].rows, e_.kept.weights, knots_, medium,
                              sensitivities_->of_channel[i]);
     result.nuisances_negligible = image.negligible_nuisances();
     std::vector<ShotInformation> shots;
@@ -184,31 +184,31 @@ class DipoleEstimator {
     DipoleFit fit = fitted();
     if (systems_ != nullptr) remember(i, medium, std::sqrt(joint.l2));
     if (leave_outliers_out(fit.image, work_[i].rows)) fit = fitted();
-    report_rows(task, work_[i].rows, result);
+    report_rows(channel, work_[i].rows, result);
     result.estimate = fit.estimate;
     if (!fit.estimate.converged) return;
     if (e_.options.keep_rows) {
-      result.rows = shot_rows(task, work_[i].rows, fit.image.predicted, fit.image.std_l);
+      result.rows = shot_rows(channel, work_[i].rows, fit.image.predicted, fit.image.std_l);
     }
     SmoothReflectanceOptions smooth;
     smooth.scale = options.scale;
     result.recovered = smooth_reflectance(fit.recovered, image.nuisances(), knots_, smooth);
     DipoleMisfitOptions misfit;
     misfit.scale = options.scale;
-    result.misfit = dipole_misfit(
-        fit.recovered, image.nuisances(), knots_,
-        {fit.optimum.sigma_s_prime_per_mm(), fit.optimum.sigma_a_per_mm(), task.eta_int_over_ext},
-        std::exp(fit.optimum.log_s), misfit);
-    if (task.shots.size() < 2) return;
+    result.misfit = dipole_misfit(fit.recovered, image.nuisances(), knots_,
+                                  {fit.optimum.sigma_s_prime_per_mm(), fit.optimum.sigma_a_per_mm(),
+                                   channel.eta_int_over_ext},
+                                  std::exp(fit.optimum.log_s), misfit);
+    if (channel.shots.size() < 2) return;
     result.singles.clear();
-    for (std::size_t s = 0; s < task.shots.size(); ++s) {
+    for (std::size_t s = 0; s < channel.shots.size(); ++s) {
       const ShotSystem own = image.shot(s);
       result.singles.push_back(
-          {task.shots[s]->stated->file,
+          {channel.shots[s]->stated->file,
            fit_dipole(SystemRows(*own.system), shots[s].image, knots_, options).estimate});
     }
     result.agreement =
-        shot_agreement(shots, image.nuisances(), knots_, fit.optimum, task.eta_int_over_ext,
+        shot_agreement(shots, image.nuisances(), knots_, fit.optimum, channel.eta_int_over_ext,
                        options.scale, std::max(1.0, fit.estimate.reduced_chi2));
     widen_by_disagreement(result.agreement, result.estimate);
   }

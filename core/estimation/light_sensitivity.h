@@ -1,4 +1,4 @@
-// How the image of one light depends on what the rig knows only to a standard deviation.
+// How the image of one light depends on what the rig states only to a standard deviation.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct LitMedium {
 };
 
 // Change of l (per unit of the light's power) on the rows of a view for each medium: rows x media.
-// Empty where the rig knows the quantity exactly.
+// Empty where the rig states the quantity as exact.
 struct LightSensitivity {
   Eigen::MatrixXd l;                              // nominal
   std::vector<Eigen::MatrixXd> per_change;        // by the quantities of Light::changes()
@@ -34,7 +34,7 @@ PairSumOptions coarse_pair_options(const DistanceKnots& knots);
 
 // A view under a light, nominal and with one thing changed at a time. At the centres of the sites,
 // from light on patches of twice the size: errors of discretisation cancel in relative changes, and
-// these are nearly the same all over a site. What the rig knows exactly is not changed (no rows).
+// these are nearly the same all over a site. What the rig states as exact is not changed (no rows).
 template <class Each>
 struct Changed {
   Each nominal;

@@ -9,7 +9,7 @@
 namespace scattermeter {
 namespace {
 
-// A shot whose brightest patch does not stand out of the noise by this many deviations is dark.
+// A shot whose brightest patch exceeds its noise by fewer deviations than this is dark.
 constexpr double kDarkSnr = 10.0;
 // A shot with more than this share of its patches clipped is over-exposed as a whole.
 constexpr double kClippedShare = 0.5;

@@ -7,7 +7,7 @@ namespace scattermeter {
 std::string why_transport(const ChannelResult& result, double image_in_std) {
   constexpr double kPValue = 1e-6;
   constexpr double kMisfit = 1e-3;
-  // A misfit stands out where it exceeds the noise in the directions that the dipole might miss
+  // A misfit is visible where it exceeds the noise in the directions that the dipole might miss
   // (some tens, together this many deviations of the whole image).
   constexpr double kDeviations = 8.0;
   constexpr double kVisible = 5e-3;

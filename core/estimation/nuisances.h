@@ -1,4 +1,4 @@
-// How the image depends on what the rig knows only to a standard deviation.
+// How the image depends on what the rig states only to a standard deviation.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@
 namespace scattermeter {
 
 // Sensitivities by (view, light, channel; 0 for an LED), and which column of theirs belongs to a
-// task.
+// material in a channel.
 using LightKey = std::tuple<const SeenObject*, std::string, std::size_t>;
 using ChangedWeightsByLight = std::map<LightKey, ChangedWeights>;
 struct ChannelSensitivity {

@@ -9,7 +9,7 @@ namespace scattermeter {
 void estimate_paper(Estimation& e) {
   for (ChannelResult& result : e.results) result.model = "paper";
   const DistanceKnots knots = smooth_knots(e.lit);
-  std::vector<std::vector<PaperAnswer>> answers(e.channels.size());
+  std::vector<std::vector<PaperEstimate>> estimates(e.channels.size());
   const std::vector<double> widths = paper_widths_mm();
   for (std::size_t w = 0; w < widths.size(); ++w) {
     const UniformBins bins(widths[w], e.lit.longest_distance_mm());
@@ -24,17 +24,17 @@ void estimate_paper(Estimation& e) {
       const DenseSystem system = channel_system(e.scene, e.channels[i],
                                                 channel_rows(e.scene, e.channels[i]), weights, 0.0);
       if (system.l.size() > 0) {
-        answers[i].push_back(solve_paper(system, widths[w], e.channels[i].eta_int_over_ext));
+        estimates[i].push_back(solve_paper(system, widths[w], e.channels[i].eta_int_over_ext));
       }
     });
   }
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
     if (e.results[i].refused()) continue;
     report_rows(e.channels[i], channel_rows(e.scene, e.channels[i]), e.results[i]);
-    if (answers[i].empty()) {
+    if (estimates[i].empty()) {
       e.results[i].estimate.reasons.push_back("no patch can be used");
     } else {
-      e.results[i].estimate = choose_width(answers[i]);
+      e.results[i].estimate = choose_width(estimates[i]);
     }
   }
   e.watch.lap("fit");

@@ -1,4 +1,4 @@
-// How the images of all tasks depend on what is uncertain of their lights.
+// How the images of all channels depend on what is uncertain of their lights.
 #pragma once
 
 #include <map>
@@ -12,14 +12,14 @@
 
 namespace scattermeter {
 
-// Of every view and light, each for all the tasks that have a first estimate there.
+// Of every view and light, each for all the channels that have a first estimate there.
 struct Sensitivities {
   std::map<LightKey, LightSensitivity> by_light;
   std::vector<std::map<LightKey, ChannelSensitivity>> of_channel;
 };
 
-// estimated: of each task, whether its result holds a first estimate; others get none.
-// Precondition: e.weights has W of those tasks' shots. Lights are made in parallel.
+// estimated: of each channel, whether its result holds a first estimate; others get none.
+// Precondition: e.kept.weights has W of those channels' shots. Lights are made in parallel.
 std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
                                                    const std::vector<bool>& estimated,
                                                    const DistanceKnots& knots);

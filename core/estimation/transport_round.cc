@@ -10,7 +10,7 @@
 namespace scattermeter {
 namespace {
 
-// A misfit of the parts so improbable widens the answer.
+// A misfit of the parts so improbable widens the estimate.
 constexpr double kWideningPValue = 1e-2;
 
 ScatteringImage part_of(const ScatteringImage& m, Eigen::Index first, Eigen::Index n) {
@@ -56,17 +56,17 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
 
 Eigen::MatrixXd TransportRound::projection() const {
   const Eigen::Index n_cells = shots_.parts.n_cells();
-  const Eigen::Index answers = unknowns() * (1 + static_cast<Eigen::Index>(singles_.size()));
+  const Eigen::Index n_estimates = unknowns() * (1 + static_cast<Eigen::Index>(singles_.size()));
   const Eigen::RowVectorXd& scale = joint_.scale_form();
-  Eigen::MatrixXd all =
-      Eigen::MatrixXd::Zero(answers + (scale.size() > 0 ? 1 : 0) + n_cells, shots_.system.l.size());
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n_estimates + (scale.size() > 0 ? 1 : 0) + n_cells,
+                                              shots_.system.l.size());
   all.topRows(unknowns()) = joint_.projection();
   for (std::size_t i = 0; i < singles_.size(); ++i) {
     const Eigen::MatrixXd& own = singles_[i].equation->projection();
     all.block(static_cast<Eigen::Index>(i + 1) * unknowns(), singles_[i].first, unknowns(),
               own.cols()) = own;
   }
-  if (scale.size() > 0) all.row(answers) = scale;
+  if (scale.size() > 0) all.row(n_estimates) = scale;
   all.bottomRows(n_cells) = shots_.parts.cells();
   return all;
 }
@@ -78,7 +78,7 @@ void TransportRound::take(const ChannelSimulation::Draw& draw) {
   const Eigen::MatrixXd own = covariance_.topLeftCorner(unknowns(), unknowns());
   step_ = joint_.step(image_, own, at_);
   // What has been smoothed, as renderings are, scatters less from row to row than over some rows;
-  // both are the noise of something. What parts as wholes are off by is not.
+  // both are noise. Offsets of whole parts are not.
   const Eigen::VectorXd rest = residual();
   scatter_within_ = std::max(
       excess_scatter(joint_.without_nuisances(rest), shots_.system.std_l.cwiseAbs2(),
@@ -109,7 +109,7 @@ double TransportRound::scatter_of_cells(const Eigen::VectorXd& rest) const {
   const Eigen::VectorXd paths =
       at_.scale * at_.scale * (about * cell_covariance() * about.transpose()).diagonal();
   const Eigen::VectorXd noise = light.cwiseAbs2() * shots_.system.std_l.cwiseAbs2();
-  // A part that is one cell says nothing.
+  // A part that is one cell does not contribute.
   const Eigen::VectorXd weights =
       (paths.array() > 1e-9 * paths.maxCoeff()).select(paths.cwiseInverse(), 0.0);
   return excess_scatter(light * rest, noise, paths, weights);
@@ -134,11 +134,11 @@ std::vector<ScatteringEquation::Step> TransportRound::steps_of_shots() const {
 
 ShotAgreement TransportRound::agreement(const std::vector<ScatteringEquation::Step>& steps) const {
   const auto n = static_cast<Eigen::Index>(steps.size());
-  Eigen::VectorXd answers(2 * n);
+  Eigen::VectorXd estimates(2 * n);
   Eigen::MatrixXd all(2 * n, 2 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const ScatteringEquation::Step& a = steps[static_cast<std::size_t>(i)];
-    answers.segment<2>(2 * i) = a.move.head<2>();
+    estimates.segment<2>(2 * i) = a.move.head<2>();
     all.block<2, 2>(2 * i, 2 * i) = a.covariance.topLeftCorner<2, 2>();
     for (Eigen::Index k = 0; k < i; ++k) {
       const ScatteringEquation::Step& b = steps[static_cast<std::size_t>(k)];
@@ -152,7 +152,7 @@ ShotAgreement TransportRound::agreement(const std::vector<ScatteringEquation::St
       all.block<2, 2>(2 * k, 2 * i) = shared.topLeftCorner<2, 2>().transpose();
     }
   }
-  return agreement_of(answers, all);
+  return agreement_of(estimates, all);
 }
 
 LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {

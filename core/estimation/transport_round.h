@@ -1,4 +1,4 @@
-// One place of the search for a medium by transport.
+// One point of the search for a medium by transport.
 #pragma once
 
 #include <cstddef>
@@ -17,32 +17,33 @@
 
 namespace scattermeter {
 
-// What the search has at hand; all must outlive its rounds.
+// What the search works on; all must outlive its rounds.
 struct TransportShots {
   const DenseSystem& system;
   const ShotParts& parts;
   const ChannelSimulation& simulation;
 };
 
-// Estimating equations for all shots and for each alone, and what paths drawn for them say.
+// Estimating equations for all shots and for each alone, and their solution by paths drawn for
+// them.
 class TransportRound {
  public:
-  // Shots of fewer rows have no answer of their own.
+  // Shots of fewer rows have no estimate of their own.
   static constexpr Eigen::Index kLeastRows = 20;
 
   // pilot: smooth, not of the paths to come. expected: Monte Carlo variance of the rows to come and
-  // of what else the shots err by, over the pilot's; cells: the covariance of the cells' relative
+  // of other errors of the shots, over the pilot's; cells: the covariance of the cells' relative
   // light that belongs to it. Both serve the weights only.
   TransportRound(const TransportShots& shots, const ScalePrior& scale, const ScatteringPoint& at,
                  const ScatteringImage& pilot, double expected, const Eigen::MatrixXd& cells);
-  // The equations hold on to what stands beside them.
+  // The equations refer to other members.
   TransportRound(const TransportRound&) = delete;
   TransportRound& operator=(const TransportRound&) = delete;
 
-  // Of the joint answer, of each shot's own, of the scale (where it is stated), and of the light of
-  // the cells.
+  // Of the joint estimate, of each shot's own, of the scale (where it is stated), and of the light
+  // of the cells.
   Eigen::MatrixXd projection() const;
-  // A draw for that projection, traced at this place. Everything below is from the last one.
+  // A draw for that projection, traced at this point. Everything below is from the last one.
   void take(const ChannelSimulation::Draw& draw);
 
   const ScatteringPoint& at() const { return at_; }
@@ -51,7 +52,7 @@ class TransportRound {
   const ScatteringImage& pilot() const { return pilot_; }
   int blocks() const { return blocks_; }
   Eigen::MatrixXd cell_covariance() const;
-  // To the joint answer, scatter included.
+  // To the joint estimate, scatter included.
   const ScatteringEquation::Step& step() const { return step_; }
   // Measured less predicted l at its end.
   Eigen::VectorXd residual() const { return joint_.residual(image_, at_, step_.to); }
@@ -62,13 +63,13 @@ class TransportRound {
   // Whether the image contradicts the stated scale.
   ScatteringEquation::ScaleTest scale_test() const;
 
-  // Shots with an answer of their own (indices), and the steps to it; none for a single shot.
+  // Shots with an estimate of their own (indices), and the steps to it; none for a single shot.
   std::vector<std::size_t> shots() const;
   std::vector<ScatteringEquation::Step> steps_of_shots() const;
   std::size_t rows_of_shot(std::size_t i) const {
     return static_cast<std::size_t>(singles_[i].system.l.size());
   }
-  // Between those answers, from what they share.
+  // Between those estimates, from what they share.
   ShotAgreement agreement(const std::vector<ScatteringEquation::Step>& steps) const;
   // Of the light of the shots' parts, with free coefficients. Nothing (dof 0) from fewer than
   // kLeastBlocks.
@@ -88,7 +89,7 @@ class TransportRound {
   TransportShots shots_;
   ScatteringPoint at_;
   ScatteringImage pilot_;
-  Eigen::MatrixXd correlated_;  // rows that err together
+  Eigen::MatrixXd correlated_;  // errors that rows have in common
   ScatteringEquation joint_;
   std::vector<Single> singles_;
   ScatteringImage image_;

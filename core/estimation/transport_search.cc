@@ -23,7 +23,7 @@ constexpr int kFirstBlocks = 8;
 constexpr int kMaxRounds = 30;
 // Blocks of paths from which the pilot must have learned before a round may be the last.
 constexpr double kLearnedBlocks = 32.0;
-// Relative change of the image by a step after which earlier paths say nothing of the new point.
+// Relative change of the image by a step beyond which earlier paths do not apply to the new point.
 constexpr double kFarStep = 0.3;
 // Rows farther off than this many robust deviations are dust and scratches. Renderings by Monte
 // Carlo have longer tails than the noise of a camera.
@@ -93,7 +93,7 @@ class TransportSearch {
   }
 
  private:
-  // What paths drawn elsewhere say of the errors to come.
+  // What paths drawn elsewhere predict of the errors to come.
   struct Look {
     ScatteringImage image;
     int blocks = 0;

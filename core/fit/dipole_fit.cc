@@ -84,7 +84,7 @@ void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOpt
                                  3.0 * mfp_mm, " mm"));
   }
   // Beyond, light that is absorbed within a patch: 1 / sigma_tr of three quarters of it and less
-  // answered up to 6 % off in sigma_s' (tests/core/fit/dipole_stress_test.cc).
+  // was up to 6 % off in sigma_s' (tests/core/fit/dipole_stress_test.cc).
   const double decay_mm = mfp_mm / std::sqrt(3.0 * p.q);
   if (decay_mm < 12.0 * knots.resolution_mm() && mfp_mm >= 5.0 * knots.resolution_mm()) {
     e.reasons.push_back(sentence("the light dies off within ", decay_mm,
@@ -153,9 +153,9 @@ void DipoleFitOptions::Check() const {
 }
 
 ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
-                             const DipoleSolver::Point& p, double eta_int_over_ext) {
-  const DipoleCurve curve = dipole_curve(knots, p.u, p.q, eta_int_over_ext);
-  const Eigen::VectorXd r = std::exp(p.log_s) * curve.r;
+                             const DipoleSolver::Point& point, double eta_int_over_ext) {
+  const DipoleCurve curve = dipole_curve(knots, point.u, point.q, eta_int_over_ext);
+  const Eigen::VectorXd r = std::exp(point.log_s) * curve.r;
   std::vector<ComparedImage> shots(rows.shots());
   for_each_shot(rows, [&](std::size_t s, const ShotSystem& shot) {
     ComparedImage& out = shots[s];
@@ -164,8 +164,8 @@ ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
     out.predicted = shot.system->weights * r;
     for (std::size_t k = 0; k < shot.nuisances.size(); ++k) {
       const auto v = static_cast<std::size_t>(shot.nuisances[k]);
-      if (v >= p.v.size()) continue;  // held
-      out.predicted += p.v[v] * shot.system->nuisance_columns.col(static_cast<Eigen::Index>(k));
+      if (v >= point.v.size()) continue;  // held
+      out.predicted += point.v[v] * shot.system->nuisance_columns.col(static_cast<Eigen::Index>(k));
     }
   });
   const auto together = [&](Eigen::VectorXd ComparedImage::*part) {
@@ -241,7 +241,7 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
       n.std = std::max(n.std, options.misfit_margin * estimate.misfit_relative);
     }
   }
-  // What the image says against the rig's statements widens the answer, or refuses it.
+  // Where the image contradicts the rig's statements the result is widened, or refused.
   const ScoreTests tests =
       score_tests(recovered, rows.nuisances(), knots, p, options.eta_int_over_ext, options.scale,
                   recovered.noise_excess());

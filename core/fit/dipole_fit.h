@@ -29,9 +29,9 @@ struct DipoleFitOptions {
   double misfit_p_value = 1e-6;
   double misfit_margin = 2.0;
   double max_misfit_relative = 2e-3;
-  // Where the image has the stated scale or eta off (core/fit/score_tests.h), as significantly
-  // as that, the offset counts as an error of the method, and the answer is refused where it is
-  // more than the last relative to the image.
+  // Where the image contradicts the stated scale or eta (core/fit/score_tests.h) as significantly
+  // as that, the offset counts as an error of the method, and the result is refused where it
+  // changes the image by more than the last, relative to the image.
   double max_offset_relative = 1e-2;
   // Of an image that shows what is expected, without the noise that its std_l states: fit quality,
   // what widens the errors by it, and verdicts are then those that are to be expected with that
@@ -61,7 +61,7 @@ struct DipoleFit {
 // std, cut at 0, and from the profile of the likelihood where a standard deviation exceeds a tenth
 // of its value. A significant misfit counts per direction of r instead of per row, and widens the
 // errors of the method; so does a stated scale or eta that the image contradicts. Where the image
-// does not hold the scale (even light), a wrong exact scale cannot be seen. The answer carries its
+// does not hold the scale (even light), a wrong exact scale cannot be seen. The result carries its
 // reasons for refusal: too few rows, values that are not finite, not converged, a mean free path
 // outside what the knots resolve, an undetermined sigma_s', no upper limit, a residual the dipole
 // cannot explain, a scale or an eta that the image contradicts.

@@ -155,7 +155,7 @@ class ScalePriorCost final : public ceres::SizedCostFunction<1, 1> {
   double inverse_std_;
 };
 
-// Whether a search can start there; Ceres would say so on the error stream.
+// Whether a search can start there; Ceres would report it on the error stream.
 bool can_start(const ceres::CostFunction& cost, const std::vector<double*>& blocks) {
   std::vector<double> residuals(static_cast<std::size_t>(cost.num_residuals()));
   return cost.Evaluate(blocks.data(), residuals.data(), nullptr);
@@ -172,7 +172,7 @@ void solve(ceres::Problem& problem, const std::vector<Nuisance>& fitted, const S
   } else if (std::isfinite(scale.relative_std)) {
     problem.AddResidualBlock(new ScalePriorCost(scale.relative_std), nullptr, &p.log_s);
   }
-  // A search that fails is told by `converged`, not on the terminal.
+  // A search that fails is reported by `converged`, not on the terminal.
   static const int kQuiet = FLAGS_minloglevel = google::GLOG_FATAL;
   static_cast<void>(kQuiet);
   auto solver = quiet_solver<ceres::Solver::Options>({200, 1e-14, 1e-14, 1e-12});
@@ -238,8 +238,8 @@ DipoleSolver::Point DipoleSolver::freed(const Point& from) const {
 }
 
 std::optional<DipoleSolver::Point> DipoleSolver::best_with(Coefficient held, double value_per_mm,
-                                                           const Point& from) const {
-  Point p = from;
+                                                           const Point& start) const {
+  Point p = start;
   // The nearest u from which the held value can be had.
   if (held == Coefficient::kSigmaA) {
     if (!(value_per_mm >= 0.0)) return std::nullopt;
@@ -248,7 +248,7 @@ std::optional<DipoleSolver::Point> DipoleSolver::best_with(Coefficient held, dou
     }
   } else {
     if (!(value_per_mm > 0.0)) return std::nullopt;
-    p.u = std::log(value_per_mm / (1.0 - from.q));
+    p.u = std::log(value_per_mm / (1.0 - start.q));
   }
   ceres::Problem problem;
   std::vector<double*> blocks = {&p.u, &p.log_s};

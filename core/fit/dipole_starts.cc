@@ -10,7 +10,7 @@
 namespace scattermeter {
 
 std::vector<DipoleSolver::Point> dipole_starts(const RecoveredReflectance& recovered,
-                                               const DistanceKnots& knots, double eta,
+                                               const DistanceKnots& knots, double eta_int_over_ext,
                                                const ScalePrior& scale) {
   using Start = DipoleSolver::Point;
   std::vector<Start> line;
@@ -21,8 +21,8 @@ std::vector<DipoleSolver::Point> dipole_starts(const RecoveredReflectance& recov
     best.u = -std::log(knots.resolution_mm()) - 0.5 * k * std::numbers::ln2;
     best.cost = std::numeric_limits<double>::infinity();
     for (double q : {1e-5, 1e-3, 0.01, 0.05, 0.15, 0.3, 0.5, 0.75}) {
-      const Eigen::VectorXd p =
-          recovered.sqrt_information.leftCols(knots.size()) * dipole_curve(knots, best.u, q, eta).r;
+      const Eigen::VectorXd p = recovered.sqrt_information.leftCols(knots.size()) *
+                                dipole_curve(knots, best.u, q, eta_int_over_ext).r;
       double s = 1.0;
       if (scale.relative_std > 0.0) {
         // Weighted by the prior, linear in s.

@@ -1,4 +1,4 @@
-// What every estimator answers.
+// The result of every estimator.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What an image says of r and the nuisances, as normal equations.
+// The information of an image on r and the nuisances, as normal equations.
 #pragma once
 
 #include <cstddef>

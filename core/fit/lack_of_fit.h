@@ -13,8 +13,8 @@ namespace scattermeter {
 std::vector<int> residual_cells(const std::vector<Eigen::Vector3d>& centers_mm, int levels,
                                 int least);
 
-// The residual's chi-square where `free` (columns of unit standard deviation; wide ones for what
-// the fit has chosen freely) and `covariance` say all that there is to say.
+// The residual's chi-square under a model of errors that consists of `free` (columns of unit
+// standard deviation; wide ones for what the fit has chosen freely) and `covariance`.
 struct LackOfFit {
   double chi2 = 0;
   double dof = 0;

@@ -22,13 +22,13 @@ struct LinearShot {
 };
 
 // A quantity beside the material that the image depends on and that is known only to a standard
-// deviation: an LED's place, the camera's pose, eta. Counted from its nominal value.
+// deviation: an LED's position, the camera's pose, eta. Counted from its nominal value.
 struct Nuisance {
   std::string group;  // what it belongs to in the budget: "LED position", "pose", ...
   double std = 0;     // of the prior; the prior's mean is 0
-  // True: fitted along with the material. False: held at 0, and what it may do to the answer only
-  // widens the uncertainty (errors of the method itself, whose shape is not known well enough to be
-  // fitted).
+  // True: fitted along with the material. False: held at 0, and its possible effect on the estimate
+  // only widens the uncertainty (errors of the method itself, whose shape is not known well enough
+  // to be fitted).
   bool fitted = true;
   std::string name = {};  // of this one alone ("led1.position0"); may be empty
 };

@@ -48,18 +48,18 @@ std::vector<double> paper_widths_mm() {
   return widths;
 }
 
-PaperAnswer solve_paper(const DenseSystem& system, double width_mm, double eta_int_over_ext,
-                        const PaperGrid& grid) {
+PaperEstimate solve_paper(const DenseSystem& system, double width_mm, double eta_int_over_ext,
+                          const PaperGrid& grid) {
   if (system.l.size() == 0) throw std::invalid_argument("solve_paper: the system has no rows");
-  PaperAnswer answer;
-  answer.width_mm = width_mm;
-  answer.rows = static_cast<std::size_t>(system.l.size());
-  answer.r = pseudo_inverse_times(system.weights, system.l);
+  PaperEstimate out;
+  out.width_mm = width_mm;
+  out.rows = static_cast<std::size_t>(system.l.size());
+  out.r = pseudo_inverse_times(system.weights, system.l);
   std::vector<Eigen::Index> knots;
-  for (Eigen::Index i = 0; i < answer.r.size(); ++i) {
+  for (Eigen::Index i = 0; i < out.r.size(); ++i) {
     if (system.weights.col(i).cwiseAbs().maxCoeff() > 0.0) knots.push_back(i);
   }
-  answer.cost = std::numeric_limits<double>::infinity();
+  out.cost = std::numeric_limits<double>::infinity();
   for (int a = 0; a < steps(grid.sigma_a_min, grid.sigma_a_max, grid.sigma_a_step); ++a) {
     for (int s = 0; s < steps(grid.sigma_s_min, grid.sigma_s_max, grid.sigma_s_step); ++s) {
       const double sigma_s = grid.sigma_s_min + s * grid.sigma_s_step;
@@ -68,41 +68,41 @@ PaperAnswer solve_paper(const DenseSystem& system, double width_mm, double eta_i
       double cost = 0.0;
       for (Eigen::Index i : knots) {
         const double difference =
-            answer.r[i] - dipole.reflectance_per_mm2(static_cast<double>(i) * width_mm);
+            out.r[i] - dipole.reflectance_per_mm2(static_cast<double>(i) * width_mm);
         cost += difference * difference;
-        if (cost > answer.cost) break;
+        if (cost > out.cost) break;
       }
-      if (cost < answer.cost) {
-        answer.cost = cost;
-        answer.sigma_s_prime_per_mm = sigma_s;
-        answer.sigma_a_per_mm = sigma_a;
+      if (cost < out.cost) {
+        out.cost = cost;
+        out.sigma_s_prime_per_mm = sigma_s;
+        out.sigma_a_per_mm = sigma_a;
       }
     }
   }
-  const Dipole best({answer.sigma_s_prime_per_mm, answer.sigma_a_per_mm, eta_int_over_ext});
-  Eigen::VectorXd r(answer.r.size());
+  const Dipole best({out.sigma_s_prime_per_mm, out.sigma_a_per_mm, eta_int_over_ext});
+  Eigen::VectorXd r(out.r.size());
   for (Eigen::Index i = 0; i < r.size(); ++i) {
     r[i] = best.reflectance_per_mm2(static_cast<double>(i) * width_mm);
   }
   const Residual rest = residual(system.l, system.weights * r, system.std_l);
-  answer.psnr_db = rest.psnr_db;
-  answer.rms_relative = rest.rms_relative;
-  answer.reduced_chi2 = rest.chi2 / std::max(1.0, static_cast<double>(system.l.size()) - 2.0);
-  return answer;
+  out.psnr_db = rest.psnr_db;
+  out.rms_relative = rest.rms_relative;
+  out.reduced_chi2 = rest.chi2 / std::max(1.0, static_cast<double>(system.l.size()) - 2.0);
+  return out;
 }
 
-Estimate choose_width(const std::vector<PaperAnswer>& answers, const PaperGrid& grid) {
-  if (answers.empty()) throw std::invalid_argument("choose_width: no answers");
-  const PaperAnswer* best = &answers.front();
+Estimate choose_width(const std::vector<PaperEstimate>& estimates, const PaperGrid& grid) {
+  if (estimates.empty()) throw std::invalid_argument("choose_width: no estimates");
+  const PaperEstimate* best = &estimates.front();
   double mean_s = 0, mean_a = 0;
-  const double n = static_cast<double>(answers.size());
-  for (const PaperAnswer& a : answers) {
+  const double n = static_cast<double>(estimates.size());
+  for (const PaperEstimate& a : estimates) {
     if (a.psnr_db > best->psnr_db) best = &a;
     mean_s += a.sigma_s_prime_per_mm / n;
     mean_a += a.sigma_a_per_mm / n;
   }
   double var_s = 0, var_a = 0, cov = 0;
-  for (const PaperAnswer& a : answers) {
+  for (const PaperEstimate& a : estimates) {
     const double ds = a.sigma_s_prime_per_mm - mean_s;
     const double da = a.sigma_a_per_mm - mean_a;
     var_s += ds * ds / std::max(1.0, n - 1.0);

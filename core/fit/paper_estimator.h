@@ -19,13 +19,13 @@ struct PaperGrid {
 // Quantisation widths of the paper's table 2, mm: 0.05 to 0.50 in steps of 0.05.
 std::vector<double> paper_widths_mm();
 
-// The answer of one quantisation width.
-struct PaperAnswer {
+// The estimate by one quantisation width.
+struct PaperEstimate {
   double width_mm = 0;
   double sigma_s_prime_per_mm = 0;
   double sigma_a_per_mm = 0;
   double cost = 0;     // sum over knots of (R'_i - R(d'_i))^2 (eq. 30), 1/mm^4
-  double psnr_db = 0;  // of the image re-rendered with the answer through the same W
+  double psnr_db = 0;  // of the image re-rendered with the estimate through the same W
   double rms_relative = 0;
   double reduced_chi2 = 0;
   std::size_t rows = 0;
@@ -35,13 +35,14 @@ struct PaperAnswer {
 // Eq. 28 to 30 for one width: r = W⁺ l (unweighted, minimum norm where W lacks rank), then the best
 // point of the grid. Knots that no pair of patches is near (zero column of W) take no part in the
 // grid's cost. eta: of the material.
-PaperAnswer solve_paper(const DenseSystem& system, double width_mm, double eta_int_over_ext,
-                        const PaperGrid& grid = {});
+PaperEstimate solve_paper(const DenseSystem& system, double width_mm, double eta_int_over_ext,
+                          const PaperGrid& grid = {});
 
-// The paper's procedure for photographs: of all widths, the answer that re-renders the image best.
-// The method states no uncertainty; given here is what the choice of the width and the grid's steps
-// leave open: std^2 = variance over the widths + step^2 / 12. Refused where a coefficient sits on a
-// bound of the grid, since the true optimum may then lie outside. Precondition: not empty.
-Estimate choose_width(const std::vector<PaperAnswer>& answers, const PaperGrid& grid = {});
+// The paper's procedure for photographs: of all widths, the estimate that re-renders the image
+// best. The method states no uncertainty; given here is what the choice of the width and the grid's
+// steps leave open: std^2 = variance over the widths + step^2 / 12. Refused where a coefficient
+// sits on a bound of the grid, since the true optimum may then lie outside. Precondition: not
+// empty.
+Estimate choose_width(const std::vector<PaperEstimate>& estimates, const PaperGrid& grid = {});
 
 }  // namespace scattermeter

@@ -8,10 +8,10 @@
 
 namespace scattermeter {
 
-// A smooth image to weigh rows by: the dipole has the detail, paths the whole. In every part of the
-// shots the dipole's light is brought to that of all paths so far, and the derivatives of its
-// logarithm to theirs; in the parts, paths are noisy by per cents, not by tens as in the rows. And
-// how the light of cells errs together, from as many paths.
+// A smooth image to weight rows by: the dipole provides the detail, paths the level. In every part
+// of the shots the dipole's light is brought to that of all paths so far, and the derivatives of
+// its logarithm to theirs; in the parts, paths are noisy by per cents, not by tens as in the rows.
+// It also holds how the errors of the cells' light are correlated, from as many paths.
 class PartLight {
  public:
   void forget() { *this = {}; }
@@ -24,9 +24,10 @@ class PartLight {
   // Brings l and the derivatives of a dipole's image up to what was learnt.
   void correct(const ShotParts& parts, ScatteringImage& dipole) const;
 
-  // Covariance of the cells' relative light from one block of paths. What few blocks say of cells
-  // together is less than what they say of each: shrunk towards none, or some combination would
-  // look free of error for lack of blocks. Precondition: blocks() > 0.
+  // Covariance of the cells' relative light from one block of paths. Few blocks
+  // determine the correlations of cells less well than their variances: these are shrunk towards
+  // zero, or some combination would look free of error for lack of blocks. Precondition: blocks() >
+  // 0.
   Eigen::MatrixXd relative_cell_covariance(const ShotParts& parts) const;
 
  private:
@@ -36,8 +37,8 @@ class PartLight {
   double blocks_ = 0;
 };
 
-// Rows that err together if their cells do: columns of unit deviation. l: of the rows; cells:
-// covariance of the cells' relative light.
+// Errors of rows that are correlated as those of their cells are: columns of unit deviation. l: of
+// the rows; cells: covariance of the cells' relative light.
 Eigen::MatrixXd correlated_rows(const ShotParts& parts, const Eigen::VectorXd& l,
                                 const Eigen::MatrixXd& cells);
 

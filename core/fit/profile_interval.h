@@ -11,7 +11,7 @@ struct Interval {
 };
 
 // The values of a coefficient (1/mm) whose best chi-square, all other parameters free, exceeds the
-// optimum's by at most `rise`: 3.84 for 95 % where the image's chi-square counts as it stands.
+// optimum's by at most `rise`: 3.84 for 95 % where the image's chi-square counts as it is.
 // `std_per_mm`: the standard deviation that this chi-square has at the optimum; sqrt(rise) of them
 // are the first step, and ends are found to half a hundredth of it. The lower end is at least 0. An
 // end that cannot be bracketed within 1000 steps is returned as 0 or +infinity.

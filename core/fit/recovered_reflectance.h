@@ -17,8 +17,8 @@ namespace scattermeter {
 // whose lambda exceeds `rank_tolerance` times the largest:
 //   sqrt_information = diag(sqrt(lambda)) Vᵀ D   (K rows),   whitened = sqrt_information r,
 // so that a candidate R on the knots has chi-square |sqrt_information R - whitened|^2 + floor_chi2
-// on the image itself. Directions of r that the image says nothing about are in no row. Where the
-// system has nuisances their columns stand behind those of W, and a candidate is (R, v).
+// on the image itself. Directions of r on which the image holds no information are in no row. Where
+// the system has nuisances their columns follow those of W, and a candidate is (R, v).
 struct RecoveredReflectance {
   Eigen::MatrixXd sqrt_information;
   Eigen::VectorXd whitened;

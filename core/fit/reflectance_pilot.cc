@@ -27,7 +27,7 @@ std::optional<ReflectancePilot> reflectance_pilot(const MarginalInformation& nom
     problem.basis.col(0).setOnes();
     problem.basis.col(1) = t[0] - t.array();
     problem.basis.col(2) = 1.0 - (0.5 * (t.array() - t[0])).exp();
-    // Keeps p and b z0 from running away where the image does not tell them.
+    // Keeps p and b z0 from running away where the image does not determine them.
     problem.penalty(0, 1) = problem.penalty(1, 2) = 0.01;
     // The static dipole's power, and half of it with a tail.
     for (const Eigen::Vector3d& shape :

@@ -12,7 +12,7 @@
 
 namespace scattermeter {
 
-// Where the search stands. Domain: sigma_s > 0, sigma_a >= 0, scale > 0.
+// The current point of the search. Domain: sigma_s > 0, sigma_a >= 0, scale > 0.
 struct ScatteringPoint {
   double sigma_s_per_mm = 0;
   double sigma_a_per_mm = 0;
@@ -56,7 +56,7 @@ class ScatteringEquation {
     Eigen::VectorXd size;     // of that change, relative, per unit of each unknown
     Eigen::VectorXd move;     // uncut, in the unknowns
     Eigen::MatrixXd inverse;  // from projection() * l to the move
-    // What common causes of one deviation move: a column for every nuisance, and one for a scale
+    // Moves by one deviation of each common cause: a column for every nuisance, and one for a scale
     // that has a prior.
     Eigen::MatrixXd common_causes;
   };
@@ -76,17 +76,17 @@ class ScatteringEquation {
   // Columns times their standard deviations, last that of a scale with a prior; free ones at a size
   // far beyond what the rows leave open.
   const Eigen::MatrixXd& nuisances() const { return nuisances_; }
-  // Row vector that reads, off measured less predicted l, how far the image wants log scale from
-  // what is stated: 1 for scale * pilot.l, 0 for what the unknowns can do, of the least variance.
-  // Empty where the scale is free, or where the unknowns make up for it.
+  // Row vector that estimates, from measured less predicted l, the offset of log scale from its
+  // stated value: 1 for scale * pilot.l, 0 for what the unknowns can do, of the least variance.
+  // Empty where the scale is free, or where the unknowns can imitate it.
   const Eigen::RowVectorXd& scale_form() const { return scale_form_; }
   struct ScaleTest {
-    double offset = 0;   // of log scale, wanted less stated
+    double offset = 0;   // of log scale: best less stated
     double std = 0;      // of that where the statement is true, prior included
     double p_value = 1;  // of at least this much
   };
   // form_variance: of scale_form() times the predicted l, by its paths. Nuisances take part within
-  // their priors; light that is even over the object leaves nothing to tell by: p is then 1.
+  // their priors; light that is even over the object makes the test impossible: p is then 1.
   ScaleTest scale_test(const Eigen::VectorXd& residual, double form_variance, double scatter) const;
   // What a log scale off by `offset`, sign unknown, adds to a step.
   void widen_by_scale(double offset, Step& step) const;

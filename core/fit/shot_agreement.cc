@@ -32,13 +32,13 @@ struct Normal {
 
 ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
                              const std::vector<Nuisance>& nuisances, const DistanceKnots& knots,
-                             const DipoleSolver::Point& joint, double eta, const ScalePrior& scale,
-                             double noise_inflation) {
+                             const DipoleSolver::Point& joint, double eta_int_over_ext,
+                             const ScalePrior& scale, double noise_inflation) {
   const auto n_shots = static_cast<Eigen::Index>(shots.size());
   ShotAgreement out;
   if (n_shots < 2) return out;
   const double s = std::exp(joint.log_s);
-  const DipoleCurve curve = dipole_curve(knots, joint.u, joint.q, eta);
+  const DipoleCurve curve = dipole_curve(knots, joint.u, joint.q, eta_int_over_ext);
   const bool scale_moves = scale.relative_std > 0.0;
   const Eigen::Index first_nuisance = scale_moves ? 1 : 0;
   const Eigen::Index shared = first_nuisance + static_cast<Eigen::Index>(nuisances.size());
@@ -49,7 +49,7 @@ ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
     const ShotInformation& shot = shots[static_cast<std::size_t>(i)];
     const auto own = static_cast<Eigen::Index>(shot.nuisances.size());
     // The shot's unknowns (r on the knots, nuisances) by those that move here, and where those
-    // stand among the shared ones.
+    // are among the shared ones.
     Eigen::MatrixXd by = Eigen::MatrixXd::Zero(n_knots + own, 2 + first_nuisance + own);
     by.col(0).head(n_knots) = s * curve.d_u;
     by.col(1).head(n_knots) = s * curve.d_q;
@@ -101,8 +101,8 @@ ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
   return out;
 }
 
-ShotAgreement agreement_of(const Eigen::VectorXd& answers, const Eigen::MatrixXd& covariance) {
-  const Eigen::Index n = answers.size();
+ShotAgreement agreement_of(const Eigen::VectorXd& estimates, const Eigen::MatrixXd& covariance) {
+  const Eigen::Index n = estimates.size();
   if (n % 2 != 0 || covariance.rows() != n || covariance.cols() != n) {
     throw std::invalid_argument("agreement_of: sizes");
   }
@@ -111,7 +111,7 @@ ShotAgreement agreement_of(const Eigen::VectorXd& answers, const Eigen::MatrixXd
   if (out.dof == 0) return out;
   // In units that make a row of the covariance as large as another.
   const Eigen::VectorXd unit = covariance.diagonal().cwiseSqrt();
-  const Eigen::VectorXd x = answers.cwiseQuotient(unit);
+  const Eigen::VectorXd x = estimates.cwiseQuotient(unit);
   const Eigen::MatrixXd c =
       unit.cwiseInverse().asDiagonal() * covariance * unit.cwiseInverse().asDiagonal();
   Eigen::MatrixXd common(n, 2);

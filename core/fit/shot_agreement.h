@@ -1,4 +1,4 @@
-// Whether the shots of one material tell the same.
+// Whether the shots of one material agree.
 #pragma once
 
 #include <vector>
@@ -30,14 +30,14 @@ ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
                              const DipoleSolver::Point& joint, double eta_int_over_ext,
                              const ScalePrior& scale, double noise_inflation);
 
-// The same from every shot's own answer: `answers` holds (log sigma_s', sigma_a), or other two
+// The same from the estimate of every shot: `estimates` holds (log sigma_s', sigma_a), or other two
 // unknowns, of one shot after the other, and `covariance` all that they share and do not. Where
-// shots agree the answers scatter about their best common value as chi-square.
+// shots agree the estimates scatter about their best common value as chi-square.
 // Precondition (std::invalid_argument): sizes agree and are even.
-ShotAgreement agreement_of(const Eigen::VectorXd& answers, const Eigen::MatrixXd& covariance);
+ShotAgreement agreement_of(const Eigen::VectorXd& estimates, const Eigen::MatrixXd& covariance);
 
 // Widens deviations and intervals by sqrt(chi2 / dof) (Birge's ratio) where shots disagree; a line
-// "disagreement" in the budget says how much that adds.
+// "disagreement" in the budget states how much that adds.
 void widen_by_disagreement(const ShotAgreement& agreement, Estimate& estimate);
 
 }  // namespace scattermeter

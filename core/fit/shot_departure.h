@@ -1,4 +1,4 @@
-// What single shots do that the joint model of all does not.
+// Departures of single shots from the joint model of all.
 #pragma once
 
 #include <vector>
@@ -40,8 +40,9 @@ struct ShotDepartures {
 };
 
 // Generalised least squares. Powers and even light are free within priors of `kWidest` each, far
-// wider than what is looked for, so that what the shots cannot tell (all brighter, in a free scale)
-// stays with the scale. Preconditions (std::invalid_argument): sizes agree, at least one shot.
+// wider than what is looked for, so that what the shots cannot determine (all brighter, in a free
+// scale) stays with the scale. Preconditions (std::invalid_argument): sizes agree, at least one
+// shot.
 inline constexpr double kWidest = 0.5;
 ShotDepartures shot_departures(const DenseSystem& system, const LinearModel& model);
 

@@ -16,7 +16,7 @@ struct ShotPartsOptions {
   int least_rows = 12;       // in a cell
 };
 
-// Rows of some shots, one below the other, by where their patches stand.
+// Rows of some shots, one below the other, by where their patches are.
 class ShotParts {
  public:
   ShotParts() = default;

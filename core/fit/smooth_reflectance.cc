@@ -26,8 +26,8 @@ constexpr double kStepLog10 = 0.5;
 // Of the level, the power, the tail and the depth: the penalty is blind to this many directions.
 constexpr double kFreeShapes = 4.0;
 
-// Breaks as indices into the DistanceKnots, and what the image says between each and the next:
-// squared inverse deviation of log r in the interval, all else known.
+// Breaks as indices into the DistanceKnots, and the information of the image between each and the
+// next: squared inverse deviation of log r in the interval, all else known.
 struct Breaks {
   std::vector<Eigen::Index> at;
   std::vector<double> information;
@@ -65,13 +65,13 @@ struct Smoothed {
 };
 
 // Q with |Q theta|^2 the penalty of lambda = 1: the spline's roughness, less what a small change of
-// the depth would answer for, log(d^2 + z^2) - t being proportional to exp(-t) to first order.
+// the depth would explain, log(d^2 + z^2) - t being proportional to exp(-t) to first order.
 Eigen::MatrixXd penalty_root(const LogSpline& spline, const Eigen::MatrixXd& basis,
                              const Eigen::VectorXd& t) {
   Eigen::MatrixXd q = spline.roughness();
   const Eigen::VectorXd depth = (t[0] - t.array()).exp();
-  const Eigen::VectorXd answered = (q * PivotedSolver(basis).solve(depth)).normalized();
-  q -= answered * (answered.transpose() * q).eval();
+  const Eigen::VectorXd explained = (q * PivotedSolver(basis).solve(depth)).normalized();
+  q -= explained * (explained.transpose() * q).eval();
   return q;
 }
 
@@ -88,7 +88,7 @@ Smoothed smooth_at(LogLinearProblem& problem, const Eigen::MatrixXd& roughness, 
   all << out.jacobian, problem.penalty;
   const PivotedSolver qr(all);
   Eigen::MatrixXd root = qr.r();
-  // A direction of which neither the image nor smoothness says anything keeps a huge deviation.
+  // A direction that neither the image nor smoothness determines keeps a huge deviation.
   const double least = std::max(1e-14 * std::abs(root(0, 0)), 1e-150);
   double log_determinant = 0.0;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -211,8 +211,8 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
   const Eigen::VectorXd t = log_squared_depth(knots, pilot->source_depth_mm);
   const double wanted = 1.0 / (options.max_log_std * options.max_log_std);
   const Breaks breaks = place_breaks(image, *pilot, t, wanted);
-  // The curve may bend everywhere, whatever is reported: with breaks only where the image speaks it
-  // would be stiff, and its bars short, exactly where the image says least.
+  // The curve may bend everywhere, whatever is reported: with breaks only where the image is
+  // informative it would be stiff, and its bars short, exactly where the image determines least.
   std::vector<double> break_t;
   for (Eigen::Index i : place_breaks(image, *pilot, t, 0.0).at) break_t.push_back(t[i]);
   const LogSpline spline(break_t);

@@ -15,7 +15,7 @@ namespace scattermeter {
 
 struct SmoothReflectanceOptions {
   ScalePrior scale;
-  // A distance is determined when the image alone, all else known, tells r about it to this
+  // A distance is determined when the image alone, all else known, determines r about it to this
   // relative deviation, and the fit knows r there (scale apart) as well.
   double max_log_std = 0.3;
   void Check() const;  // std::invalid_argument naming the field
@@ -57,20 +57,20 @@ struct SmoothReflectance {
 // best.
 //
 // The spline has three breaks an octave of d^2 + z0^2 throughout. The knots reported are chosen
-// among the DistanceKnots by what the image tells: from d = 0 outwards, the next one stands where
-// the image, all else known, tells the level of r in between to max_log_std, and at least a third
-// of an octave on. What is left beyond the last such knot is one interval, to the longest distance,
-// that nothing is said about.
+// among the DistanceKnots by the information of the image: from d = 0 outwards, the next one is
+// where the image, all else known, determines the level of r in between to max_log_std, and at
+// least a third of an octave on. What is left beyond the last such knot is one interval, to the
+// longest distance, that nothing is said about.
 //
 // lambda is integrated over, weighted by its marginal likelihood, r seen as a draw from the normal
 // process of which the last term is the logarithm (Wahba's generalised maximum likelihood, 1985,
-// but its mean instead of its maximum; Laplace's approximation, as f stands in an exponent). The
+// but its mean instead of its maximum; Laplace's approximation, as f is in an exponent). The
 // one best lambda alone has bars that are too short just when noise makes it large. Preferred to
 // generalised cross-validation, which swings more from image to image (95 % bars that held 66 % on
 // the half-lit plate at 10 % noise, against 85 % by maximum likelihood with the same penalty), and
 // to the discrepancy principle, which always oversmooths. It needs no noise: for an image without
 // any, lambda settles at the roughness of f itself. The noise is as stated, or what the residual
-// says where that is more.
+// states where that is more.
 //
 // Error bars are the posterior deviations of that process. They hold the smoothing bias, as the
 // mean over draws (Wahba 1983): 95 % of the distances lie within 1.96 deviations, though where f
@@ -79,7 +79,7 @@ struct SmoothReflectance {
 // non-zero std of the scale adds to them, as log r + log scale is what the image shows.
 //
 // `nuisances`: those of the system that `recovered` comes from. Never throws for valid options and
-// fitting sizes; whatever cannot be told stands in `reasons`.
+// fitting sizes; what cannot be determined is stated in `reasons`.
 SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
                                      const std::vector<Nuisance>& nuisances,
                                      const DistanceKnots& knots,

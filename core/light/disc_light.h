@@ -18,9 +18,9 @@ class DiscLight {
   DiscLight(const Led& led, const RayScene& scene, double eta_int_over_ext);
 
   // Led::transmitted_irradiance_per_mm2, as a mean over the disc. Relative error below 1e-6 where
-  // the whole disc stands before the surface and is farther away than its radius; else 1e-3.
+  // the whole disc is in front of the surface and is farther away than its radius; else 1e-3.
   double open_per_mm2(const Eigen::Vector3d& point_mm, const Eigen::Vector3d& normal) const;
-  // Share of that which the mesh lets through, 0 .. 1; exactly 1 or 0 where the probes say so.
+  // Share of that which the mesh lets through, 0 .. 1; exactly 1 or 0 where all probes agree.
   // Error in a half shadow below 0.005. Adds the rays cast.
   double visible_share(const Eigen::Vector3d& point_mm, const Eigen::Vector3d& normal,
                        std::size_t& rays) const;

@@ -17,7 +17,7 @@ namespace scattermeter {
 struct Entry {
   Eigen::Vector3d position_mm;  // on the surface
   Eigen::Vector3d direction;    // of flight, behind it
-  double power = 0;             // that this sample stands for
+  double power = 0;             // that this sample represents
 };
 
 // The mean power over all samples is the transmitted power, in the units of IncidentLight:

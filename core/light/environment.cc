@@ -31,11 +31,13 @@ Eigen::Quaterniond world_from_probe(const Eigen::Vector3d& forward, const Eigen:
   return Eigen::Quaterniond(rotation).normalized();
 }
 
-std::string probe_problem(int width, int height, const std::vector<float>& radiance) {
-  if (width < 1 || height < 1) {
-    return "the probe is " + std::to_string(width) + " x " + std::to_string(height) + " pixels";
+std::string probe_problem(int width_px, int height_px, const std::vector<float>& radiance) {
+  if (width_px < 1 || height_px < 1) {
+    return "the probe is " + std::to_string(width_px) + " x " + std::to_string(height_px) +
+           " pixels";
   }
-  const std::size_t values = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  const std::size_t values =
+      3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   if (radiance.size() != values) {
     return "the probe holds " + std::to_string(radiance.size()) + " values, not " +
            std::to_string(values);
@@ -46,8 +48,8 @@ std::string probe_problem(int width, int height, const std::vector<float>& radia
     if (!(v >= 0.0F) || !std::isfinite(v)) {
       const std::size_t pixel = i / 3;
       std::ostringstream message;
-      message << "pixel (" << pixel % static_cast<std::size_t>(width) << ", "
-              << pixel / static_cast<std::size_t>(width) << "), channel "
+      message << "pixel (" << pixel % static_cast<std::size_t>(width_px) << ", "
+              << pixel / static_cast<std::size_t>(width_px) << "), channel "
               << "RGB"[i % 3] << ": radiance is " << v << ", must be finite and not negative";
       return message.str();
     }

@@ -208,11 +208,13 @@ class Illuminator {
 
 }  // namespace
 
-double power_sr(const LitTriangle& t) {
-  const double area_mm2 =
-      0.5 * (t.corners_mm[1] - t.corners_mm[0]).cross(t.corners_mm[2] - t.corners_mm[0]).norm();
+double power_sr(const LitTriangle& triangle) {
+  const double area_mm2 = 0.5 * (triangle.corners_mm[1] - triangle.corners_mm[0])
+                                    .cross(triangle.corners_mm[2] - triangle.corners_mm[0])
+                                    .norm();
   return area_mm2 *
-         (t.irradiance_sr_per_mm2[0] + t.irradiance_sr_per_mm2[1] + t.irradiance_sr_per_mm2[2]) /
+         (triangle.irradiance_sr_per_mm2[0] + triangle.irradiance_sr_per_mm2[1] +
+          triangle.irradiance_sr_per_mm2[2]) /
          3.0;
 }
 

@@ -49,7 +49,7 @@ class Light {
  public:
   virtual ~Light() = default;
 
-  // Channels that differ in where the light goes: 3 (R, G, B), or 1 that stands for all of them.
+  // Channels that differ in where the light goes: 3 (R, G, B), or 1 for all of them.
   virtual std::size_t channels() const = 0;
   // What the light's IncidentLight counts in, R G B: an LED's intensity on its axis, W/sr, or the
   // radiance of a probe value of 1, W/(mm^2 sr).
@@ -73,7 +73,7 @@ class Light {
     return Eigen::Array3d::Zero();
   }
 
-  // Where the light stands, world, mm; empty for light from far away.
+  // Position of the light, world, mm; empty for light from far away.
   virtual std::optional<Eigen::Vector3d> position_mm() const { return std::nullopt; }
   // How many patches across an object are enough for light that is smooth on it; empty: as fine as
   // the object's own.

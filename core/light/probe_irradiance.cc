@@ -11,7 +11,7 @@ namespace {
 
 // Cells wider than the picture / 64 (5.6 degrees) are cut before anything is said of what they see.
 constexpr int kProbesAcross = 64;
-// A corner of what stands in front is looked for where it is one of at most so many.
+// A corner of what is in front is looked for where it is one of at most so many.
 constexpr std::size_t kMostCorners = 256;
 // Cells and pixels are cut for the sum over open sky until flux times angular variance falls below
 // this times the tolerance and the flux of all. Measured:
@@ -116,7 +116,7 @@ bool ProbeIrradiance::is_fine(const ProbeLight& light, bool bright) const {
     // Rounding of the stored sums leaves a variance of 1e-7 to a single direction.
     const double variance = std::max(0.0, 1.0 - mean.squaredNorm());
     // A ball's rim spreads one-sidedly, 2.83 deviations far. (What lies behind is held to the same:
-    // a cell's mean may stand behind the horizon and a small part of its light before it.)
+    // a cell's mean may be behind the horizon and a small part of its light before it.)
     const double radius = 3.0 * std::sqrt(variance);
     const double cosine = normal_in_probe_.dot(mean);
     if (flux * variance > kSpread * tolerance_ * all[c]) return false;

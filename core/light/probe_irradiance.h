@@ -25,14 +25,14 @@ class ProbeIrradiance {
                   const TransmittedCosine& transmitted, double tolerance);
 
   // The facet that the calls below are about: its unit normal, and the mesh's vertices before its
-  // plane (empty: nothing can stand before it).
+  // plane (empty: nothing can be in front of it).
   void set_facet(const Eigen::Vector3d& normal, std::vector<Eigen::Vector3d> in_front_mm);
 
   // Of a facet with nothing before it, the same all over it.
   const Eigen::Array3d& open(Part part) const {
     return part == Part::kSky ? open_sky_ : open_bright_;
   }
-  // With what stands before it. The point lies on the facet, not on its border.
+  // With what is in front of it. The point lies on the facet, not on its border.
   Eigen::Array3d at(const Eigen::Vector3d& point_mm, Part part);
   std::size_t rays() const { return rays_; }
 

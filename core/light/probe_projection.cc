@@ -132,12 +132,12 @@ Eigen::Vector2d ProbeMap::place_px(const Eigen::Vector3d& direction) const {
   return {0.5 * width_px_ + (ball ? -x : x), 0.5 * height_px_ - d.z() / across * r * radius_px_};
 }
 
-double ProbeMap::disc_solid_angle_sr(const ImageRect& r) const {
+double ProbeMap::disc_solid_angle_sr(const ImageRect& disc) const {
   const double through_edges =
-      flow(projection_, r.x1, r.y0, r.y1) - flow(projection_, r.x0, r.y0, r.y1) +
-      flow(projection_, r.y1, r.x0, r.x1) - flow(projection_, r.y0, r.x0, r.x1);
+      flow(projection_, disc.x1, disc.y0, disc.y1) - flow(projection_, disc.x0, disc.y0, disc.y1) +
+      flow(projection_, disc.y1, disc.x0, disc.x1) - flow(projection_, disc.y0, disc.x0, disc.x1);
   // On the rim the field is radial, of length G(1) = 2.
-  return std::max(0.0, through_edges + 2.0 * arc_inside_rad(r));
+  return std::max(0.0, through_edges + 2.0 * arc_inside_rad(disc));
 }
 
 double ProbeMap::solid_angle_sr(const ImageRect& rect) const {

@@ -31,8 +31,8 @@ struct ProbeLight {
   }
 };
 
-// Pixels so bright that each outshines a share of all the rest (the sun, a lamp) stand apart: they
-// throw shadow edges that are worth finding one by one. What remains is the sky.
+// Pixels so bright that each outshines a share of all the rest (the sun, a lamp) are kept apart:
+// they throw shadow edges that are worth finding one by one. What remains is the sky.
 class ProbeTree {
  public:
   struct Options {

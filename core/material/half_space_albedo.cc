@@ -93,16 +93,19 @@ void require(bool holds, double albedo, double cosine) {
 
 }  // namespace
 
-double half_space_albedo(double albedo) {
-  require(albedo >= 0.0 && albedo <= 1.0, albedo, 1.0);
-  const HFunction h(albedo);
+double half_space_albedo(double single_scattering_albedo) {
+  require(single_scattering_albedo >= 0.0 && single_scattering_albedo <= 1.0,
+          single_scattering_albedo, 1.0);
+  const HFunction h(single_scattering_albedo);
   return 1.0 - 2.0 * h.root() * h.first_moment();
 }
 
-double half_space_albedo(double albedo, double cosine) {
-  require(albedo >= 0.0 && albedo <= 1.0 && cosine > 0.0 && cosine <= 1.0, albedo, cosine);
-  const HFunction h(albedo);
-  return 1.0 - h.root() * h.at(cosine);
+double half_space_albedo(double single_scattering_albedo, double cos_incidence) {
+  require(single_scattering_albedo >= 0.0 && single_scattering_albedo <= 1.0 &&
+              cos_incidence > 0.0 && cos_incidence <= 1.0,
+          single_scattering_albedo, cos_incidence);
+  const HFunction h(single_scattering_albedo);
+  return 1.0 - h.root() * h.at(cos_incidence);
 }
 
 }  // namespace scattermeter

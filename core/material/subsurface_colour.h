@@ -26,7 +26,7 @@ const ColourFit& openpbr_colour();
 // an albedo of 0.95, but darker by 0.010 at 0.99, 0.034 at 0.999 and 0.062 at 0.9999 (test).
 const ColourFit& cycles_colour();
 
-// Colour less half_space_albedo(albedo): what the fit says too much.
+// Colour less half_space_albedo(albedo): the excess of the fit.
 double colour_error(const ColourFit& fit, double albedo);
 
 // Cycles' random walk takes 1 / sigma_t' as radius / (4 pi) (intern/cycles/kernel/closure/bssrdf.h,

@@ -23,26 +23,26 @@ struct Side {
 
 }  // namespace
 
-bool is_convex(const TriangleMesh& repeated) {
-  const TriangleMesh mesh = merge_equal_vertices(repeated);
-  const double rise_mm = kFlat * bounds(mesh).size_mm().maxCoeff();
+bool is_convex(const TriangleMesh& mesh) {
+  const TriangleMesh welded = merge_equal_vertices(mesh);
+  const double rise_mm = kFlat * bounds(welded).size_mm().maxCoeff();
   std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    const auto& t = mesh.triangles[f];
+  sides.reserve(3 * welded.triangles.size());
+  for (std::size_t f = 0; f < welded.triangles.size(); ++f) {
+    const auto& t = welded.triangles[f];
     for (std::size_t i = 0; i < 3; ++i) {
       sides.push_back({std::minmax(t[i], t[(i + 1) % 3]), static_cast<int>(f), t[(i + 2) % 3]});
     }
   }
   std::sort(sides.begin(), sides.end(),
             [](const Side& a, const Side& b) { return a.edge < b.edge; });
-  DisjointSets pieces(mesh.triangles.size());
+  DisjointSets pieces(welded.triangles.size());
   for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
     const Side& a = sides[i];
     const Side& b = sides[i + 1];
-    const Eigen::Vector3d normal = area_vector_mm2(mesh, a.facet).normalized();
-    const Eigen::Vector3d up = mesh.vertices_mm[static_cast<std::size_t>(b.apex)] -
-                               mesh.vertices_mm[static_cast<std::size_t>(a.edge.first)];
+    const Eigen::Vector3d normal = area_vector_mm2(welded, a.facet).normalized();
+    const Eigen::Vector3d up = welded.vertices_mm[static_cast<std::size_t>(b.apex)] -
+                               welded.vertices_mm[static_cast<std::size_t>(a.edge.first)];
     if (normal.dot(up) > rise_mm) return false;
     pieces.join(a.facet, b.facet);
   }

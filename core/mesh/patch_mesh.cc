@@ -38,7 +38,7 @@ PatchMesh::PatchMesh(const TriangleMesh& mesh, double size_mm, std::size_t max_p
     if (is_new) vertices_mm_.push_back(0.5 * (vertices_mm_[key.first] + vertices_mm_[key.second]));
     return it->second;
   };
-  // Facet by facet, depth first: the patches of a facet stand together, neighbours near each other.
+  // Facet by facet, depth first: the patches of a facet are contiguous, neighbours near each other.
   for (int f = 0; f < n_facets; ++f) {
     open.push_back({f, f, mesh.triangles[static_cast<std::size_t>(f)]});
     while (!open.empty()) {
@@ -101,7 +101,7 @@ PatchPoint PatchMesh::locate(int facet, const Eigen::Vector3d& barycentric) cons
     const double wc = w[kOthers[apex][1]];
     // With m = (b + c) / 2:  wa a + wb b + wc c = wa a + (wb - wc) b + 2 wc m
     //                                           = wa a + 2 wb m + (wc - wb) c.
-    // Without a branch, which would be foretold wrongly half of the time.
+    // Without a branch, which would be mispredicted half of the time.
     const int second = wb < wc ? 1 : 0;
     w[0] = wa;
     w[1 + second] = std::abs(wb - wc);

@@ -46,7 +46,7 @@ class PatchMesh {
 
  private:
   // A triangle of the bisection tree. A leaf has child < 0 and is patch -child - 1. An inner node
-  // was cut from corner `apex` to the middle m of the opposite edge (b, c); its children stand one
+  // was cut from corner `apex` to the middle m of the opposite edge (b, c); its children are one
   // after the other: (apex, b, m) and (apex, m, c).
   struct Node {
     std::int32_t child;

@@ -29,7 +29,7 @@ struct EdgePiece {
 
 struct VisibleEdgesOptions {
   double step_rad = 0.004;  // longest piece, as seen, > 0
-  // This far from the piece on both sides, as seen, there is nothing else than what the kind says:
+  // This far from the piece on both sides, as seen, there is only what the kind states:
   // no other edge, no background, no part before it. 0: pieces up to the very corners.
   double clearance_rad = 0.0;
   double crease_rad = 0.3;  // normals that differ by less belong to one smooth surface

@@ -29,7 +29,7 @@ class LitObjects {
   // c_k of one light on one object, for a channel 0 .. channels() - 1 of the light; computed at the
   // first call. Throws InputError when an LED reaches no part of the object. Not for several
   // threads at once.
-  const IncidentLight& light(const std::string& object, const std::string& light,
+  const IncidentLight& light(const std::string& object, const std::string& name,
                              std::size_t channel);
   // The same on other patches of the object or for another eta; kept, too.
   const IncidentLight& light_on(const std::string& object, const SceneLight& light,

@@ -28,11 +28,11 @@ using ObjectScenes = std::map<std::string, ObjectScene>;
 // InputError naming line, object, mesh file and what is wrong: open, inside out, in metres.
 ObjectScene object_scene(const Scene& scene, const SceneObject& object, const TriangleMesh& mesh);
 
-// Throws InputError where a light of a shot stands inside the object that it lights.
+// Throws InputError where a light of a shot is inside the object that it lights.
 void require_lights_outside(const Scene& scene, const ObjectScenes& objects);
 
 // Throws InputError when an object lies behind the camera, around it, or outside its frame.
 void require_in_view(const Scene& scene, const ObjectScenes& objects, const CameraView& view,
-                     const std::string& object);
+                     const std::string& name);
 
 }  // namespace scattermeter

@@ -40,7 +40,7 @@ HWY_INLINE VI cell_of(V distance, float per_unit) {
 // Clusters in lanes; distances of their centres from that of the region, and of the rows that are
 // nearest and farthest, without and (squared) with the nearest pole.
 struct ClusterLanes {
-  VI at;    // where the traits stand, in floats
+  VI at;    // where the traits are, in floats
   VI last;  // highest of the series that may be summed
   V radius, center, low, high, nearest2;
 };

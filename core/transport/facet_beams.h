@@ -81,7 +81,7 @@ class FacetBeams {
     Eigen::Vector3d axis;  // zero where the directions fill half a sphere or more: no cone
     double sin_half;
     double cos2_half;
-    int first;  // of two children that stand together; a leaf: -facet - 1
+    int first;  // of two adjacent children; a leaf: -facet - 1
     bool may_hold(const Eigen::Vector3d& x, double within_mm) const {
       const Eigen::Vector3d v = x - center;
       const double v2 = v.squaredNorm();

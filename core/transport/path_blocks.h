@@ -20,7 +20,7 @@ void run_in_order(int first, int end, const std::function<std::shared_ptr<void>(
 
 // Calls work(i), which appends to a vector, for first <= i < end, each with one of the peers, and
 // merge(i, numbers) one after the other, in the order of i, with all of them. Every call appends as
-// many. `task` tells the peers apart that are at something else.
+// many. `task` distinguishes peers that work on something else.
 void share_in_order(PathPeers& peers, std::uint64_t task, int first, int end,
                     const std::function<void(int, std::vector<double>&)>& work,
                     const std::function<void(int, const double*)>& merge);

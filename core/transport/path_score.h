@@ -1,4 +1,4 @@
-// What a path tells of itself.
+// What a path records of itself.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What one shot says about each visible patch.
+// What one shot shows of each visible patch.
 #pragma once
 
 #include <array>
@@ -10,15 +10,15 @@
 
 namespace scattermeter {
 
-// Why a patch has no say in a channel.
+// Why a patch takes no part in a channel.
 enum class RowState : unsigned char {
   kUsed = 0,
   kNoSamples,  // no sample of the channel falls on it
   kClipped,    // at least one of its samples is clipped
   kFloor,      // so dark that the camera cuts its noise off at zero
   kMirror,     // mirrors a light into the camera
-  kNoise,      // its expected light does not stand out of the noise
-  kOutlier,    // far from what all others say: dust, a scratch, a mark
+  kNoise,      // its expected light does not exceed the noise
+  kOutlier,    // far from what all others show: dust, a scratch, a mark
   kEdge,       // beside a silhouette, a step or a crease, for a model of whole patches
 };
 inline constexpr std::size_t kRowStates = 8;

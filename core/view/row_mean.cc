@@ -22,13 +22,14 @@ Monomials moved(const Monomials& mean, const Eigen::Vector2i& by_px) {
   return out;
 }
 
-void RowSum::add(const Monomials& p, double value, double variance) {
-  moments_.head<6>() += p;
-  const double x = p[1], y = p[2], xx = p[3], xy = p[4], yy = p[5];
+void RowSum::add(const Monomials& from_origin, double value, double variance) {
+  moments_.head<6>() += from_origin;
+  const double x = from_origin[1], y = from_origin[2], xx = from_origin[3], xy = from_origin[4],
+               yy = from_origin[5];
   moments_.tail<9>() += (Eigen::Matrix<double, 9, 1>() << x * xx, y * xx, x * yy, y * yy, xx * xx,
                          xx * xy, xx * yy, xy * yy, yy * yy)
                             .finished();
-  value_ += value * p;
+  value_ += value * from_origin;
   variance_ += variance;
 }
 

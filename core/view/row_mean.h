@@ -1,4 +1,4 @@
-// The mean of one channel over a patch, from samples that stand elsewhere than those of the others.
+// The mean of one channel over a patch, from samples that are elsewhere than those of the others.
 #pragma once
 
 #include <cstdint>
@@ -55,11 +55,11 @@ class RowFit {
   void add_neighbour(const RowSum& neighbour, const Eigen::Vector2i& shift_px);
 
   // Mean over places whose mean monomials, from the row's origin, are given: the plain mean of the
-  // own samples, and what the fit says they lie off it.
+  // own samples, and by how much the fit has them differ from it.
   RowMean mean_over(const Monomials& target) const;
 
  private:
-  // By the first `kTerms` monomials; false: they are not to be told apart, or cost too much noise.
+  // By the first `kTerms` monomials; false: they cannot be separated, or cost too much noise.
   template <int kTerms>
   bool fitted_mean(const Monomials& step, RowMean& mean) const;
 

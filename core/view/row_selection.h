@@ -1,4 +1,4 @@
-// Which patches take part, beyond what the samples themselves say.
+// Selection of the patches that take part, beyond what their samples decide.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace scattermeter {
 void leave_out(ChannelObservation& observation, std::size_t row, RowState reason);
 
 // Whether a smooth surface at `point_mm` mirrors a light at `light_mm` into the camera, within
-// `cone_rad` of the mirror direction. normal: unit, outwards. False where light or camera stand
+// `cone_rad` of the mirror direction. normal: unit, outwards. False where light or camera are
 // behind the surface.
 bool mirrors(const Eigen::Vector3d& point_mm, const Eigen::Vector3d& normal,
              const Eigen::Vector3d& camera_mm, const Eigen::Vector3d& light_mm, double cone_rad);

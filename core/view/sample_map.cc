@@ -83,7 +83,7 @@ class Mapper {
     return true;
   }
 
-  // Area of surface that one sample stands for, mm^2: its solid angle at its distance and slant.
+  // Area of surface that one sample represents, mm^2: its solid angle at its distance and slant.
   double footprint_mm2(int x, int y) const {
     const std::size_t i = index(x, y);
     const auto direction = [&](int xx, int yy) {

@@ -31,7 +31,7 @@ TEST(PaperMethod, TakesTheBestOfAllWidths) {
         },
         weights);
     const MaterialChannel& channel = run.estimation.channels[0];
-    const PaperAnswer own = solve_paper(
+    const PaperEstimate own = solve_paper(
         channel_system(cube.scene, channel, channel_rows(cube.scene, channel), weights, 0.0),
         width_mm, 1.3);
     EXPECT_GE(e.psnr_db, own.psnr_db - 1e-9) << width_mm;

@@ -27,7 +27,7 @@ TEST(PaperEstimator, FindsTheGridPointOfItsOwnImage) {
   for (int i = 0; i < bins.size(); ++i) r[i] = truth.reflectance_per_mm2(bins.knot_mm(i));
   system.l = system.weights * r;
   system.std_l = Eigen::VectorXd::Constant(system.l.size(), 1e-4 * system.l.maxCoeff());
-  const PaperAnswer answer = solve_paper(system, width, 1.3);
+  const PaperEstimate answer = solve_paper(system, width, 1.3);
   EXPECT_NEAR(answer.sigma_s_prime_per_mm, 1.37, 1e-9);
   EXPECT_NEAR(answer.sigma_a_per_mm, 0.006, 1e-9);
   EXPECT_GT(answer.psnr_db, 100.0);
@@ -54,7 +54,7 @@ TEST(PaperEstimator, PseudoInverseIsTheMinimumNormSolution) {
 TEST(PaperEstimator, RecoveredReflectanceExplainsAnImageFromOutside) {
   const test_support::HalfLitPlate plate(0.5);
   const Eigen::VectorXd l = plate.image(Dipole({2.19, 0.002, 1.3}));
-  std::vector<PaperAnswer> answers;
+  std::vector<PaperEstimate> answers;
   for (double width : {0.2, 0.5}) {
     const UniformBins bins(width, 43.0);
     PairSumOptions options;
@@ -71,8 +71,8 @@ TEST(PaperEstimator, RecoveredReflectanceExplainsAnImageFromOutside) {
   EXPECT_GE(e.psnr_db, std::max(answers[0].psnr_db, answers[1].psnr_db));
 }
 
-PaperAnswer answer(double s, double a, double psnr) {
-  PaperAnswer out;
+PaperEstimate answer(double s, double a, double psnr) {
+  PaperEstimate out;
   out.sigma_s_prime_per_mm = s;
   out.sigma_a_per_mm = a;
   out.psnr_db = psnr;

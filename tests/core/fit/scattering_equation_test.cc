@@ -257,16 +257,15 @@ TEST(ScatteringEquation, DoubtsAScale) {
       }
     }
   }
-  // Free, there is nothing to test.
+  // A free scale leaves nothing to test.
   const ScatteringEquation free(system_of(truth.l, kNoise),
                                 {std::numeric_limits<double>::infinity()}, pilot, at);
   EXPECT_EQ(free.scale_form().size(), 0);
   EXPECT_EQ(free.scale_test(truth.l, 0.0, 1.0).p_value, 1.0);
 }
 
-// The scale's place in the step: where it is significant, the answer is as far out as it would
-// move.
-TEST(ScatteringEquation, DoubtedScaleWidens) {
+// An offset of the scale widens the step by as much as it would move the estimate.
+TEST(ScatteringEquation, ContradictedScaleWidens) {
   const ScatteringImage truth = image_of(2.0, 0.01);
   const ScatteringPoint at{2.0, 0.01, 1.0};
   const DenseSystem system = system_of(truth.l, 1e-3);
@@ -281,7 +280,7 @@ TEST(ScatteringEquation, DoubtedScaleWidens) {
     EXPECT_NEAR(step.covariance(k, k), before(k, k) + moved[k] * moved[k],
                 1e-6 * step.covariance(k, k));
   }
-  EXPECT_EQ(step.causes.back().name, "significant scale");
+  EXPECT_EQ(step.causes.back().name, "doubted scale");
 }
 
 }  // namespace

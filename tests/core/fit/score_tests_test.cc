@@ -84,7 +84,7 @@ TEST(ScoreTests, MeasuresWhatIsOff) {
             1.0);
 }
 
-// A declared error of the method that looks like the scale is no reason to doubt the scale.
+// A declared error of the method that looks like the scale is no evidence against the scale.
 TEST(ScoreTests, ForgivesWhatANuisanceExplains) {
   DenseSystem system = noisy_system(tested_plate().w, 1.03 * tested_plate().l, 0.002, 1);
   system.nuisances = {{"method", 0.03, false}};
