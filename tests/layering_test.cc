@@ -205,8 +205,6 @@ TEST(Layering, TopLevelHoldsWhatItShould) {
 // road run them. The list may only shrink. So are those of apps.
 const std::set<std::string>& tested_by_the_road() {
   static const std::set<std::string> names = {
-      "calib/led/led_check",
-      "calib/led/led_shots",
       "calib/pose/shot_pose",
       "core/estimation/channel_image",
       "core/estimation/channel_result",
