@@ -226,8 +226,6 @@ const std::set<std::string>& tested_by_the_road() {
       "apps/planning/shot_forecaster",
       "apps/program/main",
       "apps/program/ranks",
-      "calib/led/led_check",
-      "calib/led/led_shots",
       "calib/pose/shot_pose",
   };
   return names;

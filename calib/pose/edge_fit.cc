@@ -183,7 +183,7 @@ EdgeLines lines_to_fit(const std::vector<EdgePoint>& points, bool robust) {
 }
 
 // Inverse of J^T J at the problem's present values.
-Eigen::MatrixXd covariance_at(ceres::Problem& least_squares) {
+Eigen::MatrixXd inverse_information(ceres::Problem& least_squares) {
   ceres::CRSMatrix sparse;
   double cost = 0;
   least_squares.Evaluate({}, &cost, nullptr, nullptr, &sparse);
@@ -281,7 +281,7 @@ EdgeFit fit_edges(const std::vector<EdgePoint>& points, const CameraIntrinsics& 
   ceres::Solve(solver, &least_squares, &summary);
   out.chi2 = 2 * summary.final_cost;
   out.value = problem.all(values.data());
-  const Eigen::MatrixXd covariance = covariance_at(least_squares);
+  const Eigen::MatrixXd covariance = inverse_information(least_squares);
   out.converged =
       summary.IsSolutionUsable() && covariance.allFinite() && covariance.diagonal().minCoeff() > 0;
   out.covariance(options.free, options.free) = covariance;

@@ -11,7 +11,7 @@ namespace {
 
 // One view, no sphere, no exposure but the spare one: 9 unknowns of the LED, 3 ambient, 6 + 1 + 1
 // nuisances.
-constexpr Eigen::Index kSize = kLedParameters + 3 + 8;
+constexpr Eigen::Index kUnknowns = kLedParameters + 3 + 8;
 
 struct Problem {
   LedScene scene;
@@ -30,8 +30,8 @@ Problem diagonal_problem() {
   p.what.free.fill(true);
   p.what.free_ambient = {true};
   p.solution.nuisances_at = kLedParameters + 3;
-  p.solution.highlight_information = Eigen::MatrixXd::Zero(kSize, kSize);
-  p.solution.cell_information = Eigen::MatrixXd::Zero(kSize, kSize);
+  p.solution.highlight_information = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+  p.solution.cell_information = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
   for (Eigen::Index i = 0; i < 3; ++i) p.solution.highlight_information(i, i) = 100.0;
   for (Eigen::Index i = 3; i < kLedParameters + 3; ++i) p.solution.cell_information(i, i) = 1e4;
   p.solution.tangents = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
@@ -49,7 +49,7 @@ TEST(LedCovariance, IsTheInverseOfTheInflatedInformation) {
   // Channel 1 alone has a cell; nuisances keep their priors.
   EXPECT_EQ(found.covariance(kLedParameters, kLedParameters), 0.0);
   EXPECT_NEAR(found.covariance(kLedParameters + 1, kLedParameters + 1), 9e-4, 1e-16);
-  for (Eigen::Index i = p.solution.nuisances_at; i < kSize; ++i) {
+  for (Eigen::Index i = p.solution.nuisances_at; i < kUnknowns; ++i) {
     EXPECT_NEAR(found.covariance(i, i), 1.0, 1e-14);
   }
 }
@@ -57,10 +57,10 @@ TEST(LedCovariance, IsTheInverseOfTheInflatedInformation) {
 // Power and albedo act alike: their sum is measured, and the albedo's prior bounds the power.
 TEST(LedCovariance, TheAlbedosPriorBoundsThePower) {
   Problem p = diagonal_problem();
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(kSize);
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(kUnknowns);
   const double albedo_std = 0.02;
   row[kLedLogIntensity] = 100.0;
-  row[kSize - 1] = 100.0 * albedo_std;
+  row[kUnknowns - 1] = 100.0 * albedo_std;
   p.solution.cell_information(kLedLogIntensity, kLedLogIntensity) = 0.0;
   p.solution.cell_information += row * row.transpose();
   const LedCovariance found = led_covariance(p.scene, p.what, p.solution, 1.0, 1.0);
@@ -74,7 +74,7 @@ TEST(LedCovariance, TheAlbedosPriorBoundsThePower) {
 TEST(LedCovariance, NamesWhatTheDataLeaveOpen) {
   Problem p = diagonal_problem();
   // Exponent and power of the first channel only as their sum.
-  Eigen::VectorXd row = Eigen::VectorXd::Zero(kSize);
+  Eigen::VectorXd row = Eigen::VectorXd::Zero(kUnknowns);
   row[kLedExponent] = row[kLedLogIntensity] = 100.0;
   for (const Eigen::Index i : {kLedExponent, kLedLogIntensity}) {
     p.solution.cell_information(i, i) = 0.0;
@@ -107,7 +107,7 @@ TEST(LedCovariance, TangentsFollowTheAxis) {
   Led led;
   led.axis = Eigen::Vector3d(0.01, 0.02, -1).normalized();
   const LedUncertainty u =
-      led_uncertainty(Eigen::MatrixXd::Identity(kSize, kSize), p.solution, led, false);
+      led_uncertainty(Eigen::MatrixXd::Identity(kUnknowns, kUnknowns), p.solution, led, false);
   EXPECT_NEAR(u.tangents[0].dot(led.axis), 0.0, 1e-15);
   EXPECT_NEAR(u.tangents[1].dot(led.axis), 0.0, 1e-15);
   EXPECT_NEAR(u.tangents[0].dot(u.tangents[1]), 0.0, 1e-15);

@@ -48,11 +48,8 @@ TEST_F(CoarseTurnTest, LeavesARightPoseAlone) {
   EXPECT_LT(pose_error(*found, cube_view()).head<3>().norm(), 2.0 / 620);
 }
 
-TEST_F(CoarseTurnTest, FindsNothingInTheDarkOrBeyondTheSearch) {
+TEST_F(CoarseTurnTest, FindsNothingInTheDark) {
   EXPECT_FALSE(turn_coarsely(shot(cube_view(), 0), small_lens(), cube_view(), 0.06));
-  const Rigid3d away{Eigen::Quaterniond(Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitY())),
-                     Eigen::Vector3d::Zero()};
-  EXPECT_FALSE(turn_coarsely(shot(away * cube_view(), 1000), small_lens(), cube_view(), 0.02));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 // The definition by quadrature: t^k cut at 0, blurred, and averaged over the pixel's square.
 double by_quadrature(int k, const Eigen::Vector2d& normal, double blur, double t) {
-  constexpr int kSide = 60, kBlur = 400;
+  constexpr int kSide = 24, kBlur = 400;
   double sum = 0;
   for (int i = 0; i < kSide; ++i) {
     for (int j = 0; j < kSide; ++j) {

@@ -1,8 +1,8 @@
 #include "calib/pose/strip_fit.h"
 
 #include <cmath>
-#include <limits>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 namespace scattermeter::calib {

@@ -32,7 +32,7 @@ Scene bracket_scene() {
 }
 
 // Light that grows by 100 counts a second from column to column, over black 64 and without noise.
-RawFrame ramp(double exposure_s) {
+RawFrame ramp_frame(double exposure_s) {
   RawFrame frame;
   frame.width_px = frame.height_px = kSide;
   frame.black_counts.fill(64.0);
@@ -59,8 +59,8 @@ ShotSamples samples_of(const std::vector<RawFrame>& frames, const ShotDecoding& 
 }
 
 TEST(ShotSamples, OfOneExposureAreItsLinearSamples) {
-  const ShotSamples one = samples_of({ramp(2.0)});
-  const CfaSamples plain = linear_samples(ramp(2.0), {5.0, 2.0}, 2.0, 2, 4, 20, 10);
+  const ShotSamples one = samples_of({ramp_frame(2.0)});
+  const CfaSamples plain = linear_samples(ramp_frame(2.0), {5.0, 2.0}, 2.0, 2, 4, 20, 10);
   EXPECT_EQ(one.samples.signal_counts, plain.signal_counts);
   EXPECT_EQ(one.samples.variance_counts2, plain.variance_counts2);
   EXPECT_EQ(one.samples.exposure_s, 2.0);
@@ -73,7 +73,7 @@ TEST(ShotSamples, OfOneExposureAreItsLinearSamples) {
 
 // Of 4 s and 1 s, where the long one clips from column 10 on: everywhere in counts of the long one.
 TEST(ShotSamples, ABracketIsInCountsOfItsFirstExposure) {
-  const ShotSamples merged = samples_of({ramp(4.0), ramp(1.0)});
+  const ShotSamples merged = samples_of({ramp_frame(4.0), ramp_frame(1.0)});
   EXPECT_EQ(merged.samples.exposure_s, 4.0);
   for (int x = 0; x < 20; ++x) {
     const auto i = static_cast<std::size_t>(x);
@@ -87,9 +87,9 @@ TEST(ShotSamples, ABracketIsInCountsOfItsFirstExposure) {
 
 // A short exposure that is in truth 10 % longer than stated shows as a departure.
 TEST(ShotSamples, ADepartureIsTheLogOfTheRatio) {
-  RawFrame off = ramp(1.1);
+  RawFrame off = ramp_frame(1.1);
   off.exposure_s = 1.0;
-  const ShotSamples merged = samples_of({ramp(2.0), off});
+  const ShotSamples merged = samples_of({ramp_frame(2.0), off});
   EXPECT_NEAR(merged.exposures[1].departure.log_ratio, std::log(1.1), 1e-6);
   EXPECT_NEAR(merged.exposures[0].departure.log_ratio, -std::log(1.1), 1e-6);
 }
@@ -102,9 +102,9 @@ TEST(ShotSamples, ACalibrationsTrueTimesCount) {
   c.noise.fill({5.0, 2.0});
   c.vignetting = vignetting_of_frame(kSide, kSide);
   c.shutter = {{1.0, 1.1, 0.001}};
-  RawFrame off = ramp(1.1);
+  RawFrame off = ramp_frame(1.1);
   off.exposure_s = 1.0;
-  const ShotSamples merged = samples_of({ramp(2.0), off}, {calibration, "", 400});
+  const ShotSamples merged = samples_of({ramp_frame(2.0), off}, {calibration, "", 400});
   EXPECT_DOUBLE_EQ(merged.exposures[1].true_s, 1.1);
   EXPECT_EQ(merged.exposures[1].relative_std, 0.001);
   EXPECT_NEAR(merged.exposures[1].departure.log_ratio, 0.0, 1e-6);
@@ -114,10 +114,10 @@ TEST(ShotSamples, ACalibrationsTrueTimesCount) {
 
 TEST(ShotSamples, RefusesABracketOfDifferentShots) {
   const auto refusal = [](const auto& change) {
-    RawFrame other = ramp(1.0);
+    RawFrame other = ramp_frame(1.0);
     change(other);
     try {
-      samples_of({ramp(2.0), other});
+      samples_of({ramp_frame(2.0), other});
     } catch (const InputError& e) {
       return std::string(e.what());
     }
@@ -137,7 +137,7 @@ TEST(ShotSamples, RefusesABracketOfDifferentShots) {
 
 TEST(ShotSamples, NeedsAFrameForEachFile) {
   const Scene scene = bracket_scene();
-  EXPECT_THROW(shot_samples(scene, {}, scene.shots[0], {ramp(1.0)}, {"a"}, 0, 0, 2, 2),
+  EXPECT_THROW(shot_samples(scene, {}, scene.shots[0], {ramp_frame(1.0)}, {"a"}, 0, 0, 2, 2),
                std::invalid_argument);
 }
 
