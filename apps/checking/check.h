@@ -51,8 +51,8 @@ const std::vector<Check>& checks();
 // Runs every check on the shots of the rig.
 CheckReport check_report(const CheckedRig& checked);
 
-// Opens the shots, runs every check and reports. Throws InputError for anything that measure() would
-// refuse to read, and Cancelled if `progress` does.
+// Opens the shots, runs every check and reports. Throws InputError for anything that measure()
+// would refuse to read, and Cancelled if `progress` does.
 CheckReport check(const Rig& rig, const std::string& shots_folder, const CheckOptions& options = {},
                   Progress* progress = nullptr);
 

@@ -34,8 +34,8 @@ struct ReadResult {
   std::vector<ReadChannel> channels;  // in the file's order
 };
 
-// Throws InputError naming file, field and value for a file that cannot be read, is not JSON or not a
-// result: a field is missing or of another kind, a channel is given twice, a number is out of its
+// Throws InputError naming file, field and value for a file that cannot be read, is not JSON or not
+// a result: a field is missing or of another kind, a channel is given twice, a number is out of its
 // domain. Ignores all other fields.
 ReadResult read_result(const std::string& path);
 
@@ -47,9 +47,9 @@ struct MeasuredMaterial {
   bool refused() const { return rgb[0].refused || rgb[1].refused || rgb[2].refused; }
 };
 
-// The materials in the order of their first channel, only those of `names` unless it is empty. Throws
-// InputError for a name that is not in the result, for a material without one of R, G, B and for
-// channels with different eta.
+// The materials in the order of their first channel, only those of `names` unless it is empty.
+// Throws InputError for a name that is not in the result, for a material without one of R, G, B and
+// for channels with different eta.
 std::vector<MeasuredMaterial> materials_of(const ReadResult& result,
                                            const std::vector<std::string>& names = {});
 

@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/bench/estimate_statistics.h"
 #include "apps/bench/bench_noise.h"
 #include "apps/bench/bench_rig.h"
 #include "apps/bench/bench_transport.h"
+#include "apps/bench/estimate_statistics.h"
 #include "apps/bench/pull_plot.h"
 #include "apps/instrument/open_objects.h"
 #include "apps/simulation/bodies_rig.h"
