@@ -9,6 +9,7 @@
 #include "apps/bench/bench_plan.h"
 #include "capture/sensor/radiance_calibration.h"
 #include "tests/fixtures/apps/body_rig.h"
+#include "tests/fixtures/apps/made_plan.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -77,6 +78,48 @@ TEST(Plan, RadianceCalibrationWithoutItsCamera) {
   // A camera that has what is corrected stays as it is.
   rig.truth.sensor.veiling_glare = 0.02;
   EXPECT_EQ(planned_rig(rig).decoding.radiance, rig.decoding.radiance);
+}
+
+TEST(Plan, KnownCausesTakeTheirLineOut) {
+  Estimate e;
+  e.sigma_s_prime_per_mm.std = 5.0;
+  e.sigma_a_per_mm.std = 5.0;
+  e.budget = {{"noise", 1.0, 1.0}, {"pose", 3.0, 3.0}, {"scale", 0.0, 4.0}, {"numerics", 1.0, 1.0}};
+  const std::vector<KnownCause> known = known_causes(e);
+  ASSERT_EQ(known.size(), 2U);
+  EXPECT_EQ(known[0].cause, "scale");
+  EXPECT_DOUBLE_EQ(known[0].sigma_a_std_per_mm, 3.0);
+  EXPECT_DOUBLE_EQ(known[1].sigma_s_prime_std_per_mm, 4.0);
+}
+
+TEST(Plan, PercentAsText) {
+  EXPECT_EQ(percent_text(0.0251), "2.5 %");
+  EXPECT_EQ(percent_text(0.0994), "9.9 %");
+  EXPECT_EQ(percent_text(0.0996), "10 %");
+  EXPECT_EQ(percent_text(1.234), "123 %");
+  EXPECT_EQ(percent_text(std::nan("")), "–");
+  EXPECT_EQ(percent_text(RelativeRange{0.02, 0.035}), "2 … 3.5 %");
+  EXPECT_EQ(percent_text(RelativeRange{0.02, 0.0201}), "2 %");
+}
+
+// Over the expected medium and the corners, without those that give no estimate.
+TEST(Plan, RelativeRangeAndRefusals) {
+  Plan made = made_plan();
+  PlannedChannel& red = made.channels[0];
+  Forecast corner = red.expected;
+  corner.estimate.sigma_a_per_mm = normal_quantity(0.02, 0.002);
+  Forecast none = corner;
+  none.estimate.converged = false;
+  none.estimate.sigma_a_per_mm.std = 1e-6;
+  red.corners = {corner, none};
+  EXPECT_NEAR(relative_range(red, &Estimate::sigma_a_per_mm).low, 0.1, 1e-12);
+  EXPECT_NEAR(relative_range(red, &Estimate::sigma_a_per_mm).high, 0.5, 1e-12);
+  EXPECT_TRUE(std::isnan(relative_range(made.channels[1], &Estimate::sigma_a_per_mm).low));
+  EXPECT_TRUE(made.any_refused());  // green
+  made.channels.pop_back();
+  EXPECT_FALSE(made.any_refused());
+  red.corners[0].estimate.reasons = {"too dark"};
+  EXPECT_TRUE(made.any_refused());
 }
 
 }  // namespace

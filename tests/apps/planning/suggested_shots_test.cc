@@ -53,17 +53,5 @@ TEST(SuggestedShots, Help) {
   EXPECT_THAT(plan_page(made, "<script>"), ::testing::Not(HasSubstr("<script>")));
 }
 
-TEST(SuggestedShots, KnownCausesTakeTheirLineOut) {
-  Estimate e;
-  e.sigma_s_prime_per_mm.std = 5.0;
-  e.sigma_a_per_mm.std = 5.0;
-  e.budget = {{"noise", 1.0, 1.0}, {"pose", 3.0, 3.0}, {"scale", 0.0, 4.0}, {"numerics", 1.0, 1.0}};
-  const std::vector<KnownCause> known = known_causes(e);
-  ASSERT_EQ(known.size(), 2U);
-  EXPECT_EQ(known[0].cause, "scale");
-  EXPECT_DOUBLE_EQ(known[0].sigma_a_std_per_mm, 3.0);
-  EXPECT_DOUBLE_EQ(known[1].sigma_s_prime_std_per_mm, 4.0);
-}
-
 }  // namespace
 }  // namespace scattermeter::apps

@@ -114,7 +114,7 @@ TEST(RigLightReader, NamesWhatIsWrong) {
                             "intensity_W_per_sr: [0, 0, 0]"),
               HasSubstr("expected light in at least one channel"));
   EXPECT_THAT(light_refused(kLed + ", calibration: led.yaml"),
-              HasSubstr("position_mm: is given twice: here and by the calibration"));
+              HasSubstr("position_mm: is given twice"));
   EXPECT_THAT(light_refused("type: led, calibration: gone.yaml"), HasSubstr("a/gone.yaml"));
 }
 

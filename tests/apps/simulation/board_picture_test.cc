@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/camera/cfa_samples.h"
+#include "core/camera/cfa_pattern.h"
 #include "core/mesh/bodies.h"
 #include "tests/fixtures/apps/overhead_view.h"
 
@@ -25,11 +25,11 @@ TEST(BoardPicture, IsTheLightOnThePrint) {
   led.exponent = 2.0;
   led.intensity_W_per_sr = {1.0, 2.0, 3.0};
   const Eigen::Array3d ambient(1e-6, 2e-6, 5e-6);
-  const std::array<int, 4> channels = {0, 1, 1, 2};
+  const CfaPattern cfa = cfa_pattern_from_name("RGGB");
   const CameraView view = overhead_view(0, 0);
   const RayScene cube(cube_mesh());
   std::vector<float> picture(240U * 200U, 1e-9F);
-  add_board(view, board, {led}, ambient, cube, channels, picture);
+  add_board(view, board, {led}, ambient, cube, cfa, picture);
 
   const calib::CharucoPattern print(board);
   const auto ink = [&](const Eigen::Vector3d& p) {
@@ -68,7 +68,7 @@ TEST(BoardPicture, IsTheLightOnThePrint) {
       const double cos_led = -led.axis.dot(to_led.normalized());
       const double per_intensity =
           cos_led * cos_led * to_led.normalized().z() / to_led.squaredNorm();
-      const auto c = static_cast<Eigen::Index>(channels[cfa_phase(x, y)]);
+      const auto c = static_cast<Eigen::Index>(cfa.at(x, y));
       const double irradiance =
           ambient[c] + (shadow ? 0.0 : led.intensity_W_per_sr[c] * per_intensity);
       const double expected = irradiance / std::numbers::pi * (ink(p) > 0.5 ? 0.9 : 0.04);
@@ -89,7 +89,7 @@ TEST(BoardPicture, BehindTheCamera) {
   board.marker_mm = 14.0;
   board.world_from_board.translation_mm = {-50, -50, 500};
   std::vector<float> picture(240U * 200U, 0.0F);
-  add_board(overhead_view(0, 0), board, {}, {1, 1, 1}, RayScene(cube_mesh()), {0, 1, 1, 2},
+  add_board(overhead_view(0, 0), board, {}, {1, 1, 1}, RayScene(cube_mesh()), CfaPattern{},
             picture);
   EXPECT_EQ(picture, std::vector<float>(240U * 200U, 0.0F));
 }

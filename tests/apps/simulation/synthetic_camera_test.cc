@@ -11,7 +11,7 @@ namespace scattermeter::apps {
 namespace {
 
 // As wide at the body, whatever the number of pixels.
-TEST(Studio, TheFrameIsOfOneSize) {
+TEST(SyntheticCamera, TheFrameIsOfOneSize) {
   for (const int width : {240, 969, 3872}) {
     Rig rig;
     set_up_camera(rig, width);
@@ -28,7 +28,7 @@ TEST(Studio, TheFrameIsOfOneSize) {
 }
 
 // A step of one pixel at the origin, at right angles to the line of sight, is pixel_mm.
-TEST(Studio, PixelOfTheOrigin) {
+TEST(SyntheticCamera, PixelOfTheOrigin) {
   Rig rig;
   set_up_camera(rig, 3872);
   rig.scene.camera.intrinsics.distortion.clear();
@@ -39,7 +39,7 @@ TEST(Studio, PixelOfTheOrigin) {
   EXPECT_NEAR((px[1] - px[0]).norm(), 1.0, 1e-9);
 }
 
-TEST(Studio, ThePointsGiveThePose) {
+TEST(SyntheticCamera, ThePointsGiveThePose) {
   Rig rig;
   set_up_camera(rig, 968);
   const PoseResult pose = calib::pose_from_points(rig.scene, rig.pose);
@@ -50,8 +50,8 @@ TEST(Studio, ThePointsGiveThePose) {
   EXPECT_EQ(rig.scene.camera.responsivity_relative_std, 0.0);
 }
 
-TEST(Studio, Led) {
-  const SceneLight light = studio_led("lamp", {30, -60, 80}, {0, 3, -4});
+TEST(SyntheticCamera, Led) {
+  const SceneLight light = synthetic_led("lamp", {30, -60, 80}, {0, 3, -4});
   EXPECT_EQ(light.name, "lamp");
   ASSERT_NE(light.led(), nullptr);
   EXPECT_EQ(light.led()->led.position_mm, Eigen::Vector3d(30, -60, 80));
