@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/simulation/sphere_painter.h"
 #include "tests/fixtures/apps/overhead_view.h"
 
 namespace scattermeter::apps {
