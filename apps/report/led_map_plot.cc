@@ -79,6 +79,7 @@ PagePlot led_map_plot(const SuggestedShots& shots, const LedMap& map, bool joine
       most = std::max(most, value);
     }
   }
+  if (cells.value.empty()) least = most = 1.0;  // nothing to colour
   PlotSeries horizon{"", PlotSeries::Style::kDashedLine, {}, {}, {}, 6};
   for (int k = 0; k <= 72; ++k) {
     horizon.x.push_back(90.0 * std::cos(k * std::numbers::pi / 36.0));

@@ -45,7 +45,7 @@ std::vector<calib::RadianceShot> own_shots(const YamlField& field) {
   const auto file = field.find("file");
   if (shots.has_value() == file.has_value()) field.fail("expected either file or shots");
   if (shots) {
-    if (const auto f = field.find("exposure_s")) f->fail("belongs into each entry of shots");
+    if (const auto f = field.find("exposure_s")) f->fail("belongs in each entry of shots");
     return radiance_shots(*shots);
   }
   calib::RadianceShot shot = radiance_shot(*file);
