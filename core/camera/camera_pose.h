@@ -48,7 +48,7 @@ using PosePerLens = Eigen::Matrix<double, 6, kLensParameters>;
 
 struct PoseResult {
   PoseStatus status = PoseStatus::kTooFewPoints;
-  std::string message;  // one or two sentences: what is wrong and what to do; "" if ok
+  std::string message;  // what is wrong and what to do; "" if ok
   // From here on: the best pose found, for inspection, where status is kOk, kIllConditioned or
   // kPlanarAmbiguity; otherwise NaN, with all pairs outliers.
   Rigid3d camera_from_world;

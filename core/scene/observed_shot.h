@@ -27,10 +27,9 @@ struct ExposureDeparture {
 
 // One exposure of a shot.
 struct ShotExposure {
-  std::string file;     // as in the scene
-  double stated_s = 0;  // from the file
-  double true_s =
-      0;  // from the radiance calibration; without one the stated time is taken as exact
+  std::string file;                  // as in the scene
+  double stated_s = 0;               // from the file
+  double true_s = 0;                 // calibrated; without a calibration stated_s
   double relative_std = 0;           // of true_s
   double black_std_counts = 0;       // of this file's black level, common to its samples
   ExposureDeparture departure = {};  // in a bracket
@@ -50,9 +49,8 @@ struct ObservedShot : DecodedShot {
   const SceneShot* stated = nullptr;
   std::shared_ptr<const SeenObject> seen;
   PoseResult pose;
-  bool has_own_pose = false;  // estimated from this shot alone; otherwise common to all shots
-  std::size_t samples_outside =
-      0;  // samples of the frames outside every object's rectangle, not converted
+  bool has_own_pose = false;        // estimated from this shot alone; otherwise common to all shots
+  std::size_t samples_outside = 0;  // in no object's rectangle: not converted
 };
 
 }  // namespace scattermeter

@@ -42,8 +42,7 @@ struct SceneCamera {
   // the same channel.
   std::array<double, kRgb> glare_std{};
   SceneSensor sensor;
-  std::optional<double>
-      exposure_s;  // for simulated shots; absent: chosen automatically so that nothing clips
+  std::optional<double> exposure_s;  // for simulated shots; absent: so that nothing clips
   int iso = 100;
   double f_number = 8.0;
 };

@@ -37,8 +37,7 @@ struct ChannelObservation {
   std::vector<double> l;         // per row, W/mm^2 for known responsivity, else up to one factor
   std::vector<double> variance;  // of l, from the samples' variances
   std::vector<double> variance_per_l;  // growth of the variance with l (photon noise), W/mm^2
-  std::vector<double>
-      l_per_count;  // change of l, W/mm^2, if every sample of the row had one count more
+  std::vector<double> l_per_count;     // change of l with one count more in every sample, W/mm^2
   std::vector<RowState> state;
   std::size_t rows_used = 0;
   std::size_t rows_clipped = 0;
