@@ -45,8 +45,7 @@ class ShadeMap {
 
   int x0_, y0_, width_, height_;
   std::vector<Point> centers_;
-  std::vector<std::int32_t>
-      block_of_pixel_;  // -1: the centre point suffices; else index of its points
+  std::vector<std::int32_t> block_of_pixel_;  // -1: centre only; else of its points
   std::vector<Point> blocks_;
 };
 
