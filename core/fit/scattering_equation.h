@@ -104,9 +104,9 @@ class ScatteringEquation {
   ScalePrior scale_;
   Eigen::VectorXd row_variance_;     // noise and Monte Carlo
   std::vector<std::string> causes_;  // of the nuisances
-  Eigen::MatrixXd nuisances_;  // columns times their standard deviations Eigen::MatrixXd columns_;
-                               // // those and the correlated ones
-  Eigen::MatrixXd capacitance_;  // of Woodbury's identity, inverted
+  Eigen::MatrixXd nuisances_;        // columns times their standard deviations
+  Eigen::MatrixXd columns_;          // those and the correlated ones
+  Eigen::MatrixXd capacitance_;      // of Woodbury's identity, inverted
   Eigen::MatrixXd projection_;
   Eigen::VectorXd relative_size_;  // of the image's change with each unknown
   Eigen::VectorXd per_log_scale_;  // scale * pilot.l

@@ -1,5 +1,4 @@
-// The diffuse reflectance r(d) of the material, recovered without the dipole: non-negative,
-// decreasing, smooth.
+// The diffuse reflectance r(d) without the dipole: non-negative, decreasing, smooth.
 #pragma once
 
 #include <cstddef>
