@@ -24,10 +24,9 @@ struct EstimateOptions {
   // Transport: maximum number of light paths of the last step for each light and view. If this
   // limit is reached before the time limit, the digits are the same on any machine.
   std::int64_t paths = 1'000'000'000;
-  double time_limit_s = 50;  // transport: per material and channel
-  bool keep_rows = false;    // fill ChannelResult::rows
-  bool without_noise =
-      false;  // the shots are expected values, free of their stated noise (dipole only)
+  double time_limit_s = 50;    // transport: per material and channel
+  bool keep_rows = false;      // fill ChannelResult::rows
+  bool without_noise = false;  // shots are noise-free expected values (dipole only)
 };
 
 // One method of estimation. To add one, add a row to the table in estimate.cc and a file.
