@@ -36,7 +36,7 @@ class ChannelSimulation {
   // A sample of paths for one medium; initially empty.
   struct Draw {
     std::vector<ScatteringSum> of_light;
-    std::vector<std::vector<Eigen::Index>> projected;  // by light
+    std::vector<std::vector<Eigen::Index>> projected;  // projection's rows, by light
     Eigen::Index n_projected = 0;
     std::uint64_t seed = 0;
     int blocks() const { return of_light.front().blocks(); }

@@ -73,8 +73,7 @@ class FacetBeams {
   }
 
  private:
-  static constexpr int kDeepest =
-      64;  // depth of the tree, which is halved at each level: at most 2^31 facets
+  static constexpr int kDeepest = 64;  // depth of the tree for 2^31 facets
 
   struct Node {
     Eigen::Vector3d center;
