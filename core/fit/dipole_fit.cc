@@ -98,7 +98,7 @@ void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOpt
   }
   if (p.q > 0.7) {
     e.reasons.push_back(sentence("the albedo alpha' = ", 1.0 - p.q,
-                                 " is too low for the dipole, which wants it near 1"));
+                                 " is too low for the dipole, which requires alpha' near 1"));
   }
   const double relative_std = e.sigma_s_prime_per_mm.std / e.sigma_s_prime_per_mm.value;
   if (!std::isfinite(relative_std) || relative_std > options.max_relative_std_sigma_s) {
@@ -119,8 +119,8 @@ void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOpt
     e.reasons.push_back(sentence(
         "the dipole does not explain the shots: a smooth function of distance fits better by ",
         100.0 * e.misfit_relative,
-        " % of the image (scale, light, pose or material are not what the "
-        "rig says)"));
+        " % of the image (scale, light, pose or material are not as the "
+        "rig states)"));
   }
 }
 
@@ -200,7 +200,7 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
     return fit;
   }
   if (!image.is_sound) {
-    estimate.reasons.push_back("the image or its prediction holds values that are not finite");
+    estimate.reasons.push_back("the image or its prediction contains values that are not finite");
     return fit;
   }
   fit.recovered = recover_reflectance(image);

@@ -39,7 +39,7 @@ std::string probe_problem(int width_px, int height_px, const std::vector<float>&
   const std::size_t values =
       3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   if (radiance.size() != values) {
-    return "the probe holds " + std::to_string(radiance.size()) + " values, not " +
+    return "the probe has " + std::to_string(radiance.size()) + " values, not " +
            std::to_string(values);
   }
   bool any = false;

@@ -47,7 +47,7 @@ const IncidentLight& LitObjects::light(const std::string& object, const std::str
   if (out.lit.empty() && light->position_mm()) {
     throw InputError(
         scene_.at(light.line) + ": lights." + name,
-        "the LED shines on no part of object " + object + " (look at position_mm and axis)");
+        "the LED illuminates no part of object " + object + " (check position_mm and axis)");
   }
   return out;
 }

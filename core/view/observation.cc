@@ -175,7 +175,7 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
                     const std::array<double, kRgb>& responsivity_counts_mm2_sr_per_W_s) {
   if (samples.x0 != map.x0 || samples.y0 != map.y0 || samples.width != map.width ||
       samples.height != map.height) {
-    throw std::invalid_argument("observe: the samples' rectangle is not the map's");
+    throw std::invalid_argument("observe: the rectangles of samples and map differ");
   }
   if (!(samples.exposure_s > 0.0))
     throw std::invalid_argument("observe: exposure_s is not positive");
