@@ -65,7 +65,8 @@ struct DiscEmitter {
   bool last(const Cell& c, const Eigen::Array3d&) const { return c.level <= kLastLevel; }
   bool visible(double u, double v) const {
     const Eigen::Vector3d target_mm = disc.place_mm(u, v);
-    // A point below the surface's horizon takes no part; it goes with what is on the horizon.
+    // A point below the surface's horizon contributes nothing; it is treated like one on the
+    // horizon.
     if (!(normal.dot(target_mm - point_mm) > 0.0)) return true;
     ++rays;
     return !disc.scene_.occluded(point_mm, normal, target_mm);

@@ -114,7 +114,7 @@ void observe_channel(const SampleSums& sums, const SampleMap& map, std::size_t c
     const Sum& s = sums.channel[c][row];
     const double n = s.l.n();
     if (n == 0.0 && s.clipped == 0) continue;
-    // A clipped sample is a lower bound; leaving only it out would pull the mean down.
+    // A clipped sample is a lower bound; leaving out only that sample would bias the mean low.
     if (s.clipped > 0) {
       channel.state[row] = RowState::kClipped;
       ++channel.rows_clipped;

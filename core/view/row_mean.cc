@@ -34,7 +34,7 @@ void RowSum::add(const Monomials& from_origin, double value, double variance) {
 }
 
 RowFit::RowFit(const RowSum& row) : row_(row), moment_(row.value_), equations_(row.n()) {
-  // Which moment the product of two monomials is.
+  // Index of the moment that is the product of two monomials.
   constexpr int kProduct[6][6] = {{0, 1, 2, 3, 4, 5},    {1, 3, 4, 6, 7, 8},
                                   {2, 4, 5, 7, 8, 9},    {3, 6, 7, 10, 11, 12},
                                   {4, 7, 8, 11, 12, 13}, {5, 8, 9, 12, 13, 14}};
