@@ -22,8 +22,8 @@ enum class PoseStatus {
   // Fewer than four pairs, four different world points, or four inliers.
   kTooFewPoints,
   // World points collinear or coincident: their spread across the line, as seen, is below three
-  // standard deviations of the noise. The same for the image points (a plane seen edge-on; or all
-  // points imaged within four standard deviations of one another).
+  // standard deviations of the noise. The same for the image points (a plane seen edge-on; or the
+  // rms spread of all image points below four of them).
   kCollinear,
   // No pose explains more than half of the pairs within inlier_px.
   kNoConsensus,

@@ -55,7 +55,7 @@ std::vector<Effect> effects(const SceneNuisances& nuisances, const ObservedShot&
   return out;
 }
 
-// Of all shots, in the order of the shots.
+// The effects summed over all shots, in the order of their first occurrence.
 std::vector<Effect> summed(const std::vector<std::vector<Effect>>& of_shot) {
   std::vector<Effect> all;
   std::map<std::string, std::size_t> known;

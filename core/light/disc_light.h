@@ -27,7 +27,7 @@ class DiscLight {
 
   // The point of the disc for coordinates 0 .. 1 of the unit square; the map preserves ratios of
   // areas (Shirley and Chiu 1997, concentric map).
-  Eigen::Vector3d place_mm(double u, double v) const;
+  Eigen::Vector3d disc_point_mm(double u, double v) const;
 
  private:
   friend struct DiscEmitter;

@@ -69,7 +69,7 @@ class LedEntry : public EntrySource {
     const Eigen::Vector3d x = even_point(patches_.corners_mm(k), random);
     const Eigen::Vector3d& normal = patches_.normal(k);
     Led from = led_;
-    if (disc_) from.position_mm = disc_->place_mm(random.uniform(), random.uniform());
+    if (disc_) from.position_mm = disc_->disc_point_mm(random.uniform(), random.uniform());
     const double e = from.transmitted_irradiance_per_mm2(x, normal, eta_);
     if (!(e > 0.0) || scene_.occluded(x, normal, from.position_mm)) return std::nullopt;
     return Entry{x, refracted((x - from.position_mm).normalized(), normal, eta_),
@@ -96,7 +96,7 @@ class LedEntry : public EntrySource {
     };
     if (disc_) {
       for (double u : {0.0, 0.5, 1.0}) {
-        for (double v : {0.0, 0.5, 1.0}) add(disc_->place_mm(u, v), 1.0 / 9.0);
+        for (double v : {0.0, 0.5, 1.0}) add(disc_->disc_point_mm(u, v), 1.0 / 9.0);
       }
     } else {
       add(led_.position_mm, 1.0);

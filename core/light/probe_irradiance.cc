@@ -192,7 +192,7 @@ Eigen::Array3d ProbeIrradiance::at(const Eigen::Vector3d& point_mm, Part part) {
   std::vector<Eigen::Vector2d> corners;
   if (in_front_mm_.size() <= kMostCorners) {
     for (const Eigen::Vector3d& v : in_front_mm_) {
-      corners.push_back(tree_.map().place_px(world_from_probe_.conjugate() * (v - point_mm)));
+      corners.push_back(tree_.map().position_px(world_from_probe_.conjugate() * (v - point_mm)));
     }
   }
   if (part == Part::kSky) {

@@ -33,7 +33,7 @@ class ProbeMap {
   Eigen::Vector3d direction(double x_px, double y_px) const;
   // Its inverse, for any direction but zero. If several positions show the direction (the poles,
   // the seam, -y), one of them; at the seam, the left edge.
-  Eigen::Vector2d place_px(const Eigen::Vector3d& direction) const;
+  Eigen::Vector2d position_px(const Eigen::Vector3d& direction) const;
   // Solid angle of a rectangle, sr; 0 where it lies beyond the disc. Exact for equirectangular and
   // mirror ball; for the angular map to 1e-9 of a rectangle of at most a quarter of the picture's
   // side.

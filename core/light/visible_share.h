@@ -27,17 +27,17 @@ template <class Emitter>
 class VisibleShare {
  public:
   using Cell = typename Emitter::Cell;
-  using Places = std::vector<Eigen::Vector2d>;
+  using Positions = std::vector<Eigen::Vector2d>;
 
   explicit VisibleShare(Emitter& emitter) : emitter_(emitter) {}
 
   // `corners`: positions in the picture at which the edge of the visible part may have a corner, so
   // that a tip that reaches between the probes is not missed.
-  Eigen::Array3d sum(const Cell& cell, const Places& corners) {
+  Eigen::Array3d sum(const Cell& cell, const Positions& corners) {
     const Eigen::Array3d energy = emitter_.energy(cell);
     if ((energy == 0.0).all()) return energy;
     const ImageRect r = emitter_.rect(cell);
-    Places inside;
+    Positions inside;
     for (const Eigen::Vector2d& p : corners) {
       if (p.x() > r.x0 && p.x() < r.x1 && p.y() > r.y0 && p.y() < r.y1) inside.push_back(p);
     }
@@ -55,7 +55,7 @@ class VisibleShare {
   }
 
  private:
-  Eigen::Array3d sum_children(const Cell& cell, const Places& corners) {
+  Eigen::Array3d sum_children(const Cell& cell, const Positions& corners) {
     Eigen::Array3d total = Eigen::Array3d::Zero();
     for (const Cell& child : emitter_.children(cell)) total += sum(child, corners);
     return total;

@@ -177,11 +177,11 @@ void CameraConnection::through(const Window& window, const Image& image, const V
     const double behind_mm = -wall.depth_mm(toward);
     if (!(before_mm > 0.0 && behind_mm > 0.0)) return;
     const Eigen::Vector3d way = toward - from;
-    const Eigen::Vector3d place = from + before_mm / (before_mm + behind_mm) * way;
-    if (convex ? !on_body(place) : !boundary_.reaches_plane(from, place, image.walls[i])) return;
+    const Eigen::Vector3d point = from + before_mm / (before_mm + behind_mm) * way;
+    if (convex ? !on_body(point) : !boundary_.reaches_plane(from, point, image.walls[i])) return;
     reflectance *= 1.0 - fresnel_transmittance(1.0 / eta_, way.dot(wall.normal) / way.norm());
     toward = i > 0 ? image.before_last : vertex.x;
-    from = place;
+    from = point;
   }
   const Eigen::Vector3d outgoing = (from - toward).normalized();
   if (!convex && !boundary_.clear_inside(toward, from)) return;

@@ -45,9 +45,9 @@ RowFit::RowFit(const RowSum& row) : row_(row), moment_(row.value_), equations_(r
 
 void RowFit::add_neighbour(const RowSum& neighbour, const Eigen::Vector2i& shift_px) {
   constexpr double kNeighbour = 0.3;
-  const Monomials place = moved(neighbour.mean_place(), shift_px);
-  gram_ += kNeighbour * neighbour.n() * place * place.transpose();
-  moment_ += kNeighbour * neighbour.value_[0] * place;
+  const Monomials monomials = moved(neighbour.mean_monomials(), shift_px);
+  gram_ += kNeighbour * neighbour.n() * monomials * monomials.transpose();
+  moment_ += kNeighbour * neighbour.value_[0] * monomials;
   equations_ += 1.0;
 }
 
@@ -73,7 +73,7 @@ bool RowFit::fitted_mean(const Monomials& step, RowMean& mean) const {
 
 RowMean RowFit::mean_over(const Monomials& target) const {
   RowMean mean{row_.mean(), row_.variance_of_mean(), 1.0};
-  const Monomials step = target - row_.mean_place();
+  const Monomials step = target - row_.mean_monomials();
   if (!fitted_mean<6>(step, mean)) fitted_mean<3>(step, mean);
   return mean;
 }

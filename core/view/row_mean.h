@@ -26,7 +26,7 @@ class RowSum {
   double n() const { return moments_[0]; }
   double mean() const { return value_[0] / n(); }
   double variance_of_mean() const { return variance_ / (n() * n()); }
-  Monomials mean_place() const { return moments_.head<6>() / n(); }
+  Monomials mean_monomials() const { return moments_.head<6>() / n(); }
 
  private:
   friend class RowFit;
