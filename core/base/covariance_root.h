@@ -1,13 +1,13 @@
-// What turns independent unit errors into those of a covariance.
+// The square root of a covariance matrix.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace scattermeter {
 
-// A square root of a covariance, of its size: covariance = root root^T. Cholesky with pivoting
-// holds for one that is singular, too. Domain: symmetric, no negative eigenvalue but for rounding
-// (cut at 0).
+// A square root of the same size: covariance = root root^T, so that root * (independent unit
+// errors) has this covariance. Pivoted Cholesky, which also handles singular matrices. Domain:
+// symmetric, no negative eigenvalues apart from rounding (clipped at 0).
 Eigen::MatrixXd covariance_root(const Eigen::MatrixXd& covariance);
 
 }  // namespace scattermeter

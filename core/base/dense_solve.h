@@ -1,7 +1,7 @@
-// Decompositions of real matrices whose size is known at run time only, compiled once: Eigen's
-// templates cost every source seconds that instantiates them. Each class keeps one decomposition;
-// vectors and matrices have functions of their own because Eigen solves them by different kernels.
-// A right-hand side needs as many rows as the matrix has (Eigen asserts it in debug builds).
+// Decompositions of dynamically sized real matrices, compiled once: Eigen's templates add seconds
+// to every source that instantiates them. Each class keeps one decomposition; vectors and matrices
+// have separate functions because Eigen solves them with different kernels. A right-hand side must
+// have as many rows as the matrix (Eigen asserts this in debug builds).
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Sets that grow together.
+// Disjoint sets that can be joined (union-find).
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,8 @@
 
 namespace scattermeter {
 
-// Starts with every number 0 .. n - 1 in a set of its own. A set is named by its least number.
+// Initially every number 0 .. n - 1 is a set of its own. A set is identified by its smallest
+// number.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n), sets_(n) {

@@ -24,7 +24,7 @@ class MissingFile : public InputError {
   using InputError::InputError;
 };
 
-// Throws the error again with what is known of where the file was named.
+// Rethrows the error, prefixed with the location where the file was named.
 [[noreturn]] inline void rethrow_at(const std::string& where, const InputError& error) {
   if (dynamic_cast<const MissingFile*>(&error) != nullptr) throw MissingFile(where, error.what());
   throw InputError(where, error.what());

@@ -28,7 +28,7 @@ Cost cost_at(const LogLinearProblem& p, const Eigen::VectorXd& theta) {
 
 Eigen::MatrixXd log_linear_jacobian(const LogLinearProblem& problem, const Eigen::VectorXd& theta) {
   const Eigen::VectorXd r = (problem.basis * theta).array().exp();
-  // Column by column: for the few there are, a matrix product would pack the kernel each time.
+  // Column by column: for so few columns, a matrix product would repack the kernel each time.
   Eigen::MatrixXd out(problem.kernel.rows(), problem.basis.cols());
   for (Eigen::Index j = 0; j < out.cols(); ++j) {
     out.col(j).noalias() = problem.kernel * r.cwiseProduct(problem.basis.col(j));
@@ -51,8 +51,8 @@ LogLinearFit fit_log_linear(const LogLinearProblem& problem, const Eigen::Vector
     Eigen::VectorXd residual(jacobian.rows());
     residual << now.residual, problem.penalty * out.theta;
     const Eigen::VectorXd gradient = jacobian.transpose() * residual;
-    // Gauss-Newton among the free; whatever would cross its bound is taken to the bound and held
-    // there, and the rest is solved for again.
+    // Gauss-Newton among the free; parameters that would cross their bounds are moved to the bounds
+    // and held there, and the rest is solved for again.
     std::vector<bool> held(static_cast<std::size_t>(n));
     for (Eigen::Index i = 1; i < n; ++i) {
       held[static_cast<std::size_t>(i)] = !(out.theta[i] > 0.0) && !(gradient[i] < 0.0);
@@ -89,7 +89,7 @@ LogLinearFit fit_log_linear(const LogLinearProblem& problem, const Eigen::Vector
       const Cost trial = cost_at(problem, theta);
       if (std::isfinite(trial.total()) && trial.total() < now.total()) {
         fell = true;
-        // A step that the bounds have all but swallowed has arrived.
+        // If the bounds leave almost nothing of the step, the fit has converged.
         out.converged = now.total() - trial.total() < 1e-6 + 1e-9 * now.total();
         out.theta = theta;
         now = trial;

@@ -1,4 +1,4 @@
-// Least squares of a positive curve whose logarithm is linear in its parameters.
+// Least-squares fit of a positive curve whose logarithm is linear in its parameters.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,11 +21,12 @@ struct LogLinearFit {
   bool converged = false;
 };
 
-// Gauss-Newton; parameters that would cross their bound are held there and the others solved for
-// again, those at a bound are released when the gradient points inwards; steps are cut back until
-// the cost falls, and none changes log r by more than 2. Converged: the step that Gauss-Newton asks
-// for promises to lower the cost by less than 1e-6, or by less than 1e-9 of it. Not converged: 60
-// iterations, or no step falls. Any result has a cost no higher than the start's.
+// Gauss-Newton; parameters that would cross their bound are held there while the others are solved
+// for again; those at a bound are released when the gradient points inwards; steps are cut back
+// until the cost falls, and none changes log r by more than 2. Converged: the predicted decrease of
+// the cost by the next Gauss-Newton step is below 1e-6, or below 1e-9 of the cost. Not converged:
+// 60 iterations, or no step lowers the cost. The cost of the result never exceeds that of the
+// start.
 LogLinearFit fit_log_linear(const LogLinearProblem& problem, const Eigen::VectorXd& start);
 
 // d(kernel exp(basis theta)) / d theta.

@@ -24,8 +24,8 @@ Eigen::RowVectorXd LogSpline::row(double t, int derivative) const {
   // The interval: padded_[at] <= t < padded_[at + 1]; the last break belongs to the last interval.
   std::size_t at = 3;
   while (at + 1 < n && t >= padded_[at + 1]) ++at;
-  // All splines of order 1 .. 4 - derivative that live on the interval (Cox, de Boor), then the
-  // derivatives by differences of lower orders.
+  // All splines of order 1 .. 4 - derivative that are nonzero on the interval (Cox, de Boor), then
+  // the derivatives by differences of lower orders.
   std::vector<double> value(5, 0.0);  // value[k]: spline at - order + 1 + k, of the current order
   value[0] = 1.0;
   for (std::size_t order = 2; order <= 4; ++order) {

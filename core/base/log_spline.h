@@ -22,9 +22,9 @@ class LogSpline {
   // Matrix Q with |Q theta|^2 = ∫ (f''' - f''/2)^2 exp((t - t_0) / 2) dt, t_0 the first break, by
   // Gauss's two points in each interval. It vanishes for f = a - p t - b exp(t/2): with
   // t = log(d^2 + z0^2) that is r = const (d^2 + z0^2)^-p exp(-b sqrt(d^2 + z0^2)), a power law
-  // that goes over into an exponential, as light that diffuses from a depth z0 does. The weight,
-  // which is the distance itself, lets f bend more freely near the source, where r depends on how
-  // the light came in, than far away, where diffusion has made it forget.
+  // with an exponential tail, like light that diffuses from a depth z0. The weight, which is the
+  // distance itself, lets f bend more freely near the source, where r depends on how the light
+  // entered, than far away, where diffusion has erased that.
   Eigen::MatrixXd roughness() const;
 
  private:

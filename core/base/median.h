@@ -1,4 +1,4 @@
-// The median, and the scatter about it: both unmoved by a few far values.
+// The median and the median absolute deviation: location and scatter robust against outliers.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace scattermeter {
 
-// The median; of an even number of values, the upper of the two in the middle.
-// std::invalid_argument without values.
+// The median; for an even number of values, the upper of the two middle ones. std::invalid_argument
+// if there are no values.
 template <typename T>
 T upper_median(std::vector<T> values) {
   if (values.empty()) throw std::invalid_argument("upper_median: no values");

@@ -1,4 +1,4 @@
-// How long work reports its progress, and how it is cancelled. The libraries print nothing.
+// Progress reports and cancellation of long computations. The libraries print nothing.
 #pragma once
 
 #include <exception>
@@ -12,15 +12,15 @@ class Cancelled : public std::exception {
   const char* what() const noexcept override { return "cancelled"; }
 };
 
-// Derive from it to show progress or to cancel; the default does neither. Work has stages, one
-// after the other. All functions but begin() and end() may be called from any thread.
+// Derive from it to show progress or to cancel; the default does neither. Work consists of
+// consecutive stages. All functions but begin() and end() may be called from any thread.
 class Progress {
  public:
   virtual ~Progress() = default;
   virtual void begin(const std::string& /*what*/, int /*total_steps*/) {}
   virtual void step() {}
   virtual void end() {}
-  // True ends the work at its next step with Cancelled.
+  // If true, the work throws Cancelled at its next step.
   virtual bool is_cancelled() const { return false; }
 };
 

@@ -1,4 +1,4 @@
-// Random numbers for one block of paths.
+// A stream of random numbers for one block of paths.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace scattermeter {
 
 // The 64-bit Mersenne twister (Nishimura 2000), seeded through std::seed_seq from a seed and the
-// number of a stream: the same two give the same numbers everywhere.
+// number of a stream: the same pair gives the same numbers on every platform.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::uint64_t stream) : generator_(words(seed, stream)) {}
@@ -18,8 +18,8 @@ class RandomStream {
   std::uint64_t bits() { return generator_(); }
   // In (0, 1), neither end; 53 bits.
   double uniform() { return (static_cast<double>(bits() >> 11) + 0.5) * 0x1p-53; }
-  // Even over the unit disc without its centre. The squared radius is even over (0, 1) and
-  // independent of the angle, so that one point serves for both.
+  // Uniform over the unit disc without its centre. The squared radius is uniform over (0, 1) and
+  // independent of the angle, so one point provides both.
   struct DiscPoint {
     double x, y, r2;
   };

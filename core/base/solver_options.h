@@ -1,9 +1,10 @@
-// What all least-squares solves share.
+// Options shared by all least-squares solvers.
 #pragma once
 
 namespace scattermeter {
 
-// Where a solve stops: relative changes of the cost and of the parameters, largest gradient.
+// Stopping criteria: relative changes of the cost and of the parameters, largest gradient
+// component.
 struct SolverStop {
   int iterations = 100;
   double function = 1e-12;
@@ -11,8 +12,8 @@ struct SolverStop {
   double parameter = 1e-12;
 };
 
-// Ceres's Solver::Options, as a parameter so that this header needs none of it: one thread, for the
-// same digits on any machine, and not a word on the streams.
+// Ceres's Solver::Options, a template parameter so that this header does not include Ceres: one
+// thread, for identical digits on any machine, and no output.
 template <typename CeresOptions>
 CeresOptions quiet_solver(const SolverStop& stop) {
   CeresOptions options;

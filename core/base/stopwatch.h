@@ -1,4 +1,4 @@
-// Time of the stages of a measurement.
+// Wall-clock times of the stages of a measurement.
 #pragma once
 
 #include <chrono>

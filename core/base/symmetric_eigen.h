@@ -1,4 +1,4 @@
-// Eigenvalues of symmetric matrices of any size, compiled once for all who need them.
+// Eigenvalues of symmetric matrices of any size, compiled once.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@ namespace scattermeter {
 
 struct SymmetricEigen {
   Eigen::VectorXd values;   // ascending
-  Eigen::MatrixXd vectors;  // their unit vectors, a column each
+  Eigen::MatrixXd vectors;  // unit eigenvectors, one per column
 };
 
 // Reads the lower triangle. All NaN where m is not finite, or the iteration does not converge.

@@ -17,7 +17,7 @@ namespace scattermeter {
 std::string intrinsics_problem(const CameraIntrinsics& intrinsics) {
   std::ostringstream out;
   const auto bad_focal = [](double f) { return !std::isfinite(f) || f <= 0; };
-  // Decentred lenses and crops move the principal point, but not farther than that.
+  // Decentred lenses and crops shift the principal point, but not farther than this.
   const auto bad_center = [](double c, int size) { return !(c >= -0.5 * size && c <= 1.5 * size); };
   if (intrinsics.width_px <= 0 || intrinsics.height_px <= 0) {
     out << "image size must be positive, got " << intrinsics.width_px << " x "
@@ -73,15 +73,15 @@ class RayRow {
  public:
   RayRow(const Lens& lens, int x0, double y) : lens_(lens), x0_(x0), y_(y) {}
 
-  // Pixels from `column` on, each by itself. A parabola through the three neighbours to the left is
+  // Pixels from `column` on, one by one. A parabola through the three neighbours to the left is
   // a start from which one Newton step or none suffices.
   void each(std::span<Eigen::Vector3f> out, int column) const {
     Start start;
     for (Eigen::Vector3f& ray : out) ray = homogeneous(next(column++, start));
   }
 
-  // Cubics through every 16th pixel, wherever they are right within the tolerance halfway between
-  // these, where a cubic is off the most.
+  // Cubics through every 16th pixel, wherever they are within the tolerance halfway between these,
+  // where the error of a cubic is largest.
   void interpolated(std::span<Eigen::Vector3f> out, double tolerance) const {
     constexpr int kStep = 16;
     using Weights = std::array<double, 4>;
@@ -106,7 +106,7 @@ class RayRow {
       knots[3] = next(column + 2 * kStep, start);
       const std::span stretch = out.subspan(first, std::min<size_t>(kStep, out.size() - first));
       const Eigen::Vector2d middle = cubic(kWeights[kStep / 2]);
-      // False for what is not finite, too.
+      // Also false for values that are not finite.
       if (middle.allFinite() &&
           (lens_.unproject(pixel(column + kStep / 2), middle) - middle).norm() <= tolerance) {
         for (size_t i = 0; i < stretch.size(); ++i) stretch[i] = homogeneous(cubic(kWeights[i]));
@@ -160,7 +160,7 @@ std::vector<Eigen::Vector3f> pixel_rays_in_camera(const CameraIntrinsics& intrin
   tbb::parallel_for(tbb::blocked_range<int>(0, height, 16), [&](const auto& rows) {
     for (int row = rows.begin(); row != rows.end(); ++row) {
       const std::span out(rays.data() + static_cast<size_t>(row) * columns, columns);
-      // Each row begins afresh, so that the split among threads does not show in the digits.
+      // Each row starts anew, so that the split among threads does not affect the digits.
       const RayRow ray_row(lens, x0, static_cast<double>(y0) + row);
       straight ? ray_row.each(out, 0) : ray_row.interpolated(out, tolerance);
     }

@@ -11,8 +11,8 @@
 namespace scattermeter {
 
 // OpenCV's model and axes: x right, y down, z forward; pixel (0, 0) is the centre of the first
-// sample of the active area. distortion: k1 k2 p1 p2 [k3 [k4 k5 k6]] (0, 4, 5 or 8 terms), without
-// unit; formula and domain in core/camera/distortion.h.
+// sample of the active area. distortion: k1 k2 p1 p2 [k3 [k4 k5 k6]] (0, 4, 5 or 8 terms),
+// dimensionless; formula and domain in core/camera/distortion.h.
 struct CameraIntrinsics {
   int width_px = 0;
   int height_px = 0;
@@ -23,12 +23,12 @@ struct CameraIntrinsics {
   std::vector<double> distortion;
 };
 
-// What is wrong with the numbers, or an empty string: sizes and focal lengths positive and finite,
-// centre finite and within half a frame of the frame, number of distortion terms, all finite.
-// The functions below throw std::invalid_argument with this text where it is not empty.
+// The first violated condition, or an empty string: sizes and focal lengths positive and finite,
+// centre finite and within half a frame of the frame, an allowed number of distortion terms, all
+// finite. The functions below throw std::invalid_argument with this text where it is not empty.
 std::string intrinsics_problem(const CameraIntrinsics& intrinsics);
 
-// Image of world points, in px, inside or outside of the frame. NaN for points with depth <= 0 in
+// Images of world points, in px, inside or outside the frame. NaN for points with depth <= 0 in
 // the camera frame, and for points so far off the axis that the distortion's polynomial folds back
 // (which would put them on top of others): they have no image. A NaN point gives NaN.
 std::vector<Eigen::Vector2d> project(const CameraIntrinsics& intrinsics,

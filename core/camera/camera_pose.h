@@ -1,4 +1,4 @@
-// A camera pose as estimated from known points: value, covariance and what it rests on.
+// A camera pose estimated from known points: value, covariance and the points' residuals.
 #pragma once
 
 #include <string>
@@ -16,29 +16,29 @@ struct PointPair {
   Eigen::Vector2d image_px;
 };
 
-// Each status by its condition, in the order in which they are looked for.
+// Each status with its condition, in the order in which they are tested.
 enum class PoseStatus {
   kOk,
   // Fewer than four pairs, four different world points, or four inliers.
   kTooFewPoints,
-  // World points on one line or at one place: their spread across the line, as seen, is below three
-  // standard deviations of the noise. The same for the image points (a plane seen edge-on;
-  // the whole seen as a dot, its points within four).
+  // World points collinear or coincident: their spread across the line, as seen, is below three
+  // standard deviations of the noise. The same for the image points (a plane seen edge-on; or the
+  // rms spread of all image points below four of them).
   kCollinear,
   // No pose explains more than half of the pairs within inlier_px.
   kNoConsensus,
-  // As kNoConsensus, but one does that puts the points behind the camera: x -> -x. The world
-  // coordinates are those of a mirror image. (Of points in one plane that cannot be decided: the
-  // mirror image of a plane is the plane seen from behind.)
+  // As kNoConsensus, but a pose that puts the points behind the camera (x -> -x) explains them: the
+  // world coordinates are mirrored. (Undecidable for coplanar points: the mirror image of a plane
+  // is the plane seen from behind.)
   kBehindCamera,
-  // Some rotation is uncertain by more than 0.05 rad or the camera's place by more than 0.05 of its
-  // distance to the points (beyond, the linearised covariance is no longer true: of 14105 random
-  // layouts below these limits, 4 to 12 points of any flatness and distance, 2 lay farther from the
-  // truth than it allows once in 10^7); or the covariance is not finite, or the least squares did
-  // not settle.
+  // Some rotation is uncertain by more than 0.05 rad, or the camera's position by more than 0.05 of
+  // its distance to the points (beyond, the linearised covariance no longer holds: of 14105 random
+  // layouts below these limits, 4 to 12 points of any flatness and distance, 2 were farther from
+  // the truth than it allows once in 10^7); or the covariance is not finite, or the least squares
+  // did not converge.
   kIllConditioned,
-  // Two poses, apart by more than three standard deviations, fit about equally well: points in one
-  // plane (or nearly) seen small, or only four to six points. See
+  // Two poses that differ by more than three standard deviations fit about equally well: points in
+  // one plane (or nearly) seen small, or only four to six points. See
   // calib::PoseOptions::ambiguity_ratio.
   kPlanarAmbiguity,
 };
@@ -48,22 +48,22 @@ using PosePerLens = Eigen::Matrix<double, 6, kLensParameters>;
 
 struct PoseResult {
   PoseStatus status = PoseStatus::kTooFewPoints;
-  std::string
-      message;  // one or two sentences on the status, what is wrong and what to do; "" if ok
-  // From here on: the best pose found, for a look at it, where status is kOk, kIllConditioned or
-  // kPlanarAmbiguity; else NaN, all pairs outliers.
+  std::string message;  // what is wrong and what to do; "" if ok
+  // From here on: the best pose found, for inspection, where status is kOk, kIllConditioned or
+  // kPlanarAmbiguity; otherwise NaN, with all pairs outliers.
   Rigid3d camera_from_world;
-  // Covariance of (w in rad, dt in mm), 6 x 6, of what leads from this estimate to the true pose:
+  // Covariance of (w in rad, dt in mm), 6 x 6, of the correction from this estimate to the true
+  // pose:
   //   true rotation = exp([w]_x) * camera_from_world.rotation,
   //   true translation_mm = camera_from_world.translation_mm + dt,
   // both in camera axes. A world point at y = rotation * x_in_world moves by w x y + dt; dt is the
   // displacement of the world's origin in the camera frame. Linearised: good as long as the
   // second-order motion of the points, |w|^2 |y| / 2 seen from the camera, is below noise_std_px,
-  // which a world origin on or near the object keeps so.
+  // which a world origin on or near the object ensures.
   Eigen::Matrix<double, 6, 6> covariance;
-  // What the pose would have become through another lens, the points where they are in the image:
-  // -(J^T J)^-1 J^T J_lens over the inliers. A pose that was fitted through a lens takes up much of
-  // the lens's error: a focal length 1 % too long puts the camera 1 % too far away.
+  // Derivative of the fitted pose by the lens parameters, the image points fixed:
+  // -(J^T J)^-1 J^T J_lens over the inliers. A pose fitted with a lens absorbs much of that lens's
+  // error: a focal length 1 % too long puts the camera 1 % too far away.
   PosePerLens per_lens_parameter = PosePerLens::Zero();
   // Standard deviation per image coordinate that the covariance is based on, px: the larger of
   // point_std_px and sqrt(sum r^2 / (2 n - 6)) over the n inliers.

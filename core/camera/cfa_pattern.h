@@ -7,7 +7,8 @@
 
 namespace scattermeter {
 
-// Colour channels. A Bayer sensor's two greens are one channel here; they keep apart as phases.
+// Colour channels. The two greens of a Bayer sensor are one channel; as phases they remain
+// distinct.
 enum class Channel : std::uint8_t { kRed = 0, kGreen = 1, kBlue = 2 };
 inline constexpr int kChannels = 3;
 

@@ -1,4 +1,4 @@
-// The place of a channel among R, G, B.
+// The index of a channel among R, G, B.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace scattermeter {
 
-// channel: of kRgbName; std::invalid_argument for any other letter.
+// channel: one of kRgbName; std::invalid_argument for any other letter.
 inline std::size_t channel_index(char channel) {
   for (std::size_t i = 0; i < kRgbName.size(); ++i) {
     if (kRgbName[i] == channel) return i;

@@ -112,13 +112,13 @@ Eigen::Vector2d Distortion::newton(const Eigen::Vector2d& distorted, Eigen::Vect
   for (int i = 0; i < kMaxIterations; ++i) {
     const double size = error.norm();
     if (!(size < std::numeric_limits<double>::infinity())) break;  // left the domain
-    // The tangential part can fold where the radial part does not: only the sheet that holds the
-    // axis, where the determinant is positive, is the lens.
+    // The tangential part can fold where the radial part does not: only the sheet that contains the
+    // axis, where the determinant is positive, is physical.
     const double determinant = jacobian.determinant();
     if (!(determinant > 0)) break;
     if (size <= tolerance) return x;
     const Eigen::Vector2d step = jacobian.inverse() * error;
-    // Halve the step until it stays in the domain and gains something.
+    // Halve the step until it stays in the domain and reduces the error.
     double fraction = 1;
     Eigen::Vector2d next_error;
     Eigen::Vector2d next;

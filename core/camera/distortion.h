@@ -17,8 +17,8 @@ namespace scattermeter {
 //
 // Domain: a polynomial that fits a lens inside the frame folds back outside of it: from some radius
 // on, points farther from the axis are mapped closer to it, on top of the image of others. The
-// domain ends there, at the smallest radius where d(r c)/dr <= 0 or the denominator is <= 0, and
-// never reaches past 87 degrees off the axis (r = 20). Without distortion there is no end.
+// domain ends there, at the smallest radius where d(r c)/dr <= 0 or the denominator is <= 0, and at
+// the latest 87 degrees off the axis (r = 20). Without distortion it is unbounded.
 class Distortion {
  public:
   // k1 k2 p1 p2 [k3 [k4 k5 k6]]: 0, 4, 5 or 8 finite terms, else std::invalid_argument.
@@ -28,8 +28,8 @@ class Distortion {
   // Radius at which the domain ends; infinite where there is no distortion.
   double domain_radius() const { return domain_radius_; }
 
-  // The distorted point; with its 2 x 2 Jacobian d(distorted)/d(undistorted) where asked for. NaN
-  // (both) outside the domain.
+  // The distorted point; with its 2 x 2 Jacobian d(distorted)/d(undistorted) if `jacobian` is
+  // given. Both NaN outside the domain.
   Eigen::Vector2d apply(const Eigen::Vector2d& undistorted,
                         Eigen::Matrix2d* jacobian = nullptr) const;
 
@@ -38,8 +38,8 @@ class Distortion {
   //
   // Not cv::undistortPoints: its fixed-point iteration contracts by 2 s |c'| / c only, so to 1e-9
   // px it takes three times as long over a frame with mild distortion, seven with strong barrel; it
-  // diverges where that ratio passes 1 (pincushion k1 = 0.5 beyond r = 1.41); and it has no notion
-  // of where the inverse ends.
+  // diverges where that ratio passes 1 (pincushion k1 = 0.5 beyond r = 1.41); and it cannot detect
+  // where the inverse ends.
   Eigen::Vector2d invert(const Eigen::Vector2d& distorted, const Eigen::Vector2d& guess,
                          double tolerance) const;
 
@@ -47,7 +47,7 @@ class Distortion {
   // c(s) and dc/ds.
   double radial_factor(double s, double* derivative) const;
   double find_domain_radius() const;
-  // Undistorted point of the same direction when the tangential part is left out.
+  // Undistorted point in the same direction, ignoring the tangential part.
   Eigen::Vector2d invert_radial(const Eigen::Vector2d& distorted) const;
   Eigen::Vector2d newton(const Eigen::Vector2d& distorted, Eigen::Vector2d x,
                          double tolerance) const;

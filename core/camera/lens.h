@@ -1,4 +1,4 @@
-// Image of a point in the camera frame, with its Jacobian, and the ray through a pixel.
+// A lens prepared for many projections and back-projections, with Jacobians.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,10 +8,10 @@
 
 namespace scattermeter {
 
-// CameraIntrinsics made ready for many evaluations. Frames and units as there.
+// Frames and units as in CameraIntrinsics.
 class Lens {
  public:
-  // std::invalid_argument with intrinsics_problem() where that is not empty.
+  // Throws std::invalid_argument with the text of intrinsics_problem() unless that is empty.
   explicit Lens(const CameraIntrinsics& intrinsics);
 
   const Distortion& distortion() const { return distortion_; }
@@ -23,7 +23,8 @@ class Lens {
                           Eigen::Matrix<double, 2, 3>* jacobian = nullptr) const;
 
   // (X / Z, Y / Z) of the ray through a pixel, such that project() returns to the pixel within
-  // 1e-9 px; NaN where the distortion has no inverse. `guess`: a point near the result saves steps.
+  // 1e-9 px; NaN where the distortion has no inverse. `guess`: a point near the result, which saves
+  // steps.
   Eigen::Vector2d unproject(const Eigen::Vector2d& pixel) const;
   Eigen::Vector2d unproject(const Eigen::Vector2d& pixel, const Eigen::Vector2d& guess) const;
 

@@ -1,4 +1,4 @@
-// The numbers of a lens that a calibration fits, and how the image moves with each.
+// Lens parameters that a calibration fits, and the derivatives of the image by them.
 #pragma once
 
 #include <string>
@@ -15,48 +15,48 @@ inline constexpr int kLensParameters = 12;
 using LensParameters = Eigen::Matrix<double, kLensParameters, 1>;
 
 LensParameters lens_parameters(const CameraIntrinsics& intrinsics);
-// With five terms of distortion (zeros where there are none), eight where k4, k5 or k6 is not zero.
+// With five distortion terms (zero where absent), or eight where k4, k5 or k6 is not zero.
 CameraIntrinsics intrinsics_of(const LensParameters& lens, int width_px, int height_px);
 
 // d(pixel)/d(parameter) of the ray (X / Z, Y / Z), 2 x 12; px per px for the first four, px per
-// unit for the others. Domain: that of Distortion; the caller sees to it.
+// unit for the others. Precondition: in the domain of Distortion.
 Eigen::Matrix<double, 2, kLensParameters> shift_per_lens_parameter(const LensParameters& lens,
                                                                    const Eigen::Vector2d& ray);
 
-// d(ray)/d(parameter) of the ray (X / Z, Y / Z) that falls on a fixed pixel: the pixel stays, so
-// J_ray d(ray) + shift_per_lens_parameter() d(parameter) = 0. Per px and per unit as there. NaN
-// outside the domain of Distortion.
+// d(ray)/d(parameter) of the ray (X / Z, Y / Z) through a fixed pixel:
+// J_ray d(ray) + shift_per_lens_parameter() d(parameter) = 0. Units as there. NaN outside the
+// domain of Distortion.
 Eigen::Matrix<double, 2, kLensParameters> ray_per_lens_parameter(const CameraIntrinsics& intrinsics,
                                                                  const Eigen::Vector2d& ray);
 
-// Each has all terms of those before it.
+// Each value includes all terms of the preceding ones.
 enum class DistortionTerms { kNone, kK1, kK1K2, kK1K2P1P2, kK1K2P1P2K3, kRational };
 
-// Which of the twelve are fitted; the others are 0, and fy = fx with one focal length. The centre
-// is always fitted.
+// Which of the twelve parameters are fitted; the others are 0, and fy = fx with one focal length.
+// The principal point is always fitted.
 struct LensModel {
   bool one_focal_length = true;
   DistortionTerms terms = DistortionTerms::kK1K2;
   bool operator==(const LensModel&) const = default;
 };
 
-// All twelve, those of fewer parameters first.
+// All twelve models, those with fewer parameters first.
 std::vector<LensModel> all_lens_models();
 std::string lens_model_name(const LensModel& model);  // "fx = fy, k1 k2"
 
-// Of the fitted numbers: f_px or fx_px fy_px, cx_px, cy_px, k1 ...
+// Of the fitted parameters: f_px or fx_px fy_px, cx_px, cy_px, k1 ...
 std::vector<std::string> parameter_names(const LensModel& model);
 // 12 x P of zeros and ones: lens = map * fitted.
 Eigen::MatrixXd parameter_map(const LensModel& model);
 
-// The model that has just these names; std::invalid_argument where there is none.
+// The model with exactly these parameters; std::invalid_argument if there is none.
 LensModel lens_model_of(const std::vector<std::string>& names);
 
-// Independent unit errors of a lens, one a column: the covariance of its parameters is root root^T.
-// No columns: the lens counts as exact.
+// Square root of the covariance of the lens parameters, covariance = root root^T: one column for
+// each independent unit error. No columns: the lens is taken as exact.
 using LensRoot = Eigen::Matrix<double, kLensParameters, Eigen::Dynamic>;
 
-// From the covariance of the fitted parameters of these names, in their units. No columns where it
+// From the covariance of the fitted parameters with these names, in their units. No columns if it
 // is zero or there are no parameters. std::invalid_argument for names that no model has.
 LensRoot lens_root(const std::vector<std::string>& parameters, const Eigen::MatrixXd& covariance);
 

@@ -1,4 +1,4 @@
-// How a wrong camera pose moves what a sample sees.
+// Shift of the surface point that a sample sees, per change of camera pose or ray.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@ namespace scattermeter {
 // pose: 3 x 6, columns (w in rad, dt in mm) with rotation' = exp([w]_x) rotation, translation' =
 // translation + dt. The point stays in the plane through `point_mm` with `normal`. With p the
 // point, n the normal and y = rotation * point in the camera frame, the new point has camera
-// coordinates parallel to p: R dX = mu p - (w x y + dt), and n . R dX = 0 gives mu. Grows without
-// bound for a plane seen edge-on.
+// coordinates parallel to p: R dX = mu p - (w x y + dt), and n . R dX = 0 gives mu. It diverges for
+// a plane seen edge-on.
 Eigen::Matrix<double, 3, 6> surface_shift_by_pose(const Rigid3d& camera_from_world,
                                                   const Eigen::Vector3d& point_mm,
                                                   const Eigen::Vector3d& normal);

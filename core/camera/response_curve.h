@@ -1,4 +1,4 @@
-// How a sensor's counts depart from being proportional to light.
+// A sensor's departure from proportionality between counts and light.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,16 @@
 
 namespace scattermeter {
 
-// light = y exp(G(y)), both in counts above black: y as recorded, light as a sensor would record it
-// that stays as sensitive as this one is in the limit of no light. G is the polynomial through
-// (0, 0) and the knots. A sensor that records 1 % too little at its top has G = +0.01 there.
-// Without knots G is 0. Domain: 0 .. the last knot; beyond, the polynomial goes on (it is not to be
-// trusted far), below 0 G is that of 0.
+// light = y exp(G(y)), both in counts above black: y as recorded, light as recorded by a sensor
+// that keeps this one's sensitivity in the limit of no light. G is the polynomial through (0, 0)
+// and the knots. A sensor that records 1 % too little at its top has G = +0.01 there. Without knots
+// G is 0. Domain: 0 .. the last knot; beyond it the polynomial is extrapolated (unreliable farther
+// out); below 0, G is its value at 0.
 class ResponseCurve {
  public:
   ResponseCurve() = default;
-  // At most four knots, counts ascending and positive, values finite: std::invalid_argument.
+  // At most four knots, counts ascending and positive, values finite; otherwise throws
+  // std::invalid_argument.
   ResponseCurve(std::vector<double> knot_counts, std::vector<double> log_ratio);
 
   const std::vector<double>& knot_counts() const { return knot_counts_; }
@@ -29,7 +30,8 @@ class ResponseCurve {
   // d light / d recorded.
   double gain_at(double recorded_counts) const;
 
-  // G at a place as a weighted sum of the knots' values: Lagrange's polynomials, one per knot.
+  // Weights of the knots' values whose sum is G at `recorded_counts`: Lagrange's polynomials, one
+  // per knot.
   static Eigen::RowVectorXd weights(const std::vector<double>& knot_counts, double recorded_counts);
 
  private:

@@ -7,7 +7,7 @@
 namespace scattermeter {
 
 // target_from_source: x_in_target = rotation * x_in_source + translation_mm.
-// Lengths in mm. `rotation` is a unit quaternion; functions here keep it so.
+// Lengths in mm. `rotation` is a unit quaternion; the functions here keep it normalised.
 struct Rigid3d {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   Eigen::Vector3d translation_mm = Eigen::Vector3d::Zero();

@@ -1,4 +1,4 @@
-// How a lens darkens a frame towards its corners.
+// The fall-off of light from the frame's centre towards its corners.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@ namespace scattermeter {
 
 // Share of the light of the frame's centre that reaches a pixel, per colour:
 //   V = 1 + sum over k of radial[k-1] s^k + sum over m of map[m] q_m,
-// s = u^2 + v^2, u and v the place from the centre over the frame's half diagonal,
-// q = u, v, u^2 - v^2, u v (what is not round: a tilted lens or an uneven filter). Either list may
-// be short or empty. Domain: the frame.
+// s = u^2 + v^2, u and v the offsets from the centre over the frame's half diagonal,
+// q = u, v, u^2 - v^2, u v (the part without rotational symmetry: a tilted lens or an uneven
+// filter). Either list may be short or empty. Domain: the frame.
 struct Vignetting {
   Eigen::Vector2d center_px = Eigen::Vector2d::Zero();
   double half_diagonal_px = 1;
@@ -24,7 +24,7 @@ struct Vignetting {
   static constexpr std::size_t kMapTerms = 4;
   bool is_identity() const;
   double share(double x_px, double y_px, std::size_t channel) const;
-  // The terms that radial and map are factors of: first `n_radial`, then `n_map`.
+  // The terms that the coefficients `radial` and `map` multiply: first `n_radial`, then `n_map`.
   static void terms(double u, double v, std::size_t n_radial, std::size_t n_map, double* out);
 };
 

@@ -1,4 +1,4 @@
-// The dipole on the knots, in the parameters that the fit moves.
+// The dipole on the knots, in the parameters of the fit.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 namespace scattermeter {
 
 // u = log sigma_t' (sigma_t' in 1/mm) and q = 1 - alpha' decouple: u sets the scale of distances, q
-// how fast the far tail falls; both stay of order one whatever the unit of length, and q = 0 is no
+// how fast the far tail falls. Both are of order one whatever the unit of length; q = 0 means no
 // absorption.
 Medium medium_of(double u, double q, double eta_int_over_ext);
 

@@ -33,7 +33,7 @@ double shortest_mean_free_path_mm(std::span<const Medium> media) {
 }
 
 // The sum over pairs sorted by distance: near triangles are cut as finely as each point needs, so
-// that materials far denser than the patches are small take no more memory.
+// that materials with mean free paths far below the patch size take no more memory.
 std::vector<Eigen::Array3d> binned_radiosity(const std::vector<Eigen::Vector3d>& points_mm,
                                              const IncidentLight& light,
                                              const Eigen::Vector3d& origin_mm,
@@ -115,7 +115,7 @@ Eigen::Array3d SurfaceField::eval(const PatchPoint& at) const {
     sum += w[i] * (2.0 * w[i] - 1.0) * values_[static_cast<std::size_t>(node[i])];
     sum += 4.0 * w[i] * w[(i + 1) % 3] * values_[static_cast<std::size_t>(node[i + 3])];
   }
-  // The quadratic may dip below zero beside a steep edge in the dark.
+  // The quadratic may become negative on the dark side of a steep edge.
   return sum.max(0.0);
 }
 

@@ -1,4 +1,4 @@
-// What the dipole makes a lit object look like.
+// The image of a lit object by the dipole.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@ namespace scattermeter {
 class SurfaceField {
  public:
   // needed: patches on which eval() will be called; others stay undefined (NaN).
-  // part_of_facet: facets of different parts share no node, so that values may differ on the two
-  // sides of an edge between them; empty: all are one part.
+  // part_of_facet: facets of different parts share no node, so that values may be discontinuous
+  // across an edge between them; empty: a single part.
   SurfaceField(const PatchMesh& patches, const std::vector<bool>& needed,
                const std::vector<int>& part_of_facet = {});
 
@@ -53,7 +53,7 @@ std::vector<Eigen::Array3d> dipole_radiosity(const std::vector<Eigen::Vector3d>&
 // Patch size on which the field above is smooth enough for quadratic interpolation: 0.45 of the
 // shortest mean free path, within 1/250 .. 1/40 of the object's size. Noise-free shots of the
 // sample at half size are then measured within 0.009 % of sigma_a at a mean free path of 0.37 mm;
-// with 0.6 of it, 0.020 %, of which the rendering had most.
+// with 0.6 of it, 0.020 %, mostly due to the rendering.
 double render_patch_size_mm(const std::array<Medium, 3>& media, double object_size_mm);
 
 }  // namespace scattermeter

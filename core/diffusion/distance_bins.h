@@ -1,4 +1,4 @@
-// Binning of squared distances with linear weights.
+// Bins of squared distances with linear weights.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 namespace scattermeter {
 
 // Both kinds of bins take pairs (d^2, weight) and share each weight between the two knots around d
-// so that a function that is linear between knots is summed exactly. Sum: what a knot's sum is kept
-// in.
-inline constexpr int kPairsAtOnce = 256;  // that can be added at most
+// so that a function that is linear between knots is summed exactly. Sum: the number type of a
+// knot's sum.
+inline constexpr int kPairsAtOnce = 256;  // largest n of add()
 
 // Knots d'_i = i * width: the paper's quantised distances (eq. 17 to 25).
 class UniformBins {
@@ -43,11 +43,12 @@ class UniformBins {
   int n_;
 };
 
-// Knots in s = d^2 + s0, evenly spaced inside each octave of s (2^kBits a octave): the bit pattern
-// of a float s is the position, so that no root and no logarithm is needed. The step is at most
-// 2^-kBits of s; R as a function of d^2 falls no faster than s^-1.5 where s0 <= z_r^2, so linear
-// interpolation is relatively wrong by at most (15/32) 4^-kBits: 1.1e-4 for 6, 7e-6 for 8. Sums in
-// single precision: thousands of pairs a bin leave some 1e-6 of its sum.
+// Knots in s = d^2 + s0, evenly spaced inside each octave of s (2^kBits per octave): the bit
+// pattern of a float s is the position, so that no root and no logarithm is needed. The step is at
+// most 2^-kBits of s; R as a function of d^2 falls no faster than s^-1.5 where s0 <= z_r^2, so
+// linear interpolation is relatively wrong by at most (15/32) 4^-kBits: 1.1e-4 for 6, 7e-6 for 8.
+// Sums are in single precision: with thousands of pairs in a bin, rounding is about 1e-6 of its
+// sum.
 class OctaveBins {
  public:
   using Sum = float;
@@ -70,7 +71,7 @@ class OctaveBins {
   }
   void add(float d2_mm2, float weight, float* sums) const { add(&d2_mm2, &weight, 1, sums); }
   void add(const float* d2_mm2, const float* weight, int n, float* sums) const {
-    // Places first: in lanes.
+    // Bins first, so that this loop is vectorised.
     std::array<std::int32_t, kPairsAtOnce> at;
     std::array<float, kPairsAtOnce> to_next;
     const auto mask = static_cast<std::int32_t>((1U << shift_) - 1U);

@@ -14,7 +14,7 @@
 namespace scattermeter {
 namespace {
 
-// Lagrange's polynomial through the knots 0 .. kStencil - 1 at u: what each of them counts.
+// Lagrange's polynomial through the knots 0 .. kStencil - 1 at u: their weights.
 template <int kStencil>
 std::array<double, kStencil> lagrange(double u) {
   std::array<double, kStencil> w;
@@ -50,7 +50,7 @@ DistanceKnots::DistanceKnots(double resolution_mm, double max_distance_mm, int p
   }
   const auto first_knot = [&](int bin) {
     const double u = std::log2(bins_.knot_s_mm2(bin) / s0) * per_octave;
-    // A bin on a knot belongs to those behind it.
+    // A bin on a knot belongs to the interval beyond it.
     return std::clamp(static_cast<int>(std::floor(u + 1e-9)) - kStencil / 2 + 1, 0, n - kStencil);
   };
   // Where runs of other octaves have the same shares: by the first bin and knot, less octaves.
@@ -81,7 +81,7 @@ DistanceKnots::Shares DistanceKnots::shares(int bin, int first_knot) const {
   const auto at = [&](double s_here) {
     return lagrange<kStencil>(std::log2(s_here / s0) * per_octave_ - first_knot);
   };
-  // Linear shares between fine bins hold on average h^2 / 12 of the second derivative too much,
+  // Linear shares between fine bins overestimate on average by h^2 / 12 of the second derivative,
   // h being the distance to the next bin; half of the pairs come from either side.
   const double below = bin > 0 ? s - bins_.knot_s_mm2(bin - 1) : 0.0;
   const double above = bin + 1 < bins_.size() ? bins_.knot_s_mm2(bin + 1) - s : 0.0;

@@ -123,7 +123,7 @@ class SiteSum {
     constexpr float kV3[4] = {1, -1, -1, 1};
     make_room(4 * kClusters);
     for (int i = 0; i < 4; ++i) {
-      // Lanes without a cluster write what is then written over.
+      // Lanes without a cluster write values that are then overwritten.
       Eigen::Map<ClusterLanes> d2(d2_.data() + pairs_), power(power_.data() + pairs_);
       d2 = (x_ + l11 * kV1[i]).square() + (y_ + l21 * kV1[i] + l22 * kV2[i]).square() +
            (z_ + l31 * kV1[i] + l32 * kV2[i] + l33 * kV3[i]).square();
@@ -189,7 +189,7 @@ class SiteSum {
   int n_few_;
   std::array<Eigen::Vector3f, ExitSite::kMaxPoints> few_points_;
   std::array<float, ExitSite::kMaxPoints> few_weights_;
-  // What waits for the bins: more room than pairs, since whole lanes are written.
+  // Pairs waiting to be binned: more room than pairs, since whole lanes are written.
   int pairs_ = 0;
   alignas(16) std::array<float, kPairsAtOnce + kClusters> d2_, power_;
   // Clusters that wait to be replaced by points.
@@ -219,7 +219,7 @@ class SiteGroup {
   }
 
  private:
-  // sites: a bit for each that has come here.
+  // sites: a bit for each that has reached this node.
   void visit(std::int32_t at, int sites) {
     const SourceCloud::Node& node = cloud_.nodes()[static_cast<std::size_t>(at)];
     const float far_of_node = far_ratio_ * node.radius;

@@ -12,10 +12,10 @@
 
 namespace scattermeter {
 
-// Each pixel of a rectangle as a mean over surface points: one for pixels inside a facet, 64 spread
-// over the pixel where it meets another facet, a step in depth or the background. They lie on a
-// lattice of which no two share a row or a column, so that an edge along the pixels is met at 64
-// places: it appears within 1/128 px of where it is (4 x 4 on a grid: 1/8 px).
+// Each pixel of a rectangle is a mean over surface points: one for pixels inside a facet, 64 spread
+// over the pixel if it includes another facet, a step in depth or the background. They form a
+// lattice in which no two share a row or a column, so that an edge along the pixel grid is sampled
+// at 64 offsets: it appears within 1/128 px of its true position (4 x 4 on a grid: 1/8 px).
 class ShadeMap {
  public:
   ShadeMap(const RayGrid& rays, const RayScene& scene, const PatchMesh& patches,
@@ -45,7 +45,7 @@ class ShadeMap {
 
   int x0_, y0_, width_, height_;
   std::vector<Point> centers_;
-  std::vector<std::int32_t> block_of_pixel_;  // -1: the centre does; else index of its points
+  std::vector<std::int32_t> block_of_pixel_;  // -1: centre only; else of its points
   std::vector<Point> blocks_;
 };
 

@@ -1,4 +1,4 @@
-// The lit surface as a tree of clusters, for sums over its points.
+// A tree of clusters over the lit surface, for sums over its points.
 #pragma once
 
 #include <array>

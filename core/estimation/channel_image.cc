@@ -27,8 +27,8 @@ double sigma_t_per_mm(const Medium& medium) {
   return medium.sigma_s_prime_per_mm + medium.sigma_a_per_mm;
 }
 
-// A nuisance, and the square of the length of what one deviation of it changes in the image, in
-// deviations of the rows; infinite where it is free.
+// A nuisance, and the squared length of the image's change by one deviation of it, in deviations of
+// the rows; infinite if it is free.
 struct Effect {
   Nuisance nuisance;
   double square = 0;
@@ -55,7 +55,7 @@ std::vector<Effect> effects(const SceneNuisances& nuisances, const ObservedShot&
   return out;
 }
 
-// Of all shots, in the order in which these have them.
+// The effects summed over all shots, in the order of their first occurrence.
 std::vector<Effect> summed(const std::vector<std::vector<Effect>>& of_shot) {
   std::vector<Effect> all;
   std::map<std::string, std::size_t> known;
@@ -69,7 +69,7 @@ std::vector<Effect> summed(const std::vector<std::vector<Effect>>& of_shot) {
   return all;
 }
 
-// Those that are nothing: the smallest, as long as all of them are together.
+// The negligible ones: the smallest, as long as their sum is negligible.
 std::vector<bool> negligible_of(const std::vector<Effect>& all) {
   constexpr double kNothing = 1e-2;
   std::vector<std::size_t> by_size(all.size());
@@ -126,7 +126,7 @@ ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& channel,
     index_[all[k].nuisance.name] = static_cast<Eigen::Index>(nuisances_.size());
     nuisances_.push_back(all[k].nuisance);
   }
-  // Those of the method, as a shot without rows has them: its octaves', and its own.
+  // The errors of the method, as for a shot without rows: those of the octaves, and its own.
   DenseSystem none{WeightMatrix(0, knots.size()), Eigen::VectorXd(0), Eigen::VectorXd(0)};
   add_errors_of_method(none);
   octaves_ = static_cast<Eigen::Index>(none.nuisances.size()) - 1;

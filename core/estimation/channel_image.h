@@ -1,4 +1,4 @@
-// The images that the dipole is fitted to, one shot of a channel at a time.
+// The images of one channel to which the dipole is fitted, one shot at a time.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,17 @@
 
 namespace scattermeter {
 
-// The used rows of the channel under all their lights, with all that the rig states only to a
-// standard deviation (core/estimation/nuisances.h) and with the errors of the method
-// (core/fit/method_errors.h). What it is made of must outlive it, the rows as well: those that are
-// left out later are gone from the image. Nuisances of the rig that together can move no result by
-// more than a hundredth of the deviation that the noise alone causes are left out: the length of
-// what one deviation of them changes, in deviations of the rows, is a bound for that.
+// The used rows of the channel under all their lights, with the setup's uncertain quantities
+// (core/estimation/nuisances.h) and the errors of the method (core/fit/method_errors.h) as
+// nuisances. All arguments must outlive it; rows excluded from `rows` later are also excluded from
+// the image. Nuisances of the setup that together cannot change any result by more than a hundredth
+// of its deviation by noise alone are left out: the length of the image's change by one deviation
+// of them, in deviations of the rows, is a bound of this.
 class ChannelImage final : public ImageRows {
  public:
-  // first: the material as known so far, for which nuisances and errors are computed.
-  // sensitivities: of every view and light of the channel. patch_mm: of the patches whose errors
-  // these are; absent: the channel's.
+  // first: the material as first estimated, for which nuisances and errors are computed.
+  // sensitivities: for every view and light of the channel. patch_mm: the patch size for the errors
+  // of the method; absent: the channel's.
   ChannelImage(const Scene& scene, const MaterialChannel& channel, const ChannelRows& rows,
                const Weights& weights, const DistanceKnots& knots, const LitMedium& first,
                const std::map<LightKey, ChannelSensitivity>& sensitivities,
@@ -35,7 +35,7 @@ class ChannelImage final : public ImageRows {
   std::size_t negligible_nuisances() const { return negligible_; }
 
  private:
-  // With the errors of the method alone.
+  // With the errors of the method only.
   DenseSystem rows_of_shot(std::size_t shot) const;
   void add_errors_of_method(DenseSystem& system) const;
 
@@ -49,13 +49,13 @@ class ChannelImage final : public ImageRows {
   SceneNuisances scene_nuisances_;
   std::optional<double> patch_mm_;
   std::vector<Nuisance> nuisances_;
-  std::map<std::string, Eigen::Index> index_;  // of the rig's, by name
-  std::size_t negligible_ = 0;                 // of the rig's, that are in neither
-  Eigen::Index octaves_ = 0;                   // errors of the method that the shots share
+  std::map<std::string, Eigen::Index> index_;  // of the setup's nuisances, by name
+  std::size_t negligible_ = 0;                 // of the setup's, in neither list
+  Eigen::Index octaves_ = 0;                   // errors of the method common to the shots
 };
 
-// The same before anything is known of the material: no nuisances but ambient light, which is
-// a free constant in the shots that it falls into (on a body without hollows it is nearly that).
+// The same before anything is known of the material: no nuisances except ambient light, which is a
+// free constant in the shots that include it (nearly true on a convex body).
 class FirstChannelImage final : public ImageRows {
  public:
   FirstChannelImage(const Scene& scene, const MaterialChannel& channel, const ChannelRows& rows,

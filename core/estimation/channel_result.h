@@ -17,8 +17,8 @@
 
 namespace scattermeter {
 
-// What a shot shows and what the model predicts of it, by row of its map (a patch), W/mm^2 or up to
-// one factor as ChannelObservation. NaN in predicted and std where the row took no part.
+// Observed and predicted l of a shot, by row of its map (a patch), in W/mm^2 or up to one factor as
+// in ChannelObservation. predicted and std are NaN for rows that were not used.
 struct ShotRows {
   std::string file;
   std::shared_ptr<const SampleMap> map;
@@ -28,7 +28,7 @@ struct ShotRows {
   std::vector<RowState> state;
 };
 
-// A shot measured alone.
+// The estimate from a single shot.
 struct ShotResult {
   std::string file;
   Estimate estimate;
@@ -38,35 +38,35 @@ struct ChannelResult {
   std::string material;
   char channel;  // 'R', 'G', 'B'
   double eta_int_over_ext;
-  std::string model;  // name of the estimator that the estimate is from
+  std::string model;  // name of the estimator that produced the estimate
   Estimate estimate;
-  std::vector<std::string> shots;  // file names that took part
-  // Patches, summed over the shots, by what kept them out (index: RowState; kUsed: in use), and
-  // those that the silhouette, a crease or another part of the object hides in part.
+  std::vector<std::string> shots;  // file names of the shots used
+  // Numbers of patches, summed over the shots: by state (index: RowState), and those partly hidden
+  // by the silhouette, a crease or another part of the object.
   std::array<std::size_t, kRowStates> patches_by_state{};
   std::size_t patches_partly_seen = 0;
   std::size_t nuisances_negligible =
       0;  // left out of the dipole's fit (core/estimation/channel_image.h)
-  // Dipole and transport.
-  std::vector<ShotResult> singles;  // each shot alone; empty for a single shot
+  // Of dipole and transport:
+  std::vector<ShotResult> singles;  // estimates of single shots; empty if there is only one
   ShotAgreement agreement;          // whether the shots agree
-  // r(d) without the dipole, and whether the dipole fits it. Also beside transport's estimate,
-  // where it shows why the dipole would not do.
+  // r(d) without the dipole, and whether the dipole fits it. With transport's estimate it shows why
+  // the dipole is inadequate.
   std::optional<SmoothReflectance> recovered;
   std::optional<DipoleMisfit> misfit;
-  // Of transport only: the dipole's estimate, and why --model auto did not keep it.
+  // Of transport only: the dipole's estimate, and why --model auto rejected it.
   std::optional<Estimate> dipole;
   std::string why_transport;
-  std::vector<ShotRows> rows;  // by shot, where asked for and the model came to an end
+  std::vector<ShotRows> rows;  // by shot, if EstimateOptions::keep_rows and the fit was completed
   bool refused() const { return !estimate.reasons.empty(); }
 };
 
-// How far the dipole's estimate lies from transport's.
+// The difference between the estimates of dipole and transport.
 struct DipoleDistance {
   double sigma_s_prime_relative = 0;
   double sigma_a_per_mm = 0;
 };
-// Empty where there are not two estimates.
+// Empty unless there are both estimates.
 std::optional<DipoleDistance> dipole_distance(const ChannelResult& result);
 
 }  // namespace scattermeter

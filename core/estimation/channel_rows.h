@@ -1,4 +1,4 @@
-// The rows of a material's shots in one channel, and the linear systems that they make.
+// The rows of a material's shots in one channel, and their linear systems.
 #pragma once
 
 #include <cstddef>
@@ -14,28 +14,28 @@
 
 namespace scattermeter {
 
-// What the shots show in the channel, one a shot; rows are left out as the estimate learns more
-// about them.
+// The observations of the shots in the channel, one per shot; the estimation excludes rows as it
+// proceeds.
 using ChannelRows = std::vector<ChannelObservation>;
 
-// As observed, without the rows that mirror a light into the camera.
+// The observed rows, without those that mirror a light into the camera.
 ChannelRows channel_rows(const Scene& scene, const MaterialChannel& channel);
 
 // The used rows of one of the shots under all its lights. `mean_free_path_mm`: of the material, for
-// the error of patches that are not small against it; 0: not known yet. patch_mm: of the patches
-// that this error is stated for, where they are others.
+// the error of patches that are not small compared with it; 0: not known yet. patch_mm: the patch
+// size for this error, if not the channel's.
 DenseSystem channel_system(const Scene& scene, const MaterialChannel& channel, std::size_t shot,
                            const ChannelObservation& rows, const Weights& weights,
                            double mean_free_path_mm, std::optional<double> patch_mm = std::nullopt);
-// Of all its shots, one below the other.
+// The same for all its shots, one below the other.
 DenseSystem channel_system(const Scene& scene, const MaterialChannel& channel,
                            const ChannelRows& rows, const Weights& weights,
                            double mean_free_path_mm);
 
-// Counts rows by what kept them out.
+// Counts the rows by state.
 void report_rows(const MaterialChannel& channel, const ChannelRows& rows, ChannelResult& result);
 
-// The shots' rows with what the model makes of those in use. predicted, std: of the used rows of
+// The shots' rows with the model's predictions for those used. predicted, std: of the used rows of
 // `rows`, shot by shot.
 std::vector<ShotRows> shot_rows(const MaterialChannel& channel, const ChannelRows& rows,
                                 const Eigen::VectorXd& predicted, const Eigen::VectorXd& std);

@@ -23,26 +23,25 @@ namespace scattermeter {
 // the object.
 class ChannelSimulation {
  public:
-  // Throws InputError where a light reaches no part of an object.
+  // Throws InputError if a light reaches no part of an object.
   ChannelSimulation(const Scene& scene, const MaterialChannel& channel);
 
-  // The rows whose state is kUsed, shot by shot, are those of images and projections from now on.
+  // From now on, images and projections have the rows whose state is kUsed, shot by shot.
   void set_rows(const ChannelRows& rows);
   Eigen::Index n_rows() const { return static_cast<Eigen::Index>(area_mm2_.size()); }
-  // Of the rows' patches.
+  // By row, of its patch.
   const std::vector<double>& area_mm2() const { return area_mm2_; }
   const std::vector<Eigen::Vector3d>& center_mm() const { return center_mm_; }
 
-  // Paths drawn for one medium, none yet.
+  // A sample of paths for one medium; initially empty.
   struct Draw {
     std::vector<ScatteringSum> of_light;
-    std::vector<std::vector<Eigen::Index>>
-        projected;  // rows of the projection that a light touches
+    std::vector<std::vector<Eigen::Index>> projected;  // projection's rows, by light
     Eigen::Index n_projected = 0;
     std::uint64_t seed = 0;
     int blocks() const { return of_light.front().blocks(); }
   };
-  // projection: any number of rows x rows of the images. No two draws share a path.
+  // projection: a matrix whose columns are the rows of the images. No two draws share a path.
   Draw draw(const Eigen::MatrixXd& projection);
   void trace(Draw& draw, const ScatteringPoint& at, int blocks) const;
   // At scale 1, W/mm^2.
@@ -64,7 +63,7 @@ class ChannelSimulation {
     std::unique_ptr<EntrySource> source;
     double power;
     std::vector<std::size_t> shots;
-    // Rows of the images that it lights, and of the view, side by side.
+    // Pairs of a row of the images that it lights and the same row of the view.
     std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;
   };
 

@@ -1,4 +1,4 @@
-// The weights W of every view of an object under every light that shots need.
+// The weights W of every view of an object under every light of some shots.
 #pragma once
 
 #include <cstddef>
@@ -18,14 +18,14 @@ namespace scattermeter {
 using WeightKey = std::tuple<const SeenObject*, std::string, std::size_t>;
 using Weights = std::map<WeightKey, WeightMatrix>;
 
-// Makes W of every view and light that a shot needs, each once, several at a time; those that are
-// there already stay. Of the shots it needs `stated` and `seen` alone.
+// Computes W of every view and light that a shot needs, each once, in parallel; existing ones are
+// kept. Of the shots only `stated` and `seen` are used.
 void add_weights(const Scene& scene, std::span<const ObservedShot> shots, LitObjects& lit,
                  Progress* progress,
                  const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make,
                  Weights& weights);
 
-// Knots for these objects: as fine as their patches allow for.
+// Knots for these objects: as fine as their patches allow.
 DistanceKnots smooth_knots(const LitObjects& lit);
 // Near-field options for these knots.
 PairSumOptions pair_options(const DistanceKnots& knots);

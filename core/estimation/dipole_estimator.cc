@@ -1,4 +1,4 @@
-// --model dipole: the dipole, with all that the rig knows only to a standard deviation.
+// --model dipole: the dipole, fitted with all uncertain quantities of the setup.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,10 +21,10 @@
 namespace scattermeter {
 namespace {
 
-// One material and channel on its way to an estimate.
+// The state of the estimation of one material and channel.
 struct Work {
   ChannelRows rows;
-  bool estimated = false;  // a first estimate is there
+  bool estimated = false;  // there is a first estimate
   bool settled = false;    // another round would not change it
 };
 
@@ -45,9 +45,8 @@ class DipoleEstimator {
     fit_.without_noise = e.options.without_noise;
   }
 
-  // Without nuisances, to know the material that rows are weighed for and that the image's
-  // dependence on the nuisances is computed for; then with them, and once more where that shows
-  // rows that are outliers.
+  // First without nuisances, for the material for which rows are weighted and nuisance derivatives
+  // computed; then with nuisances, and once more if that reveals outliers.
   void run() {
     for (ChannelResult& result : e_.results) result.model = "dipole";
     add_smooth_weights(e_.scene, e_.shots, e_.lit, e_.progress, e_.kept.weights);
@@ -104,7 +103,7 @@ class DipoleEstimator {
   }
 
   // To some thousand rows evenly among all, which determine a material well enough to begin with;
-  // where they don't, to all of them.
+  // if not, to all of them.
   DipoleFit fit_to_some(const ImageRows& image, const MaterialChannel& channel,
                         const ChannelRows& rows) const {
     constexpr std::size_t kRows = 4096;

@@ -1,4 +1,4 @@
-// An estimation under way: what estimators work on.
+// The state of an estimation in progress, shared by the estimators.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@
 
 namespace scattermeter {
 
-// What serves the next set of shots of the same views as well.
+// Light that can be reused for further shots of the same views.
 struct KeptLight {
   Weights weights;  // on smooth knots
   ChangedWeightsByLight changed;
@@ -28,8 +28,8 @@ struct KeptLight {
 
 class Estimation {
  public:
-  // Makes a result for each material and channel, refused where a shot is of no use as a whole.
-  // wanted: of these shots. Everything that is referred to must outlive it.
+  // Creates a result for each material and channel, refused if one of its shots is useless as a
+  // whole. wanted: material channels of these shots. All arguments must outlive it.
   Estimation(const Scene& of_scene, LitObjects& lit_objects, std::span<const ObservedShot> observed,
              std::vector<MaterialChannel> wanted, const EstimateOptions& estimate_options,
              KeptLight& kept_light, Stopwatch& stopwatch, Progress* reported_to);
@@ -42,27 +42,27 @@ class Estimation {
   Stopwatch& watch;
   Progress* const progress;
   const std::vector<MaterialChannel> channels;
-  std::vector<ChannelResult> results;  // one per channel; those refused already are left alone
+  std::vector<ChannelResult> results;  // one per channel; refused ones are left unchanged
 
-  // Runs `work` on every channel whose result is not refused yet, in parallel, as one stage.
+  // Runs `work` for every channel whose result is not yet refused, in parallel, as one stage.
   void for_open_channels(const std::string& stage,
                          const std::function<void(std::size_t)>& work) const;
 };
 
-// How well the scene knows the scale: free without a responsivity.
+// The scene's prior of the scale: free without a responsivity.
 ScalePrior scale_prior(const Scene& scene);
 
-// What the dipole is fitted to, before it calls rows outliers.
+// The system to which the dipole is fitted, before the rejection of outliers.
 struct DipoleSystem {
-  // Of all shots; made when asked for, since it is large. As long as the estimation is there.
+  // Of all shots; computed on each call, since it is large. Valid as long as the estimation exists.
   std::function<DenseSystem()> system;
   DistanceKnots knots;
   std::shared_ptr<const ChannelRows> rows;
   double image_in_std = 0;  // |l / std|
 };
 
-// The estimators fill the results' estimates. systems: if given, those of the channels that came to
-// a fit.
+// The estimators fill in the results' estimates. systems: if given, receives those of the channels
+// that were fitted.
 void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems);
 void estimate_dipole(Estimation& e);
 void estimate_auto(Estimation& e);

@@ -49,7 +49,8 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
     return SourceCloud(other.illuminate(coarse, shadows, eta_here, LightUse::kMeasure)[channel],
                        object.box.center_mm());
   };
-  // A light whose channels differ makes all of them at once: they are kept for the others.
+  // A light with different channels computes all of them at once; they are kept for the other
+  // channels.
   const auto nominal = [&](double eta_here) {
     if (light->channels() == 1) return lit_by(*light, eta_here);
     return SourceCloud(lit.light_on(object.stated->name, light, channel, coarse, eta_here),

@@ -1,4 +1,4 @@
-// How the image of one light depends on what the rig states only to a standard deviation.
+// Sensitivity of the image of one light to the uncertain quantities of the setup.
 #pragma once
 
 #include <array>
@@ -21,20 +21,20 @@ struct LitMedium {
 };
 
 // Change of l (per unit of the light's power) on the rows of a view for each medium: rows x media.
-// Empty where the rig states the quantity as exact.
+// Empty if the quantity is stated as exact.
 struct LightSensitivity {
-  Eigen::MatrixXd l;                              // nominal
-  std::vector<Eigen::MatrixXd> per_change;        // by the quantities of Light::changes()
-  Eigen::MatrixXd per_eta;                        // by eta, of l - observed l: both depend on it
-  std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by moving the sites along two tangents
+  Eigen::MatrixXd l;                        // nominal
+  std::vector<Eigen::MatrixXd> per_change;  // by each quantity of Light::changes()
+  Eigen::MatrixXd per_eta;                  // by eta, of predicted - observed l: both depend on it
+  std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by a shift of the sites along two tangents
 };
 
-// For weights to some 1e-3: deviations need no more.
+// For weights to about 1e-3, which is sufficient for standard deviations.
 PairSumOptions coarse_pair_options(const DistanceKnots& knots);
 
-// A view under a light, nominal and with one thing changed at a time. At the centres of the sites,
-// from light on patches of twice the size: errors of discretisation cancel in relative changes, and
-// these are nearly the same all over a site. What the rig states as exact is not changed (no rows).
+// A view under a light, nominal and with one quantity changed at a time, at the centres of the
+// sites, with light on patches of twice the size: discretisation errors cancel in relative changes,
+// which are nearly constant over a site. Quantities stated as exact are not changed (no rows).
 template <class Each>
 struct Changed {
   Each nominal;
@@ -44,10 +44,10 @@ struct Changed {
   std::array<Each, 2> shifted;  // the sites, by shift_mm along two tangents
   double shift_mm = 0;
 };
-// W: all that the sensitivities of any medium need of the geometry.
+// W: with these, the sensitivities for any medium can be computed.
 using ChangedWeights = Changed<WeightMatrix>;
-// The images themselves of some media, rows x media: as many numbers as W has knots times
-// fewer.
+// The images for some media, rows x media: smaller than W by a factor of the number of knots over
+// that of media.
 using ChangedImages = Changed<Eigen::MatrixXd>;
 // `channel`: of the light.
 ChangedWeights changed_weights(const SeenObject& seen, const SceneLight& light, std::size_t channel,
@@ -58,13 +58,13 @@ ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, st
 ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weights,
                              const DistanceKnots& knots, const std::vector<LitMedium>& media);
 
-// By differences of the changed images and the nominal ones, relative to what `nominal`, the W
-// that is measured with, predicts of the same media.
+// From differences of the changed images and the nominal ones, relative to the prediction of
+// `nominal`, the W used for the measurement, for the same media.
 LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,
                              const ChangedImages& images, const std::vector<LitMedium>& media,
                              const DistanceKnots& knots);
 
-// Two unit tangents of a row's facet; per_tangent_mm goes along them.
+// Two unit tangents of a row's facet; the directions of per_tangent_mm.
 std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal);
 
 }  // namespace scattermeter

@@ -1,4 +1,4 @@
-// A material in a channel, and the shots that show it.
+// A material in one channel, and the shots that show it.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ struct MaterialChannel {
   double eta_int_over_ext = 0;
 };
 
-// The shots' materials in the scene's order, of each those of R, G, B that `channels` holds; empty:
-// all. Throws InputError where the shots of one material are of objects with different eta.
+// The shots' materials in the scene's order, each in the channels of `channels` (R, G, B; empty:
+// all). Throws InputError if the shots of one material show objects with different eta.
 std::vector<MaterialChannel> material_channels(const Scene& scene,
                                                std::span<const ObservedShot> shots,
                                                const std::string& channels = {});
@@ -27,8 +27,8 @@ std::vector<MaterialChannel> material_channels(const Scene& scene,
 // The patch size of the channel's objects, the largest, mm.
 double patch_size_mm(const MaterialChannel& channel);
 
-// What makes a shot useless as a whole in a channel (dark, over-exposed, nothing seen); empty:
-// nothing.
+// Why a shot is useless as a whole in a channel (dark, over-exposed, nothing seen); empty: it is
+// usable.
 std::string shot_problem(const ObservedShot& shot, std::size_t channel);
 
 }  // namespace scattermeter

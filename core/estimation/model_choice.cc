@@ -16,7 +16,7 @@ std::string why_transport(const ChannelResult& result, double image_in_std) {
   if (e.misfit_p_value < kPValue && e.misfit_relative > kMisfit) {
     return fmt::format("the dipole misses {:.2g} % of the image", 100.0 * e.misfit_relative);
   }
-  if (result.agreement.disagree()) return "by the dipole the shots do not agree";
+  if (result.agreement.disagree()) return "the shots do not agree under the dipole";
   const double visible = kDeviations / image_in_std;
   if (visible > kVisible) {
     return fmt::format("noise hides what the dipole may miss, up to {:.2g} % of the image",

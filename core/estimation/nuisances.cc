@@ -56,7 +56,7 @@ void SceneNuisances::add_light(const SceneLight& light, const ChannelSensitivity
   }
 }
 
-// What the radiance calibration leaves open: each shot's black, the glare, the shutter.
+// The uncertainties of the radiance calibration: each shot's black, the glare, the shutter.
 void SceneNuisances::add_radiance(const ObservedShot& shot, const ChannelObservation& observed,
                                   const Eigen::VectorXd& predicted, Columns& columns) const {
   const std::vector<Eigen::Index>& rows = columns.rows();
@@ -67,7 +67,7 @@ void SceneNuisances::add_radiance(const ObservedShot& shot, const ChannelObserva
   const Eigen::VectorXd l_per_count = pick(observed.l_per_count);
   for (std::size_t k = 0; k < shot.exposures.size(); ++k) {
     const ShotExposure& e = shot.exposures[k];
-    // What part of the rows' l comes from this exposure.
+    // Share of the rows' l that comes from this exposure.
     const Eigen::VectorXd part = observed.exposures.empty()
                                      ? Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows.size()))
                                      : pick(observed.exposures[k].of_row);
@@ -87,11 +87,10 @@ void SceneNuisances::add_radiance(const ObservedShot& shot, const ChannelObserva
   }
 }
 
-// What pose and lens do to the rows. The lens is one for all shots; where it was wrong, the pose
-// was fitted through the wrong lens, too, and has taken up part of it
-// (PoseResult::per_lens_parameter): the two go together. What the pose's own marks leave open is
-// independent of that. per_mm: change of each row's l where what its samples see shifts along the
-// surface.
+// The effect of pose and lens on the rows. The lens is common to all shots; a pose fitted with a
+// wrong lens has absorbed part of its error (PoseResult::per_lens_parameter), so the two change
+// together. The pose's own uncertainty is independent of that. per_mm: change of each row's l where
+// what its samples see shifts along the surface.
 void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
                               Columns& columns) const {
   const SeenObject& seen = *shot.seen;
@@ -114,7 +113,7 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
         by_pose * shot.pose.per_lens_parameter;
     by_lens_root.row(i) = per_mm.col(i).transpose() * by_lens * lens_root;
   }
-  // One pose for all shots, or one a shot.
+  // One pose for all shots, or one per shot.
   const std::string name = shot.has_own_pose ? "pose " + shot.stated->file : "pose";
   for (Eigen::Index k = 0; k < 6; ++k) {
     columns.add(name + std::to_string(k), "pose", 1.0, by_pose_root.col(k));

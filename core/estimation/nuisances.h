@@ -1,4 +1,4 @@
-// How the image depends on what the rig states only to a standard deviation.
+// The nuisances of a scene, and the image's derivatives by them.
 #pragma once
 
 #include <map>
@@ -14,8 +14,8 @@
 
 namespace scattermeter {
 
-// Sensitivities by (view, light, channel; 0 for an LED), and which column of theirs belongs to a
-// material in a channel.
+// Sensitivities by (view, light, channel; 0 for an LED), and their column for a material in a
+// channel.
 using LightKey = std::tuple<const SeenObject*, std::string, std::size_t>;
 using ChangedWeightsByLight = std::map<LightKey, ChangedWeights>;
 struct ChannelSensitivity {
@@ -25,23 +25,22 @@ struct ChannelSensitivity {
 
 // One nuisance and dl/dv on rows of a shot.
 struct NuisanceColumn {
-  Nuisance nuisance;  // its name is its own in all the rig
+  Nuisance nuisance;  // its name is unique in the setup
   Eigen::VectorXd change;
 };
 
-// The nuisances that the scene leaves open: those of every light in use (Light::nuisances()), pose
-// (six independent combinations of each pose's covariance), lens (as many as its calibration has
-// parameters, alike in all shots; each takes along what the pose, which was fitted through that
-// lens, would have become; what LEDs and scale owe to the same lens is not followed), eta; each
-// file's black, the glare and the exposure times (files of one stated time share theirs; in a
-// bracket each moves the part of a row that comes from it). Those with a standard deviation of 0
-// are left out.
+// The uncertain quantities of the scene: those of every light in use (Light::nuisances()); pose
+// (six independent combinations of each pose's covariance); lens (as many as its calibration has
+// parameters, common to all shots, each with the resulting change of the pose fitted with that
+// lens; its effect on calibrated LEDs and scale is not included); eta; each file's black level, the
+// glare and the exposure times (common to files of the same stated time; in a bracket each affects
+// the part of a row that comes from it). Those with a standard deviation of 0 are left out.
 class SceneNuisances {
  public:
-  // Of one channel. sensitivities: of every view and light that is asked for.
+  // Of one channel. sensitivities: for every view and light of the shots passed to columns().
   SceneNuisances(const Scene& scene, std::size_t channel,
                  std::map<LightKey, ChannelSensitivity> sensitivities);
-  // Of some rows of a shot's map, ascending; which they are depends on the shot alone.
+  // On some rows of a shot's map, ascending. Which nuisances are returned depends on the shot only.
   std::vector<NuisanceColumn> columns(const ObservedShot& shot, const ChannelObservation& observed,
                                       const std::vector<Eigen::Index>& rows) const;
 

@@ -1,4 +1,4 @@
-// How the images of all channels depend on what is uncertain of their lights.
+// Sensitivities of the images of all channels to the uncertain quantities of the setup.
 #pragma once
 
 #include <map>
@@ -12,14 +12,15 @@
 
 namespace scattermeter {
 
-// Of every view and light, each for all the channels that have a first estimate there.
+// For every view and light, for all channels that have a first estimate.
 struct Sensitivities {
   std::map<LightKey, LightSensitivity> by_light;
   std::vector<std::map<LightKey, ChannelSensitivity>> of_channel;
 };
 
-// estimated: of each channel, whether its result holds a first estimate; others get none.
-// Precondition: e.kept.weights has W of those channels' shots. Lights are made in parallel.
+// estimated: for each channel, whether its result contains a first estimate; others get no
+// sensitivities. Precondition: e.kept.weights contains W for those channels' shots. Lights are
+// computed in parallel.
 std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
                                                    const std::vector<bool>& estimated,
                                                    const DistanceKnots& knots);

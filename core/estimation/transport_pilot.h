@@ -1,4 +1,4 @@
-// The smooth image that weights the rows while transport searches for a medium.
+// The smooth pilot image that weights the rows in the search by transport.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ ScatteringImage dipole_pilot(const WeightMatrix& weights, const DistanceKnots& k
                              const ScatteringPoint& at, double eta_int_over_ext);
 
 // Monte Carlo variances proportional to light over area, with the sum of `noisy_variance`: weights
-// must not follow the noise of paths. l (negative counts as 0) and area_mm2: of the rows.
+// must not depend on the noise of paths. l (negative counts as 0) and area_mm2: of the rows.
 // Precondition: some l is positive.
 Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector<double>& area_mm2,
                                      const Eigen::VectorXd& noisy_variance);

@@ -10,7 +10,7 @@
 namespace scattermeter {
 namespace {
 
-// A misfit of the parts so improbable widens the estimate.
+// A misfit of the parts less probable than this widens the estimate.
 constexpr double kWideningPValue = 1e-2;
 
 ScatteringImage part_of(const ScatteringImage& m, Eigen::Index first, Eigen::Index n) {
@@ -77,8 +77,8 @@ void TransportRound::take(const ChannelSimulation::Draw& draw) {
   blocks_ = draw.blocks();
   const Eigen::MatrixXd own = covariance_.topLeftCorner(unknowns(), unknowns());
   step_ = joint_.step(image_, own, at_);
-  // What has been smoothed, as renderings are, scatters less from row to row than over some rows;
-  // both are noise. Offsets of whole parts are not.
+  // Smoothed images, such as renderings, scatter less from row to row than over several rows; both
+  // are noise. Offsets of whole parts are not.
   const Eigen::VectorXd rest = residual();
   scatter_within_ = std::max(
       excess_scatter(joint_.without_nuisances(rest), shots_.system.std_l.cwiseAbs2(),

@@ -17,33 +17,34 @@
 
 namespace scattermeter {
 
-// What the search works on; all must outlive its rounds.
+// The data of the search; all must outlive its rounds.
 struct TransportShots {
   const DenseSystem& system;
   const ShotParts& parts;
   const ChannelSimulation& simulation;
 };
 
-// Estimating equations for all shots and for each alone, and their solution by paths drawn for
-// them.
+// Estimating equations for all shots and for each shot alone, and their solution with newly drawn
+// paths.
 class TransportRound {
  public:
-  // Shots of fewer rows have no estimate of their own.
+  // Shots with fewer rows have no estimate of their own.
   static constexpr Eigen::Index kLeastRows = 20;
 
-  // pilot: smooth, not of the paths to come. expected: Monte Carlo variance of the rows to come and
-  // of other errors of the shots, over the pilot's; cells: the covariance of the cells' relative
-  // light that belongs to it. Both serve the weights only.
+  // pilot: smooth and independent of the paths to come. expected: expected variance of the rows, by
+  // Monte Carlo and by other errors of the shots, over the pilot's; cells: the corresponding
+  // covariance of the cells' relative light. Both are used in the weights only.
   TransportRound(const TransportShots& shots, const ScalePrior& scale, const ScatteringPoint& at,
                  const ScatteringImage& pilot, double expected, const Eigen::MatrixXd& cells);
   // The equations refer to other members.
   TransportRound(const TransportRound&) = delete;
   TransportRound& operator=(const TransportRound&) = delete;
 
-  // Of the joint estimate, of each shot's own, of the scale (where it is stated), and of the light
-  // of the cells.
+  // The projection for the joint estimate, for each shot's own, for the scale (if stated), and for
+  // the light of the cells.
   Eigen::MatrixXd projection() const;
-  // A draw for that projection, traced at this point. Everything below is from the last one.
+  // Takes a draw for that projection, traced at this point. Everything below refers to the last
+  // one.
   void take(const ChannelSimulation::Draw& draw);
 
   const ScatteringPoint& at() const { return at_; }
@@ -52,27 +53,29 @@ class TransportRound {
   const ScatteringImage& pilot() const { return pilot_; }
   int blocks() const { return blocks_; }
   Eigen::MatrixXd cell_covariance() const;
-  // To the joint estimate, scatter included.
+  // The step to the joint estimate, scatter included.
   const ScatteringEquation::Step& step() const { return step_; }
-  // Measured less predicted l at its end.
+  // Measured minus predicted l at its end.
   Eigen::VectorXd residual() const { return joint_.residual(image_, at_, step_.to); }
-  // Over the Monte Carlo variance, what shots err by beyond their noise: within their parts, and in
-  // all (parts that are as improbable as 1 in 100 widen it by Birge's ratio).
+  // Error variance of the shots beyond their noise, over the Monte Carlo variance: within their
+  // parts, and in total (a misfit of the parts less probable than 1 in 100 widens it by Birge's
+  // ratio).
   double scatter_within() const { return scatter_within_; }
   double scatter() const { return scatter_; }
   // Whether the image contradicts the stated scale.
   ScatteringEquation::ScaleTest scale_test() const;
 
-  // Shots with an estimate of their own (indices), and the steps to it; none for a single shot.
+  // Indices of the shots with an estimate of their own, and the steps to these; none for a single
+  // shot.
   std::vector<std::size_t> shots() const;
   std::vector<ScatteringEquation::Step> steps_of_shots() const;
   std::size_t rows_of_shot(std::size_t i) const {
     return static_cast<std::size_t>(singles_[i].system.l.size());
   }
-  // Between those estimates, from what they share.
+  // The agreement of those estimates, with their common errors taken into account.
   ShotAgreement agreement(const std::vector<ScatteringEquation::Step>& steps) const;
-  // Of the light of the shots' parts, with free coefficients. Nothing (dof 0) from fewer than
-  // kLeastBlocks.
+  // The misfit of the light of the shots' parts, with free coefficients. Empty (dof 0) for fewer
+  // than kLeastBlocks blocks.
   const LackOfFit& misfit() const { return misfit_; }
 
  private:
@@ -89,7 +92,7 @@ class TransportRound {
   TransportShots shots_;
   ScatteringPoint at_;
   ScatteringImage pilot_;
-  Eigen::MatrixXd correlated_;  // errors that rows have in common
+  Eigen::MatrixXd correlated_;  // errors common to rows
   ScatteringEquation joint_;
   std::vector<Single> singles_;
   ScatteringImage image_;

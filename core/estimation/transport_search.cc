@@ -68,7 +68,7 @@ class TransportSearch {
     for (int i = 0; i < kMaxRounds && elapsed_s() < options_.time_limit_s; ++i) {
       stage_.check();
       const bool learned = part_light_.blocks() >= kLearnedBlocks;
-      // On the way, a scale known to a deviation is taken as exact: the search is steadier.
+      // During the search, a scale with a prior is taken as exact, which makes it more stable.
       TransportRound round(
           {system_, parts_, simulation_}, learned || has_free_scale() ? scale_ : ScalePrior{}, at,
           pilot(last.image, at), last.blocks / kFinalPathBlocks + last.scatter - 1.0,
@@ -84,7 +84,7 @@ class TransportSearch {
         outliers_known = true;
         last = first_look(to);
       } else if (round.step().change < 0.2 || round.scatter_within() > 1.5) {
-        // Where the paths' noise decides how far the step goes, more of them.
+        // If the paths' noise dominates the step, more paths are drawn.
         blocks *= 2;
       }
       at = to;
@@ -93,7 +93,7 @@ class TransportSearch {
   }
 
  private:
-  // What paths drawn elsewhere predict of the errors to come.
+  // The errors to be expected, as predicted from paths drawn at other points.
   struct Look {
     ScatteringImage image;
     int blocks = 0;
@@ -106,7 +106,7 @@ class TransportSearch {
   }
 
   // `blocks` of paths at the round's point; where that is close enough for them to serve the root
-  // as well (may_be_last), as many as matter and time and options allow.
+  // as well (may_be_last), as many as are useful and as time and options allow.
   void trace(TransportRound& round, int blocks, bool may_be_last) {
     const double started_s = elapsed_s();
     ChannelSimulation::Draw draw = simulation_.draw(round.projection());

@@ -1,4 +1,4 @@
-// The medium whose image by volume Monte Carlo is the observed one.
+// Search for the medium whose image by volume Monte Carlo matches the observed one.
 #pragma once
 
 #include "core/base/progress.h"
@@ -9,11 +9,11 @@
 namespace scattermeter {
 
 // An estimating equation (core/fit/scattering_equation.h) is solved by Newton steps that start from
-// the dipole's result; every step draws new paths, more as the search closes in, until those of the
-// last step serve the root as well. Z is the dipole's, corrected part by part by what earlier paths
-// have shown (core/fit/part_light.h), and the weights account for the errors that rows of a cell
-// have in common. What shots err by beyond their noise widens the result as if it came from paths,
-// and parts that are off as wholes refuse it.
+// the dipole's result; every step draws new paths, more as the search converges, until those of the
+// last step also determine the root. Z is the dipole's, corrected part by part with earlier paths
+// (core/fit/part_light.h), and the weights account for the errors common to the rows of a cell.
+// Errors of the shots beyond their noise widen the result like errors of the paths; if whole parts
+// deviate, it is refused.
 //
 // Cube and pyramid under two LEDs (four shots, eta 1.3), exact scale, 60 s on two cores a channel,
 // per mm. 2.19 / 0.002, three truths of 1.2 10^7 paths a light: 2.193, 2.194, 2.192 (each +- 0.005)
@@ -21,11 +21,11 @@ namespace scattermeter {
 // 0.00003 for 1.0 / 0.005 and 0.5004 +- 0.0009 / 0.00999 +- 0.00004 for 0.5 / 0.01. The dipole's
 // best: 2.19 / 0.0003, 0.96 / 0.0018, 0.46 / 0.0031. With a scale known to 2 %: 2.186 +- 0.014 /
 // 0.0021 +- 0.0002, 0.993 +- 0.006 / 0.0052 +- 0.0002, 0.496 +- 0.002 / 0.0102 +- 0.0002. With the
-// dipole's Z as it is and weights of independent rows, the second of these had 2.7 times the
-// deviation and the third 6 times.
+// uncorrected Z of the dipole and weights of independent rows, the deviation of the second was 2.7
+// times as large and that of the third 6 times.
 //
-// Starts from the result's estimate and replaces it, its singles and agreement; where the search
-// fails, the estimate is refused. options: paths, time_limit_s and keep_rows. Throws Cancelled.
+// Starts from the result's estimate and replaces it, its singles and agreement; if the search
+// fails, the estimate is refused. Uses options.paths, time_limit_s and keep_rows. Throws Cancelled.
 void search_by_transport(const Scene& scene, const MaterialChannel& channel,
                          const DipoleSystem& dipole, const EstimateOptions& options,
                          const ProgressStage& stage, ChannelResult& result);

@@ -9,7 +9,7 @@
 namespace scattermeter {
 namespace {
 
-// A misfit so improbable and so large refuses the result.
+// With a misfit this improbable and this large, the result is refused.
 constexpr double kMisfitPValue = 1e-6;
 constexpr double kMisfit = 0.003;
 // The same for the stated scale, a single direction: an offset of three standard deviations widens

@@ -1,4 +1,4 @@
-// Verdicts on a round of the search for a medium by transport.
+// Verdicts on a round of the search by transport.
 #pragma once
 
 #include "core/fit/estimate.h"
@@ -7,31 +7,31 @@
 
 namespace scattermeter {
 
-// blocks: of paths that a round has traced for each light and view.
+// In these functions, `blocks` is the number of blocks of paths traced in a round for each light
+// and view.
 
-// From which on the covariances of a shot's parts are usable.
+// The least number for which the covariances of a shot's parts are usable.
 inline constexpr int kLeastBlocks = 64;
-// Blocks of paths that a search is expected to end with; weights count on their Monte Carlo errors.
+// The expected final number of blocks of a search; the weights assume its Monte Carlo errors.
 inline constexpr double kFinalPathBlocks = 512.0;
 
-// Whether the step is so short that its nonlinear part, about half its square, is small against
-// the standard deviation that the result would finally have, or small in itself. At first it has to
-// be shorter, or paths would be spent at a point that proves to be too far away.
+// Whether the step is so short that its nonlinear part, about half its square, is small compared
+// with the final standard deviation of the result, or small in itself. With few blocks it has to be
+// shorter, lest paths be spent at a point that turns out to be too far away.
 bool is_close(const ScatteringEquation::Step& step, int blocks);
 
-// Whether the Monte Carlo error is small against all others, or smaller than anyone needs.
+// Whether the Monte Carlo error is small compared with all others, or smaller than ever needed.
 bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int blocks);
 
 // Writes values, standard deviations, budget and scale at the step's end into the estimate.
 void report_step(const ScatteringEquation::Step& step, Estimate& estimate);
 
-// The step with a larger covariance where the image contradicts the stated scale.
+// The step, with a larger covariance if the image contradicts the stated scale.
 ScatteringEquation::Step widened_by_scale(const ScatteringEquation& equation,
                                           const ScatteringEquation::ScaleTest& scale,
                                           ScatteringEquation::Step step);
 
-// Adds the misfit, and the reasons for which the result must not be trusted, to an estimate whose
-// values are reported.
+// Adds the misfit and any reasons for refusal to an estimate whose values are already set.
 void add_refusals(const LackOfFit& misfit, const ScatteringEquation::ScaleTest& scale, int blocks,
                   Estimate& estimate);
 

@@ -39,12 +39,12 @@ void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, cons
     estimate.budget.push_back({cause, std::sqrt(std::max(0.0, all(0, 0) - rest(0, 0))),
                                std::sqrt(std::max(0.0, all(1, 1) - rest(1, 1)))});
   }
-  // The chi-square is a parabola over a few per cent of a coefficient, not over tens, and not
-  // beside sigma_a = 0.
+  // The chi-square is parabolic over a few per cent of a coefficient, but not over tens, nor near
+  // sigma_a = 0.
   constexpr double kParabolic = 0.1;
   if (!(s.std > kParabolic * s.value) && !(a.std > kParabolic * a.value)) return;
   if (!std::isfinite(s.std) || !std::isfinite(a.std)) return;
-  // What is not fitted widens the interval as it widens the standard deviation.
+  // Nuisances that are not fitted widen the interval as they widen the standard deviation.
   const Eigen::Matrix2d fitted = fit.covariance_of_fitted();
   const auto profile = [&](Coefficient which, Eigen::Index i, Quantity& q) {
     const double wider = all(i, i) / fitted(i, i);
@@ -54,8 +54,8 @@ void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, cons
                          3.841 * noise_inflation * wider);
     q.low95 = interval.low;
     q.high95 = interval.high;
-    // A side on which the profile rises within one deviation has caught the wall of a narrow basin
-    // beside which there may be others.
+    // If the profile rises within one deviation, it has met the wall of a narrow basin, beside
+    // which there may be others.
     if (q.low95 > q.value - q.std) q.low95 = std::min(q.low95, q.value - 1.96 * q.std);
     if (q.high95 < q.value + q.std) q.high95 = q.value + 1.96 * q.std;
     q.low95 = std::max(0.0, q.low95);
@@ -83,8 +83,8 @@ void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOpt
                                  " mm, is too short for the patches: choose a patch size below ",
                                  3.0 * mfp_mm, " mm"));
   }
-  // Beyond, light that is absorbed within a patch: 1 / sigma_tr of three quarters of it and less
-  // was up to 6 % off in sigma_s' (tests/core/fit/dipole_stress_test.cc).
+  // Beyond, light is absorbed within a patch: with 1 / sigma_tr of three quarters of it and less,
+  // the error was up to 6 % in sigma_s' (tests/core/fit/dipole_stress_test.cc).
   const double decay_mm = mfp_mm / std::sqrt(3.0 * p.q);
   if (decay_mm < 12.0 * knots.resolution_mm() && mfp_mm >= 5.0 * knots.resolution_mm()) {
     e.reasons.push_back(sentence("the light dies off within ", decay_mm,
@@ -98,7 +98,7 @@ void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOpt
   }
   if (p.q > 0.7) {
     e.reasons.push_back(sentence("the albedo alpha' = ", 1.0 - p.q,
-                                 " is too low for the dipole, which wants it near 1"));
+                                 " is too low for the dipole, which requires alpha' near 1"));
   }
   const double relative_std = e.sigma_s_prime_per_mm.std / e.sigma_s_prime_per_mm.value;
   if (!std::isfinite(relative_std) || relative_std > options.max_relative_std_sigma_s) {
@@ -119,8 +119,8 @@ void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOpt
     e.reasons.push_back(sentence(
         "the dipole does not explain the shots: a smooth function of distance fits better by ",
         100.0 * e.misfit_relative,
-        " % of the image (scale, light, pose or material are not what the "
-        "rig says)"));
+        " % of the image (scale, light, pose or material are not as the "
+        "rig states)"));
   }
 }
 
@@ -200,7 +200,7 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
     return fit;
   }
   if (!image.is_sound) {
-    estimate.reasons.push_back("the image or its prediction holds values that are not finite");
+    estimate.reasons.push_back("the image or its prediction contains values that are not finite");
     return fit;
   }
   fit.recovered = recover_reflectance(image);
@@ -231,8 +231,9 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
   const double misfit =
       set_misfit(recovered, image.l2, fitted, options.scale, p, options.without_noise, estimate);
   double inflation = std::max(1.0, estimate.reduced_chi2);
-  // What the dipole misses lies in the few directions that r can explain, as the coefficients do;
-  // over all rows it would be thinned out. Taken as alike in all those directions (Birge 1932).
+  // The dipole's misfit lies in the few directions that r can explain, as the coefficients do;
+  // averaged over all rows it would be diluted. It is taken as equal in all those directions (Birge
+  // 1932).
   if (estimate.misfit_p_value < options.misfit_p_value) inflation = std::max(inflation, misfit);
   // Errors of the method are at least as large as the misfit that is seen.
   std::vector<Nuisance> nuisances = rows.nuisances();
@@ -241,7 +242,7 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
       n.std = std::max(n.std, options.misfit_margin * estimate.misfit_relative);
     }
   }
-  // Where the image contradicts the rig's statements the result is widened, or refused.
+  // If the image contradicts the values stated in the rig, the result is widened or refused.
   const ScoreTests tests =
       score_tests(recovered, rows.nuisances(), knots, p, options.eta_int_over_ext, options.scale,
                   recovered.noise_excess());

@@ -1,4 +1,4 @@
-// The dipole that explains the recovered reflectance.
+// Fit of the dipole to the recovered reflectance of an image.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,28 +19,27 @@ struct DipoleFitOptions {
   // Verdict limits.
   std::size_t min_rows = 20;
   double max_relative_std_sigma_s = 0.5;
-  // The dipole is refused when its residual is significant and large: reduced chi-square above the
-  // first and relative rms above the second.
+  // The dipole is refused when its residual is significant and large: both limits exceeded.
   double max_reduced_chi2 = 4.0;
   double max_rms_relative = 0.01;
-  // A misfit is significant when it were less probable than this if the dipole held. Significant,
-  // it counts `misfit_margin` times as an error of the method (nuisances that are not fitted), and
-  // the dipole is refused where it exceeds the last.
+  // A misfit is significant if it is less probable than misfit_p_value under the dipole. A
+  // significant misfit counts `misfit_margin` times as an error of the method (nuisances that are
+  // not fitted), and the dipole is refused if it exceeds max_misfit_relative.
   double misfit_p_value = 1e-6;
   double misfit_margin = 2.0;
   double max_misfit_relative = 2e-3;
-  // Where the image contradicts the stated scale or eta (core/fit/score_tests.h) as significantly
-  // as that, the offset counts as an error of the method, and the result is refused where it
-  // changes the image by more than the last, relative to the image.
+  // Where the image contradicts the stated scale or eta (core/fit/score_tests.h) with that
+  // significance, the offset counts as an error of the method, and the result is refused if the
+  // offset changes the image by more than max_offset_relative.
   double max_offset_relative = 1e-2;
-  // Of an image that shows what is expected, without the noise that its std_l states: fit quality,
-  // what widens the errors by it, and verdicts are then those that are to be expected with that
-  // noise (one more chi-square for each degree of freedom).
+  // For an image of expected values, free of the noise that its std_l states: fit quality, the
+  // widening of errors by it, and verdicts are then those expected with that noise (chi-square
+  // increased by one per degree of freedom).
   bool without_noise = false;
   void Check() const;  // std::invalid_argument naming the field
 };
 
-// What is predicted and what was observed, of an image's rows, shot by shot.
+// Predicted and observed l of an image's rows, shot by shot.
 struct ComparedImage {
   Eigen::VectorXd predicted;
   Eigen::VectorXd l;
@@ -50,29 +49,28 @@ struct ComparedImage {
 struct DipoleFit {
   Estimate estimate;
   DipoleSolver::Point optimum;
-  // On the image's rows, shot by shot: l at the optimum, and what was observed. Empty where there
-  // is no optimum.
+  // Predicted at the optimum, and observed. Empty if there is no optimum.
   ComparedImage image;
   RecoveredReflectance recovered;
 };
 
 // The dipole of least chi-square on the image (DipoleSolver). Standard deviations from the Jacobian
 // at the optimum, widened by sqrt(reduced chi-square) where that exceeds 1; intervals are +-1.96
-// std, cut at 0, and from the profile of the likelihood where a standard deviation exceeds a tenth
-// of its value. A significant misfit counts per direction of r instead of per row, and widens the
-// errors of the method; so does a stated scale or eta that the image contradicts. Where the image
-// does not hold the scale (even light), a wrong exact scale cannot be seen. The result carries its
-// reasons for refusal: too few rows, values that are not finite, not converged, a mean free path
-// outside what the knots resolve, an undetermined sigma_s', no upper limit, a residual the dipole
-// cannot explain, a scale or an eta that the image contradicts.
+// std, cut at 0, or from the profile likelihood where a standard deviation exceeds a tenth of its
+// value. A significant misfit counts per direction of r instead of per row, and widens the errors
+// of the method; so does a stated scale or eta that the image contradicts. Where the image does not
+// determine the scale (uniform light), an error of a scale stated as exact cannot be detected. The
+// result lists its reasons for refusal: too few rows, values that are not finite, not converged, a
+// mean free path outside what the knots resolve, an undetermined sigma_s', no upper limit, a
+// residual the dipole cannot explain, a scale or an eta that the image contradicts.
 DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
                      const DipoleFitOptions& options);
-// The same with the image's information (of all its shots) at hand; its rows are gone through once
-// more.
+// The same with the image's information (of all its shots) already computed; its rows are visited
+// once more.
 DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
                      const DistanceKnots& knots, const DipoleFitOptions& options);
 
-// With the nuisances that are fitted.
+// Predictions include the fitted nuisances.
 ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
                              const DipoleSolver::Point& point, double eta_int_over_ext);
 

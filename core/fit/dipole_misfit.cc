@@ -26,7 +26,7 @@ namespace {
 // Departures of log R that the test looks for: splines, of a normal prior.
 struct Departures {
   Eigen::MatrixXd on_knots;   // of a parameter of unit prior
-  Eigen::MatrixXd draws;      // the spline's parameters, of the same
+  Eigen::MatrixXd draws;      // of the spline's parameters, for a unit prior
   Eigen::MatrixXd at_breaks;  // of the spline's parameters
 };
 
@@ -53,7 +53,7 @@ Departures sought_departures(const DistanceKnots& knots, double sigma_t_per_mm, 
   }
   const Eigen::MatrixXd at_breaks = prior.topRows(intervals + 1);
   // The spline has two parameters more than breaks: slopes at the ends, which the prior does not
-  // see; they are left at what the natural size of theta allows.
+  // constrain; they are left at what the natural size of theta allows.
   prior.conservativeResize(prior.rows() + n, n);
   prior.bottomRows(n).setIdentity();
   const Eigen::MatrixXd draws =

@@ -140,7 +140,7 @@ class NuisancePriorCost final : public ceres::CostFunction {
   const std::vector<Nuisance>& nuisances_;
 };
 
-// (log s) / std: the rig's word on the scale.
+// (log s) / std: the prior of the scale.
 class ScalePriorCost final : public ceres::SizedCostFunction<1, 1> {
  public:
   explicit ScalePriorCost(double relative_std) : inverse_std_(1.0 / relative_std) {}
@@ -161,7 +161,7 @@ bool can_start(const ceres::CostFunction& cost, const std::vector<double*>& bloc
   return cost.Evaluate(blocks.data(), residuals.data(), nullptr);
 }
 
-// Adds the priors to a problem that holds `p`'s log_s and v already, and solves it.
+// Adds the priors to a problem that already contains `p`'s log_s and v, and solves it.
 void solve(ceres::Problem& problem, const std::vector<Nuisance>& fitted, const ScalePrior& scale,
            DipoleSolver::Point& p) {
   if (!p.v.empty()) {
@@ -207,7 +207,8 @@ DipoleSolver::Point DipoleSolver::best() const {
     if (q.cost < p.cost || !std::isfinite(p.cost)) p = q;
   }
   // Steps that are cut off at q = 0 may end the search early (chi-square 0.3 too high was seen):
-  // the optimum on the bound is searched for by itself, and whether it is one beside the bound too.
+  // the optimum on the bound is searched for separately and tested for being one off the bound,
+  // too.
   constexpr double kNearBound = 1e-2;
   if (p.q < kNearBound) {
     const std::optional<Point> none = best_with(Coefficient::kSigmaA, 0.0, p);

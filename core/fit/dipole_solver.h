@@ -12,7 +12,7 @@
 namespace scattermeter {
 
 // Least squares of s R(d; sigma_s', sigma_a) and the nuisances v against the recovered r in the
-// metric of r's own errors, which is the image's chi-square, with the priors of s and v. Continuous
+// metric of r's own errors, that is, the image's chi-square, with the priors of s and v. Continuous
 // in all parameters (Ceres, analytic derivatives): u = log sigma_t', q = 1 - alpha' in 0 .. 0.95,
 // log s, v.
 class DipoleSolver {
@@ -30,20 +30,20 @@ class DipoleSolver {
   };
   enum class Coefficient { kSigmaSPrime, kSigmaA };
 
-  // fitted: the nuisances that are fitted, in the order of the columns behind the knots'. All
+  // fitted: the fitted nuisances, in the order of their columns, which follow the knots'. All
   // references must outlive the solver.
   DipoleSolver(const RecoveredReflectance& recovered, const DistanceKnots& knots,
                const std::vector<Nuisance>& fitted, double eta_int_over_ext,
                const ScalePrior& scale);
 
-  // Started from every minimum of a coarse set over all magnitudes that the knots can resolve, so
-  // no guess is asked for.
+  // Started from every minimum on a coarse grid over all magnitudes that the knots can resolve, so
+  // no initial guess is needed.
   Point best() const;
-  // The optimum with one coefficient held at a value (1/mm), for a profile of the likelihood.
-  // nullopt where no point within the bounds has it or the search fails.
+  // The optimum with one coefficient held at a value (1/mm), for a profile likelihood. nullopt if
+  // no point within the bounds has this value or the search fails.
   std::optional<Point> best_with(Coefficient held, double value_per_mm, const Point& start) const;
 
-  static constexpr double kMaxAbsorbed = 0.95;  // bound of q
+  static constexpr double kMaxAbsorbed = 0.95;  // upper bound of q
 
  private:
   Point freed(const Point& from) const;  // the optimum near a point

@@ -47,7 +47,7 @@ std::vector<DipoleSolver::Point> dipole_starts(const RecoveredReflectance& recov
     if (below_last && below_next) minima.push_back(line[k]);
   }
   if (minima.empty()) minima.push_back(line.front());
-  // The best of the fine line is nearly always the one; more than three cost time only.
+  // The best start nearly always leads to the optimum; more than three would only cost time.
   std::sort(minima.begin(), minima.end(),
             [](const Start& a, const Start& b) { return a.cost < b.cost; });
   minima.resize(std::min<std::size_t>(minima.size(), 3));

@@ -1,4 +1,4 @@
-// Where a search for the dipole should begin.
+// Starting points of the search for the best dipole.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace scattermeter {
 
-// Mean free paths a factor of sqrt(2) apart over all that the knots resolve, the best of absorbed
-// shares from none to most for each: the minima along that line, at most three, the best first, at
-// least one. The scale is solved for where it is not exact; nuisances are at 0 (v is empty).
+// For mean free paths a factor of sqrt(2) apart over all that the knots resolve, the best absorbed
+// share q is found. Returned are the minima along that line: one to three, the best first. The
+// scale is solved for unless it is exact; nuisances are at 0 (v is empty).
 std::vector<DipoleSolver::Point> dipole_starts(const RecoveredReflectance& recovered,
                                                const DistanceKnots& knots, double eta_int_over_ext,
                                                const ScalePrior& scale);

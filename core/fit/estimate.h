@@ -21,8 +21,9 @@ inline Quantity normal_quantity(double value, double std) {
   return {value, std, std::max(0.0, value - 1.96 * std), value + 1.96 * std};
 }
 
-// What one cause adds to the uncertainty: the standard deviation whose square would vanish from the
-// variance if the cause were known exactly (for "noise": what is left when all others are).
+// The contribution of one cause to the uncertainty: the standard deviation whose square would
+// vanish from the variance if the cause were known exactly (for "noise": what remains when all
+// others are).
 struct BudgetLine {
   std::string cause;  // "noise", "scale", or a nuisance's group
   double std_sigma_s_prime_per_mm = 0;
@@ -34,21 +35,21 @@ struct Estimate {
   Quantity sigma_a_per_mm;
   double correlation = 0;  // between the two
   std::vector<BudgetLine> budget;
-  Quantity scale;           // measured over predicted radiance that the fit settled on
+  Quantity scale;           // measured over predicted radiance, as fitted
   double reduced_chi2 = 0;  // of the image: residual^2 / variance, per degree of freedom
   double rms_relative = 0;  // rms residual over rms l
   double psnr_db = 0;       // 20 log10(largest l / rms residual), of the re-rendering
-  // What a smooth function of distance explains of the image and this model's does not: its size
-  // relative to the image, and how probable at least as much of it were if the model held.
+  // The part of the image that a smooth function of distance explains but this model does not: its
+  // size relative to the image, and the probability of at least as much if the model holds.
   double misfit_relative = 0;
   double misfit_p_value = 1;
-  std::size_t rows = 0;  // patches times shots that took part
+  std::size_t rows = 0;  // number of rows used: patches times shots
   bool converged = false;
-  // Why the numbers must not be trusted; empty: they may. Whole sentences.
+  // Why the numbers must not be trusted, as whole sentences; empty: they may be trusted.
   std::vector<std::string> reasons;
 };
 
-// How much the scale (LED power x camera gain x exposure) is known.
+// Prior of the scale (LED power x camera gain x exposure).
 struct ScalePrior {
   double relative_std = 0;  // 0: exact; infinity: free
 };

@@ -1,4 +1,4 @@
-// How much shots err beyond their noise, in units of what paths would.
+// Scatter of the rows beyond their noise, relative to the Monte Carlo error.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,14 +6,13 @@
 namespace scattermeter {
 
 // Rows scatter about the predicted light by their noise, by the Monte Carlo error of the
-// prediction, and by what nobody states: the texture of a surface, grain in the material, a
-// rendering by Monte Carlo. The ratio of all but the noise to the prediction's own error, at least
-// 1:
+// prediction, and by unstated errors: surface texture, grain in the material, the Monte Carlo noise
+// of a rendering. Returns the ratio of all but the noise to the prediction's own error, at least 1:
 //   sum w (residual^2 - noise) / sum w monte_carlo.
-// What exceeds 1 is taken as correlated from row to row as the light of paths is, which is far: an
-// error of the rows alone would average out in the coefficients.
-// All of one length (std::invalid_argument): residual of l; variances of noise and Monte Carlo;
-// weights > 0 that follow neither.
+// The excess over 1 is taken as correlated between rows like the light of paths, that is, over long
+// distances: independent errors of the rows would average out in the coefficients. Arguments of
+// equal length (std::invalid_argument): residual of l; variances of noise and Monte Carlo; weights
+// > 0 that depend on neither.
 double excess_scatter(const Eigen::VectorXd& residual, const Eigen::VectorXd& noise_variance,
                       const Eigen::VectorXd& monte_carlo_variance, const Eigen::VectorXd& weights);
 

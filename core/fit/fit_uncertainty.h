@@ -14,23 +14,22 @@
 
 namespace scattermeter {
 
-// The linearised fit of (u, q, log s, nuisances): the information that the image holds about them,
-// divided by `noise_inflation`, and the priors of scale and nuisances. An exact scale does not
-// move.
+// The linearised fit of (u, q, log s, nuisances): the image's information about them, divided by
+// `noise_inflation`, plus the priors of scale and nuisances. An exact scale is fixed.
 class FitUncertainty {
  public:
   FitUncertainty(const RecoveredReflectance& recovered, const std::vector<Nuisance>& nuisances,
                  const DipoleCurve& curve, double u, double q, double scale,
                  const ScalePrior& prior, double noise_inflation);
 
-  // Covariance of (sigma_s', sigma_a), 1/mm^2, with those causes held fixed for which `known` is
+  // Covariance of (sigma_s', sigma_a), 1/mm^2, with the causes held fixed for which `known` is
   // true.
   Eigen::Matrix2d covariance(const std::function<bool(const std::string&)>& known) const;
-  // The same without the nuisances that are not fitted: what the chi-square itself holds.
+  // The same without the nuisances that are not fitted: that of the chi-square itself.
   Eigen::Matrix2d covariance_of_fitted() const;
   // Standard deviation of log s; 0 for an exact scale.
   double log_scale_std() const;
-  // The causes beside noise: "scale" and the nuisances' groups, each once.
+  // The causes besides noise: "scale" and the nuisances' groups, each once.
   std::vector<std::string> causes() const;
 
  private:
@@ -40,7 +39,7 @@ class FitUncertainty {
   std::vector<std::string> causes_;  // of every parameter
   Eigen::MatrixXd held_;             // J^T C std: parameters x nuisances that are not fitted
   std::vector<std::string> held_causes_;
-  std::vector<Eigen::Index> movable_;  // parameters beside u and q that may move
+  std::vector<Eigen::Index> movable_;  // free parameters other than u and q
 };
 
 }  // namespace scattermeter

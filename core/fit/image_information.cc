@@ -56,11 +56,11 @@ ImageInformation joint_information(const std::vector<ShotInformation>& shots,
   out.information = Eigen::MatrixXd::Zero(n, n);
   out.right = Eigen::VectorXd::Zero(n);
   for (const ShotInformation& shot : shots) {
-    std::vector<Eigen::Index> places(static_cast<std::size_t>(n_knots));
-    std::iota(places.begin(), places.end(), Eigen::Index{0});
-    for (const Eigen::Index v : shot.nuisances) places.push_back(n_knots + v);
-    out.information(places, places) += shot.image.information;
-    out.right(places) += shot.image.right;
+    std::vector<Eigen::Index> indices(static_cast<std::size_t>(n_knots));
+    std::iota(indices.begin(), indices.end(), Eigen::Index{0});
+    for (const Eigen::Index v : shot.nuisances) indices.push_back(n_knots + v);
+    out.information(indices, indices) += shot.image.information;
+    out.right(indices) += shot.image.right;
     out.l2 += shot.image.l2;
     out.rows += shot.image.rows;
     out.is_sound = out.is_sound && shot.image.is_sound;

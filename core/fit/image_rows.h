@@ -1,4 +1,4 @@
-// The used rows of an image, one shot at a time: no more than one shot's need be in memory.
+// The used rows of an image, one shot at a time, so that the whole system need not be in memory.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace scattermeter {
 
-// The rows of one shot with the nuisances that touch them; system->nuisances[k] is number
-// nuisances[k] of the image's, ascending.
+// The rows of one shot with the nuisances that affect them; system->nuisances[k] is the image's
+// nuisance number nuisances[k], ascending.
 struct ShotSystem {
   std::shared_ptr<const DenseSystem> system;
   std::vector<Eigen::Index> nuisances;
@@ -23,13 +23,14 @@ class ImageRows {
  public:
   virtual ~ImageRows() = default;
   virtual std::size_t shots() const = 0;
-  // Of all shots; those that are fitted come first.
+  // Of all shots; the fitted ones come first.
   virtual const std::vector<Nuisance>& nuisances() const = 0;
-  // May be called by several threads at once, and as often as wanted: the same digits each time.
+  // Thread-safe and repeatable: the same digits each time.
   virtual ShotSystem shot(std::size_t shot) const = 0;
 };
 
-// Those of a system that is there as a whole and outlives this. Without shot_rows it is one shot.
+// The rows of a system that is in memory as a whole and outlives this. Without shot_rows it is one
+// shot.
 class SystemRows final : public ImageRows {
  public:
   explicit SystemRows(const DenseSystem& system) : system_(system) {}
@@ -41,8 +42,8 @@ class SystemRows final : public ImageRows {
   const DenseSystem& system_;
 };
 
-// visit(s, rows of shot s), several at once; a thread that waits begins no work of others
-// meanwhile.
+// Calls visit(s, rows of shot s), several in parallel; a waiting thread does not start unrelated
+// work.
 void for_each_shot(const ImageRows& image,
                    const std::function<void(std::size_t, const ShotSystem&)>& visit);
 

@@ -64,7 +64,7 @@ LackOfFit lack_of_fit(const Eigen::VectorXd& residual, const Eigen::MatrixXd& co
       SymmetricSolver(covariance + free * free.transpose()).solve(residual);
   out.chi2 = std::max(0.0, residual.dot(weighed));
   out.p_value = chi_square_tail(out.chi2, out.dof);
-  // What is left beside the most probable columns, less what the covariance makes of it.
+  // The remainder after the most probable columns, minus the part explained by the covariance.
   const double left = (covariance * weighed).squaredNorm() - covariance.trace();
   out.rms = std::sqrt(std::max(0.0, left / static_cast<double>(n)));
   return out;

@@ -35,7 +35,7 @@ std::string on_bound(const char* name, double value, double min, double max, dou
   const bool low = value < min + 0.5 * step;
   if (!low && value < max - 0.5 * step) return "";
   std::ostringstream out;
-  out << name << " sits on the " << (low ? "lower" : "upper") << " bound of the paper's grid, "
+  out << name << " is on the " << (low ? "lower" : "upper") << " bound of the paper's grid, "
       << value << " per mm";
   return out.str();
 }

@@ -19,7 +19,7 @@ struct PaperGrid {
 // Quantisation widths of the paper's table 2, mm: 0.05 to 0.50 in steps of 0.05.
 std::vector<double> paper_widths_mm();
 
-// The estimate by one quantisation width.
+// The estimate for one quantisation width.
 struct PaperEstimate {
   double width_mm = 0;
   double sigma_s_prime_per_mm = 0;
@@ -33,16 +33,15 @@ struct PaperEstimate {
 };
 
 // Eq. 28 to 30 for one width: r = W⁺ l (unweighted, minimum norm where W lacks rank), then the best
-// point of the grid. Knots that no pair of patches is near (zero column of W) take no part in the
+// point of the grid. Knots without a nearby pair of patches (zero column of W) do not count in the
 // grid's cost. eta: of the material.
 PaperEstimate solve_paper(const DenseSystem& system, double width_mm, double eta_int_over_ext,
                           const PaperGrid& grid = {});
 
 // The paper's procedure for photographs: of all widths, the estimate that re-renders the image
-// best. The method states no uncertainty; given here is what the choice of the width and the grid's
-// steps leave open: std^2 = variance over the widths + step^2 / 12. Refused where a coefficient
-// sits on a bound of the grid, since the true optimum may then lie outside. Precondition: not
-// empty.
+// best. The method gives no uncertainty; the one returned covers the choice of the width and the
+// grid's steps: std^2 = variance over the widths + step^2 / 12. Refused if a coefficient is on a
+// bound of the grid, since the true optimum may then lie outside. Precondition: not empty.
 Estimate choose_width(const std::vector<PaperEstimate>& estimates, const PaperGrid& grid = {});
 
 }  // namespace scattermeter

@@ -1,4 +1,4 @@
-// What the dipole lacks, part by part.
+// Correction of the dipole's image to that of the paths, part by part.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,26 +8,26 @@
 
 namespace scattermeter {
 
-// A smooth image to weight rows by: the dipole provides the detail, paths the level. In every part
-// of the shots the dipole's light is brought to that of all paths so far, and the derivatives of
-// its logarithm to theirs; in the parts, paths are noisy by per cents, not by tens as in the rows.
-// It also holds how the errors of the cells' light are correlated, from as many paths.
+// A smooth image for weighting the rows: the dipole provides the detail, paths the level. In every
+// part of the shots the dipole's light is scaled to that of all paths so far, and the derivatives
+// of its logarithm are shifted to theirs; the noise of the paths is a few per cent in a part, but
+// tens of per cent in a row. The correlation of the errors of the cells' light is estimated from
+// the same paths.
 class PartLight {
  public:
   void forget() { *this = {}; }
-  // image: by `blocks` blocks of paths, dipole: at the same medium; cell_covariance: of
-  // parts.cells() * image.l. An image of which a part is dark only counts for the covariance.
+  // image: from `blocks` blocks of paths; dipole: for the same medium; cell_covariance: of
+  // parts.cells() * image.l. An image with a dark part is used for the covariance only.
   void learn(const ShotParts& parts, const ScatteringImage& image,
              const Eigen::MatrixXd& cell_covariance, const ScatteringImage& dipole, int blocks);
   double blocks() const { return blocks_; }
 
-  // Brings l and the derivatives of a dipole's image up to what was learnt.
+  // Corrects l and the derivatives of a dipole's image by what was learnt.
   void correct(const ShotParts& parts, ScatteringImage& dipole) const;
 
-  // Covariance of the cells' relative light from one block of paths. Few blocks
-  // determine the correlations of cells less well than their variances: these are shrunk towards
-  // zero, or some combination would look free of error for lack of blocks. Precondition: blocks() >
-  // 0.
+  // Covariance of the cells' relative light from one block of paths. A few blocks determine the
+  // correlations of cells less well than their variances; the correlations are shrunk towards zero,
+  // as otherwise some combination of cells would appear free of error. Precondition: blocks() > 0.
   Eigen::MatrixXd relative_cell_covariance(const ShotParts& parts) const;
 
  private:
@@ -37,7 +37,7 @@ class PartLight {
   double blocks_ = 0;
 };
 
-// Errors of rows that are correlated as those of their cells are: columns of unit deviation. l: of
+// Errors of rows with the correlation of their cells' errors, as columns of unit deviation. l: of
 // the rows; cells: covariance of the cells' relative light.
 Eigen::MatrixXd correlated_rows(const ShotParts& parts, const Eigen::VectorXd& l,
                                 const Eigen::MatrixXd& cells);

@@ -1,4 +1,4 @@
-// The diffuse reflectance r that an image holds, before any model.
+// The diffuse reflectance r recovered from an image without a model.
 #pragma once
 
 #include <cstddef>
@@ -17,18 +17,18 @@ namespace scattermeter {
 // whose lambda exceeds `rank_tolerance` times the largest:
 //   sqrt_information = diag(sqrt(lambda)) Vᵀ D   (K rows),   whitened = sqrt_information r,
 // so that a candidate R on the knots has chi-square |sqrt_information R - whitened|^2 + floor_chi2
-// on the image itself. Directions of r on which the image holds no information are in no row. Where
-// the system has nuisances their columns follow those of W, and a candidate is (R, v).
+// on the image itself. Directions of r about which the image has no information are in no row. If
+// the system has nuisances, their columns follow those of W, and a candidate is (R, v).
 struct RecoveredReflectance {
   Eigen::MatrixXd sqrt_information;
   Eigen::VectorXd whitened;
   Eigen::MatrixXd inverse;  // sqrt_information * inverse is the identity
   double floor_chi2 = 0;    // of the best r
   std::size_t rows = 0;     // rows of the image
-  // How much larger the variance of the rows is than stated, by what even the best r leaves; at
-  // least 1.
+  // Ratio of the rows' variance, from the residual of the best r, to the stated one; at least 1.
   double noise_excess() const;
-  // The r that fits best, 1/mm^2 on the knots; where several do, the shortest in the scaled metric.
+  // The best-fitting r, 1/mm^2 on the knots; if it is not unique, the shortest in the scaled
+  // metric.
   Eigen::VectorXd values() const;
 };
 

@@ -1,4 +1,4 @@
-// The power law with an exponential tail that explains the recovered reflectance best.
+// The power law with an exponential tail that fits the recovered reflectance best.
 #pragma once
 
 #include <optional>
@@ -19,9 +19,9 @@ struct ReflectancePilot {
 
 // Least squares over const, p, b and over z0 from the resolution to the longest distance in steps
 // of sqrt(2). `nominal` is the image with every nuisance at 0 (its `held` is not used): each fit
-// goes there first, because where a nuisance looks like the level of r the chi-square of `image`
-// hardly determines a level, and Gauss-Newton from a shape still wrong would run off along it.
-// None: no positive r explains any of the image.
+// starts with it, because where a nuisance resembles the level of r, the chi-square of `image`
+// hardly determines the level, and Gauss-Newton from a poor shape would diverge along it. Empty: no
+// positive r explains any of the image.
 std::optional<ReflectancePilot> reflectance_pilot(const MarginalInformation& nominal,
                                                   const MarginalInformation& image,
                                                   const DistanceKnots& knots);

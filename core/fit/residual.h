@@ -1,4 +1,4 @@
-// How well a re-rendering meets the image.
+// Residual figures of a re-rendering against the image.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@ struct Residual {
   double psnr_db = 0;       // 20 log10(largest l / rms of l - predicted); +inf for an exact match
 };
 
-// All of one length, at least 1 (std::invalid_argument).
+// Arguments of equal length, at least 1 (std::invalid_argument).
 Residual residual(const Eigen::VectorXd& l, const Eigen::VectorXd& predicted,
                   const Eigen::VectorXd& std_l);
 

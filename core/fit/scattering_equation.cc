@@ -32,7 +32,7 @@ ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePri
   if (nuisances_.size() == 0) nuisances_.resize(rows, 0);
   for (Eigen::Index i = 0; i < nuisances_.cols(); ++i) {
     const double std = system.nuisances[static_cast<std::size_t>(i)].std;
-    // A free nuisance: far wider than anything the rows could leave undecided.
+    // A free nuisance: far wider than anything the rows could leave undetermined.
     constexpr double kWide = 1e3;
     const double size = nuisances_.col(i).norm();
     nuisances_.col(i) *=
@@ -52,7 +52,7 @@ ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePri
                             columns_.transpose() * weighted);
   const Eigen::MatrixXd z = jacobian(pilot, at, !std::isfinite(scale.relative_std));
   relative_size_ = z.colwise().norm() / (at.scale * pilot.l.norm());
-  // A change of sigma_s that the image hides is a change still.
+  // A change of sigma_s counts even if it hardly affects the image.
   relative_size_[0] = std::max(relative_size_[0], 1.0);
   projection_.resize(z.cols(), rows);
   for (Eigen::Index k = 0; k < z.cols(); ++k) {
@@ -83,7 +83,7 @@ ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
   const Eigen::VectorXd misfit = projection_ * (system_.l - at.scale * m.l);
   const Eigen::MatrixXd inverse = inverse_lu(slope);
   Eigen::VectorXd move = inverse * misfit;
-  // By what it does to the image: light that has come far feels a small sigma_a.
+  // By its effect on the image: a small sigma_a affects light that has travelled far.
   const double largest = move.cwiseAbs().cwiseProduct(relative_size_).maxCoeff();
   Step out;
   out.move = move;

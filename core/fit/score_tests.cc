@@ -18,7 +18,7 @@ struct TestedImage {
 };
 
 // fitted: columns of the parameters that the fit moved. curve: change of scale * R per unit of the
-// offset. already: offset that the fit has made; stated_variance: of what is stated.
+// offset. already: offset already fitted; stated_variance: of the stated value.
 ScoreTest score_test(const TestedImage& image, const Eigen::MatrixXd& fitted,
                      const Eigen::VectorXd& curve, double already, double stated_variance,
                      double noise) {
@@ -29,7 +29,7 @@ ScoreTest score_test(const TestedImage& image, const Eigen::MatrixXd& fitted,
   const Eigen::VectorXd rest = qr.rotate(image.residual);
   own.head(qr.rank()).setZero();
   const double information = own.squaredNorm();
-  // Nothing but rounding is left of it: the image does not determine it.
+  // Only rounding remains of it: the image does not determine it.
   if (!(information > 1e-16 * change.squaredNorm()) || !std::isfinite(information)) return out;
   out.offset = already + own.dot(rest) / information;
   const double variance = noise / information + stated_variance;

@@ -1,4 +1,4 @@
-// Score tests of what the rig states as known: whether the image contradicts it.
+// Score tests of quantities that the rig states as known against the image.
 #pragma once
 
 #include <vector>
@@ -11,20 +11,20 @@
 
 namespace scattermeter {
 
-// How far the best fit of one stated quantity lies from what is stated, all else free.
+// The offset of the best-fitting value of one stated quantity from its stated value, all else free.
 struct ScoreTest {
   double offset = 0;           // best minus stated: of log scale, or of eta
-  double p_value = 1;          // of at least this much where the statement is true
+  double p_value = 1;          // of at least this offset if the stated value is true
   double image_relative = 0;   // change of the image by the offset, relative to the image
   Eigen::VectorXd per_offset;  // d (sqrt_information R) / d offset
 };
 
 // One-parameter score tests at the fit's optimum. They detect a single wrong quantity long before
-// the misfit over all directions of r does: with d of those, one cause must raise the chi-square by
-// some sqrt(2 d) times more to be as improbable. Linearised; all nuisances, also those that are not
-// fitted, take part within their priors, so errors of the method are not mistaken for the rig's.
-// `noise`: variance of the rows over the stated one. Where the light is even over the object, the
-// image hardly determines the scale, and no test can detect an error of it.
+// the misfit over all d directions of r does, where one cause must raise the chi-square about
+// sqrt(2 d) times more to be as improbable. Linearised; all nuisances, also those that are not
+// fitted, vary within their priors, so errors of the method are not mistaken for the rig's.
+// `noise`: variance of the rows over the stated one. Under uniform light the image hardly
+// determines the scale, and no test can detect an error of it.
 struct ScoreTests {
   ScoreTest scale;  // beyond its prior; p is 1 where it is free
   ScoreTest eta;

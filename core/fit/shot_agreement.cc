@@ -53,17 +53,17 @@ ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
     Eigen::MatrixXd by = Eigen::MatrixXd::Zero(n_knots + own, 2 + first_nuisance + own);
     by.col(0).head(n_knots) = s * curve.d_u;
     by.col(1).head(n_knots) = s * curve.d_q;
-    std::vector<Eigen::Index> place;
+    std::vector<Eigen::Index> indices;
     if (scale_moves) {
       by.col(2).head(n_knots) = s * curve.r;
-      place.push_back(0);
+      indices.push_back(0);
     }
     by.bottomRightCorner(own, own).setIdentity();
     Eigen::VectorXd at = Eigen::VectorXd::Zero(n_knots + own);
     at.head(n_knots) = s * curve.r;
     for (Eigen::Index k = 0; k < own; ++k) {
       const Eigen::Index v = shot.nuisances[static_cast<std::size_t>(k)];
-      place.push_back(first_nuisance + v);
+      indices.push_back(first_nuisance + v);
       if (static_cast<std::size_t>(v) < joint.v.size()) {
         at[n_knots + k] = joint.v[static_cast<std::size_t>(v)];
       }
@@ -74,7 +74,7 @@ ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
         (by.transpose() * shot.image.right - moved.transpose() * at) / noise_inflation;
     const auto add = [&](Normal& normal, Eigen::Index coefficients, Eigen::Index first_shared) {
       std::vector<Eigen::Index> to = {coefficients, coefficients + 1};
-      for (const Eigen::Index p : place) to.push_back(first_shared + p);
+      for (const Eigen::Index p : indices) to.push_back(first_shared + p);
       normal.a(to, to) += jj;
       normal.b(to) += jr;
     };

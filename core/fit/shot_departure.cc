@@ -108,7 +108,7 @@ std::vector<double> relative_residuals(const DenseSystem& system, const Eigen::V
   return out;
 }
 
-// Of each shot, less the mean over the shots.
+// Of each shot, minus the mean over the shots.
 std::vector<Departure> powers_less_mean(const Solution& fit, Eigen::Index at_power,
                                         Eigen::Index n_shots, double widened) {
   if (n_shots == 1) return {{0.0, std::numeric_limits<double>::infinity()}};
@@ -139,7 +139,7 @@ ShotDepartures shot_departures(const DenseSystem& system, const LinearModel& mod
   const DepartureColumns c(system, model);
   const Eigen::VectorXd rest = system.std_l.cwiseInverse().cwiseProduct(system.l - model.predicted);
   ShotDepartures out;
-  // The joint model alone: nothing that is a single shot's.
+  // The joint model alone, without departures of single shots.
   const auto joint = c.columns.leftCols(c.at_power);
   const Solution joint_fit =
       solve(joint, rest, {c.has_prior.begin(), c.has_prior.begin() + c.at_power});

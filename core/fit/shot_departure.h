@@ -1,4 +1,4 @@
-// Departures of single shots from the joint model of all.
+// Departures of single shots from the joint model of all shots.
 #pragma once
 
 #include <vector>
@@ -15,34 +15,34 @@ struct Departure {
   double std = 0;
 };
 
-// What an image of several shots is held against, linear about an optimum: l = predicted + jacobian
+// A model of an image of several shots, linearised about an optimum: l = predicted + jacobian
 // x + nuisance_columns v + noise. Rows as in the system.
 struct LinearModel {
   Eigen::VectorXd predicted;      // with every nuisance at its nominal value, W/mm^2
-  Eigen::MatrixXd jacobian;       // by what is free: the medium's coefficients
+  Eigen::MatrixXd jacobian;       // by the free parameters: the medium's coefficients
   double scale_relative_std = 0;  // of the prior of the common scale; 0 exact, infinity free
 };
 
 struct ShotDepartures {
-  // By shot. Its light relative to the joint model's, less the mean over the shots: an LED that
-  // drifts, an aperture that moved. Of a single shot 0 with an infinite deviation.
+  // By shot: its light relative to the joint model's, minus the mean over the shots (an LED that
+  // drifts, an aperture that moved). For a single shot, 0 with an infinite deviation.
   std::vector<Departure> power_relative;
-  // By shot. Even light beside the lights of the model, relative to the shot's mean l: a lamp left
-  // on. (On a body without hollows ambient light is nearly that, as all that enters leaves again.)
+  // By shot: uniform light in addition to the model's lights, relative to the shot's mean l (a lamp
+  // left on; on a convex body, ambient light is nearly uniform, as all light that enters leaves
+  // again).
   std::vector<Departure> even_relative;
-  // By nuisance of the system, in its unit: where the image puts it, its prior counted.
+  // By nuisance of the system, in its unit: its estimate from the image and its prior.
   std::vector<Departure> nuisances;
-  // Of the residual that is left, per degree of freedom; where above 1 it widens all deviations.
+  // Of the remaining residual, per degree of freedom; above 1 it widens all standard deviations.
   double reduced_chi2 = 0;
-  // Residual of the joint model (nothing of a shot's own free but the nuisances), by shot, rms over
-  // rms l.
+  // By shot: residual of the joint model (without departures; nuisances fitted), rms over rms l.
   std::vector<double> residual_relative;
 };
 
-// Generalised least squares. Powers and even light are free within priors of `kWidest` each, far
-// wider than what is looked for, so that what the shots cannot determine (all brighter, in a free
-// scale) stays with the scale. Preconditions (std::invalid_argument): sizes agree, at least one
-// shot.
+// Generalised least squares. Powers and uniform light are free within priors of `kWidest` each, far
+// wider than the departures of interest, so that what the shots cannot determine (a common factor,
+// if the scale is free) is attributed to the scale. Preconditions (std::invalid_argument): sizes
+// agree, at least one shot.
 inline constexpr double kWidest = 0.5;
 ShotDepartures shot_departures(const DenseSystem& system, const LinearModel& model);
 

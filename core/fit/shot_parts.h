@@ -1,4 +1,4 @@
-// Shots cut into parts, and those into cells, to see on what scale a model is off.
+// Shots divided into parts, and parts into cells, to find the scale on which a model is wrong.
 #pragma once
 
 #include <vector>
@@ -16,11 +16,11 @@ struct ShotPartsOptions {
   int least_rows = 12;       // in a cell
 };
 
-// Rows of some shots, one below the other, by where their patches are.
+// The rows of some shots, one below the other, grouped by the positions of their patches.
 class ShotParts {
  public:
   ShotParts() = default;
-  // All by row; l > 0 in the sum of every cell. shot_rows: rows of each shot.
+  // All by row; the sum of l must be > 0 in every cell. shot_rows: number of rows of each shot.
   // Precondition (std::invalid_argument): lengths agree.
   ShotParts(const std::vector<Eigen::Index>& shot_rows,
             const std::vector<Eigen::Vector3d>& center_mm, const std::vector<double>& area_mm2,
@@ -34,11 +34,11 @@ class ShotParts {
   Eigen::Index cell_of_row(Eigen::Index row) const {
     return cell_of_row_[static_cast<std::size_t>(row)];
   }
-  // Cells x rows: the light of a cell, relative to its l.
+  // Cells x rows: from the light of the rows to that of a cell, relative to its l.
   const Eigen::MatrixXd& cells() const { return cells_; }
-  // Parts x cells: relative light of a part from that of its cells.
+  // Parts x cells: from the relative light of the cells to that of a part.
   const Eigen::MatrixXd& parts() const { return parts_; }
-  // Cells x cells: relative light of a cell less that of its part.
+  // Cells x cells: relative light of a cell minus that of its part.
   const Eigen::MatrixXd& about_parts() const { return about_parts_; }
 
  private:

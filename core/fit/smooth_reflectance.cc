@@ -194,7 +194,7 @@ SmoothReflectance smooth_reflectance(const RecoveredReflectance& recovered,
   out.r_per_mm2 = Eigen::VectorXd::Zero(knots.size());
   if (!recovered.sqrt_information.allFinite() || !recovered.whitened.allFinite() ||
       !std::isfinite(recovered.floor_chi2)) {
-    out.reasons.push_back("the system holds values that are not finite");
+    out.reasons.push_back("the system contains values that are not finite");
     return out;
   }
   const MarginalInformation image =

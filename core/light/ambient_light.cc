@@ -40,7 +40,7 @@ Eigen::Array3d AmbientLight::open_irradiance_W_per_mm2(const Eigen::Vector3d& no
 }
 
 std::optional<double> AmbientLight::patches_across(LightUse use) const {
-  // A small, smooth addition to a fit: coarse patches do.
+  // A small, smooth addition to a fit: coarse patches suffice.
   return use == LightUse::kRender ? 60.0 : 24.0;
 }
 

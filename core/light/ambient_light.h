@@ -1,4 +1,5 @@
-// Even light from all sides, of a radiance that is fitted along within its prior.
+// Uniform light from all directions, whose radiance is fitted along with the material within its
+// prior.
 #pragma once
 
 #include "core/light/light.h"

@@ -49,7 +49,8 @@ struct DiscEmitter {
     }
     return Eigen::Array3d::Constant(
         size * size *
-        disc.from_per_mm2(disc.place_mm((c.x + 0.5) * size, (c.y + 0.5) * size), point_mm, normal));
+        disc.from_per_mm2(disc.disc_point_mm((c.x + 0.5) * size, (c.y + 0.5) * size), point_mm,
+                          normal));
   }
   ImageRect rect(const Cell& c) const {
     const double size = std::ldexp(1.0, c.level) / kCells;
@@ -64,8 +65,9 @@ struct DiscEmitter {
   bool wide(const Cell&) const { return false; }
   bool last(const Cell& c, const Eigen::Array3d&) const { return c.level <= kLastLevel; }
   bool visible(double u, double v) const {
-    const Eigen::Vector3d target_mm = disc.place_mm(u, v);
-    // A point below the surface's horizon takes no part; it goes with what is on the horizon.
+    const Eigen::Vector3d target_mm = disc.disc_point_mm(u, v);
+    // A point below the surface's horizon contributes nothing; it is treated like one on the
+    // horizon.
     if (!(normal.dot(target_mm - point_mm) > 0.0)) return true;
     ++rays;
     return !disc.scene_.occluded(point_mm, normal, target_mm);
@@ -81,7 +83,7 @@ DiscLight::DiscLight(const Led& led, const RayScene& scene, double eta_int_over_
   across_mm_[1] = led.axis.cross(across_mm_[0]);
 }
 
-Eigen::Vector3d DiscLight::place_mm(double u, double v) const {
+Eigen::Vector3d DiscLight::disc_point_mm(double u, double v) const {
   const double a = 2.0 * u - 1.0;
   const double b = 2.0 * v - 1.0;
   if (a == 0.0 && b == 0.0) return led_.position_mm;
@@ -126,7 +128,7 @@ double DiscLight::open_per_mm2(const Eigen::Vector3d& point_mm,
   }
   for (int i = 0; i < kGrid; ++i) {
     for (int j = 0; j < kGrid; ++j) {
-      sum += from_per_mm2(place_mm((i + 0.5) / kGrid, (j + 0.5) / kGrid), point_mm, normal);
+      sum += from_per_mm2(disc_point_mm((i + 0.5) / kGrid, (j + 0.5) / kGrid), point_mm, normal);
     }
   }
   return sum / (kGrid * kGrid);

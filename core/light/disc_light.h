@@ -1,4 +1,4 @@
-// An LED seen as the disc that it is.
+// An LED as a disc of finite radius.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace scattermeter {
 
-// Light of a disc of radius_mm about the LED's position, at right angles to its axis: every part of
-// it shines with the LED's lobe and its share of the intensity.
+// A disc of radius_mm about the LED's position, perpendicular to its axis: every part of it emits
+// with the LED's lobe and its share of the intensity.
 class DiscLight {
  public:
   // Throws std::invalid_argument unless radius_mm > 0. The scene must outlive the object.
@@ -20,14 +20,14 @@ class DiscLight {
   // Led::transmitted_irradiance_per_mm2, as a mean over the disc. Relative error below 1e-6 where
   // the whole disc is in front of the surface and is farther away than its radius; else 1e-3.
   double open_per_mm2(const Eigen::Vector3d& point_mm, const Eigen::Vector3d& normal) const;
-  // Share of that which the mesh lets through, 0 .. 1; exactly 1 or 0 where all probes agree.
-  // Error in a half shadow below 0.005. Adds the rays cast.
+  // Share of that irradiance which the mesh does not block, 0 .. 1; exactly 1 or 0 where all probes
+  // agree. Error in a penumbra below 0.005. Adds the number of rays cast to `rays`.
   double visible_share(const Eigen::Vector3d& point_mm, const Eigen::Vector3d& normal,
                        std::size_t& rays) const;
 
-  // A place of the disc by coordinates 0 .. 1 of the unit square: areas keep their ratio (Shirley
-  // and Chiu 1997, concentric map).
-  Eigen::Vector3d place_mm(double u, double v) const;
+  // The point of the disc for coordinates 0 .. 1 of the unit square; the map preserves ratios of
+  // areas (Shirley and Chiu 1997, concentric map).
+  Eigen::Vector3d disc_point_mm(double u, double v) const;
 
  private:
   friend struct DiscEmitter;
@@ -36,7 +36,7 @@ class DiscLight {
   Led led_;
   const RayScene& scene_;
   double eta_;
-  Eigen::Vector3d across_mm_[2];  // radii at right angles
+  Eigen::Vector3d across_mm_[2];  // two perpendicular radii
 };
 
 }  // namespace scattermeter

@@ -8,12 +8,12 @@
 
 namespace scattermeter {
 
-// Light from far away, as a probe's picture shows it. Copies share the picture, which is read once.
+// Distant light given by the picture of a probe. Copies share the picture, which is read once.
 class DistantLight final : public Light {
  public:
   DistantLight() = default;
-  // read: gives the picture with its projection and orientation when the light is first needed; may
-  // throw InputError.
+  // read: returns the picture with its projection and orientation; called when the light is first
+  // needed; may throw InputError.
   explicit DistantLight(std::function<Environment()> read);
 
   Eigen::Array3d radiance_W_per_mm2_sr = Eigen::Array3d::Ones();  // of a probe value of 1

@@ -14,8 +14,8 @@
 namespace scattermeter {
 namespace {
 
-// Patches across the object over which an LED's light is taken as even when places are chosen; the
-// power of a sample makes up for what is not.
+// Patches across the object over which an LED's light is taken as uniform when positions are
+// sampled; the power of a sample compensates for the difference.
 constexpr double kPatches = 32.0;
 
 // Draws an index in proportion to weights.
@@ -69,7 +69,7 @@ class LedEntry : public EntrySource {
     const Eigen::Vector3d x = even_point(patches_.corners_mm(k), random);
     const Eigen::Vector3d& normal = patches_.normal(k);
     Led from = led_;
-    if (disc_) from.position_mm = disc_->place_mm(random.uniform(), random.uniform());
+    if (disc_) from.position_mm = disc_->disc_point_mm(random.uniform(), random.uniform());
     const double e = from.transmitted_irradiance_per_mm2(x, normal, eta_);
     if (!(e > 0.0) || scene_.occluded(x, normal, from.position_mm)) return std::nullopt;
     return Entry{x, refracted((x - from.position_mm).normalized(), normal, eta_),
@@ -77,7 +77,7 @@ class LedEntry : public EntrySource {
   }
 
  private:
-  // Power on a patch, about; more than zero wherever any of it may be lit.
+  // Approximate power on a patch; above zero wherever any part of it may be lit.
   double weight(int k) const {
     const auto corners = patches_.corners_mm(k);
     const Eigen::Vector3d center = patches_.center_mm(k);
@@ -96,7 +96,7 @@ class LedEntry : public EntrySource {
     };
     if (disc_) {
       for (double u : {0.0, 0.5, 1.0}) {
-        for (double v : {0.0, 0.5, 1.0}) add(disc_->place_mm(u, v), 1.0 / 9.0);
+        for (double v : {0.0, 0.5, 1.0}) add(disc_->disc_point_mm(u, v), 1.0 / 9.0);
       }
     } else {
       add(led_.position_mm, 1.0);
@@ -151,7 +151,7 @@ class EnvironmentEntry : public EntrySource {
     const Eigen::Vector3d toward = environment_.world_from_probe * map_.direction(px, py);
     const Eigen::Vector3d normal = area_vector_mm2(scene_.mesh(), static_cast<int>(f)).normalized();
     const double cosine = normal.dot(toward);
-    // By rejection, so that what enters is of nearly even power.
+    // By rejection, so that the entries have nearly equal power.
     if (!(random.uniform() < cosine * fresnel_transmittance(eta_, cosine))) return std::nullopt;
     const auto& t = scene_.mesh().triangles[f];
     const Eigen::Vector3d x =
@@ -160,7 +160,7 @@ class EnvironmentEntry : public EntrySource {
                     scene_.mesh().vertices_mm[static_cast<std::size_t>(t[2])]},
                    random);
     if (scene_.occluded_toward(x, normal, toward)) return std::nullopt;
-    // Places of a pixel differ in solid angle: that of a small square there over the mean.
+    // Solid angle varies over a pixel: that of a small square there over the mean.
     constexpr double kHalf = 5e-4;
     const double local = map_.solid_angle_sr({px - kHalf, py - kHalf, px + kHalf, py + kHalf}) /
                          (4.0 * kHalf * kHalf * solid_angle_sr_[i]);

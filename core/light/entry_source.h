@@ -1,4 +1,4 @@
-// Light on its first step into a body.
+// Sampling of the light that enters a body.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace scattermeter {
 struct Entry {
   Eigen::Vector3d position_mm;  // on the surface
   Eigen::Vector3d direction;    // of flight, behind it
-  double power = 0;             // that this sample represents
+  double power = 0;             // represented by this sample
 };
 
 // The mean power over all samples is the transmitted power, in the units of IncidentLight:
@@ -25,13 +25,13 @@ struct Entry {
 class EntrySource {
  public:
   virtual ~EntrySource() = default;
-  // `stratum`: even over (0, 1); places follow each other over the surface in its order. Empty: a
-  // sample of no power (shadow).
+  // `stratum`: uniform over (0, 1); neighbouring values give neighbouring positions on the surface.
+  // Empty: a sample without power (in shadow).
   virtual std::optional<Entry> sample(double stratum, RandomStream& random) const = 0;
 };
 
-// Light of an LED, a point or a disc of its radius, on all of the mesh that it reaches.
-// What is pointed to must outlive the sources.
+// Light of an LED, a point or a disc of its radius, on all of the mesh that it reaches. The scene
+// must outlive the source, as must the environment below.
 std::unique_ptr<EntrySource> led_entry(const RayScene& scene, const Led& led,
                                        double eta_int_over_ext);
 
@@ -40,8 +40,8 @@ std::unique_ptr<EntrySource> environment_entry(const RayScene& scene,
                                                const Environment& environment, int channel,
                                                double eta_int_over_ext);
 
-// A beam of power 1 behind the surface: starts at a point on it, or spread evenly over a
-// parallelogram on it, in one direction (of flight, behind the surface).
+// A collimated beam of power 1 just inside the surface: it starts at a point on the surface, or is
+// spread evenly over a parallelogram on it, with one direction of flight inside.
 struct Beam {
   Eigen::Vector3d corner_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d side1_mm = Eigen::Vector3d::Zero();

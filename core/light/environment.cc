@@ -9,9 +9,9 @@ namespace scattermeter {
 
 Eigen::Array3f Environment::radiance_toward(const Eigen::Vector3d& direction_in_world) const {
   const ProbeMap map(projection, width_px, height_px);
-  const Eigen::Vector2d place = map.place_px(world_from_probe.conjugate() * direction_in_world);
-  const int x = std::clamp(static_cast<int>(std::floor(place.x())), 0, width_px - 1);
-  const int y = std::clamp(static_cast<int>(std::floor(place.y())), 0, height_px - 1);
+  const Eigen::Vector2d pixel = map.position_px(world_from_probe.conjugate() * direction_in_world);
+  const int x = std::clamp(static_cast<int>(std::floor(pixel.x())), 0, width_px - 1);
+  const int y = std::clamp(static_cast<int>(std::floor(pixel.y())), 0, height_px - 1);
   const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
                               static_cast<std::size_t>(x));
   return {radiance[at], radiance[at + 1], radiance[at + 2]};
@@ -39,7 +39,7 @@ std::string probe_problem(int width_px, int height_px, const std::vector<float>&
   const std::size_t values =
       3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px);
   if (radiance.size() != values) {
-    return "the probe holds " + std::to_string(radiance.size()) + " values, not " +
+    return "the probe has " + std::to_string(radiance.size()) + " values, not " +
            std::to_string(values);
   }
   bool any = false;

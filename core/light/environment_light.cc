@@ -136,7 +136,7 @@ class Illuminator {
  private:
   std::vector<Eigen::Vector3d> in_front_of(const Eigen::Vector3d& on_plane,
                                            const Eigen::Vector3d& normal) const {
-    // What is this little before the plane is on it, but for rounding.
+    // Points this little in front of the plane are on it, up to rounding.
     const double least_mm = 1e-7 * patches_size_mm();
     std::vector<Eigen::Vector3d> found;
     for (const Eigen::Vector3d& v : mesh_.vertices_mm) {

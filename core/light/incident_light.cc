@@ -15,13 +15,13 @@
 namespace scattermeter {
 namespace {
 
-// Of the irradiance in full light: how well it is linear on each part of a half shadow.
+// Relative to the full irradiance: the error of linear interpolation on each part of a penumbra.
 constexpr double kHalfShadowError = 1e-3;
 
-// A disc's points of a patch are drawn towards its centre by this share, away from folds.
+// For a disc, the points of a patch are moved towards its centre by this share, away from folds.
 constexpr double kDrawn = 0.002;
 
-// The light of a small source is convex over a patch, so a linear density holds too much of it.
+// The light of a small source is convex over a patch, so a linear density overestimates it.
 // Corners (1/12 each) and centre (3/4) give the power exactly to second order; the factor that
 // scales the density of these corners to that. `sum`: of the irradiance at the corners, > 0.
 double power_share(double center, double sum) { return 0.25 + 2.25 * center / sum; }
@@ -47,7 +47,7 @@ class Illuminator {
     const Eigen::Vector3d& n = patches_.normal(k);
     if (disc_) return disc_patch(k, t, n);
     if (!(n.dot(led_.position_mm - t[0]) > 0.0)) return out;
-    // Probes at corners and edge middles are drawn a little towards the centre, so that a fold of
+    // Probes at corners and edge midpoints are moved slightly towards the centre, so that a fold of
     // the surface at the patch's own border does not count as a shadow.
     if (on_convex_body(k, t[0], n)) {
       out.rays_skipped = 7;
@@ -76,7 +76,7 @@ class Illuminator {
   }
 
  private:
-  // A disc throws half shadows: the irradiance itself is what varies.
+  // A disc casts penumbras, in which the irradiance itself varies.
   PatchLight disc_patch(int k, const Triangle& t, const Eigen::Vector3d& n) const {
     PatchLight out;
     LitTriangleRgb patch{t, {}, k};
@@ -128,8 +128,8 @@ class Illuminator {
     return out;
   }
 
-  // Whether the patch is of a facet of the scene's body, and that is convex: what faces the LED is
-  // lit, then. Patches may be of another mesh than the scene.
+  // Whether the patch belongs to a facet of the scene's body and that is convex: then all that
+  // faces the LED is lit. Patches may be of another mesh than the scene.
   bool on_convex_body(int k, const Eigen::Vector3d& p, const Eigen::Vector3d& n) const {
     if (!scene_.convex()) return false;
     const TriangleMesh& mesh = scene_.mesh();

@@ -27,12 +27,12 @@ double power_sr(const LitTriangle& triangle);
 // The paper's c_k (eq. 12, with the patch area), per unit of on-axis intensity, and its density
 // over the patches.
 struct IncidentLight {
-  std::vector<LitTriangle> lit;         // only what is lit: dark surface takes no part
+  std::vector<LitTriangle> lit;         // unlit surface is not included
   std::vector<double> patch_power_sr;   // c_k per W/sr: the integral of the transmitted irradiance
                                         // over patch k, mm^2 * sr/mm^2
   int shadow_edge_patches = 0;          // patches crossed by a shadow edge
-  std::size_t shadow_rays = 0;          // rays cast
-  std::size_t shadow_rays_skipped = 0;  // where a convex body cannot shade itself
+  std::size_t shadow_rays = 0;          // shadow rays cast
+  std::size_t shadow_rays_skipped = 0;  // saved because a convex body cannot shadow itself
 };
 
 struct IncidentLightOptions {
@@ -40,10 +40,11 @@ struct IncidentLightOptions {
       6;  // a patch on a shadow edge is cut into 2^n parts, each lit by its share
 };
 
-// With a radius, the LED is a disc: half shadows are cut until the irradiance is linear on each
-// part to 1e-3 of full light, or is a mean over 16 places of the smallest ones.
-// A shadow edge is seen where it separates the three corners, the centre or the middles of the
-// edges of a patch. Patches whose facet faces away from the LED are dark without a ray.
+// With a radius, the LED is a disc: patches in a penumbra are bisected until the irradiance is
+// linear on each part to 1e-3 of the full irradiance; the smallest parts get the mean over 16
+// points. A shadow edge is detected where it separates the corners, the centre or the edge
+// midpoints of a patch. Patches whose facet faces away from the LED are dark without a ray being
+// cast.
 IncidentLight illuminate(const PatchMesh& patches, const RayScene& scene, const Led& led,
                          double eta_int_over_ext, const IncidentLightOptions& options = {});
 

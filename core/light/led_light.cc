@@ -8,7 +8,7 @@ namespace {
 constexpr double kExponentStep = 0.02;
 constexpr double kTurn_rad = 0.01;
 
-// The rows of the covariance that one channel sees: position, axis, exponent, its own intensity.
+// The rows of the covariance that affect one channel: position, axis, exponent, its own intensity.
 constexpr Eigen::Index kSeen = 7;
 
 std::array<Eigen::Index, kSeen> seen_by(std::size_t channel) {

@@ -15,9 +15,10 @@ struct LedLight final : Light {
   double position_std_mm = 0;  // in each coordinate
   double exponent_std = 0;
   double intensity_relative_std = 0;  // common to the three channels
-  // From `calibrate led`: in place of the three deviations above.
+  // From `calibrate led`: replaces the three deviations above.
   std::optional<LedUncertainty> calibrated;
-  // With a calibrated intensity: the responsivity (counts mm^2 sr/(W s), R G B) that it counts for.
+  // With a calibrated intensity: the responsivity (counts mm^2 sr/(W s), R G B) for which it was
+  // calibrated.
   std::optional<std::array<double, 3>> calibrated_for;
 
   std::size_t channels() const override { return 1; }
@@ -28,9 +29,9 @@ struct LedLight final : Light {
                                      int channel) const override;
   std::optional<Eigen::Vector3d> position_mm() const override { return led.position_mm; }
   std::vector<LightChange> changes(const Eigen::Vector3d& object_center_mm) const override;
-  // Position, exponent and power by themselves; with a calibration, seven independent combinations
-  // of these and the axis ("LED calibration"), and one that all LEDs share that were calibrated
-  // with the same white plane.
+  // Position, exponent and power separately; with a calibration, seven independent combinations of
+  // these and the axis ("LED calibration"), and one shared by all LEDs calibrated with the same
+  // white plane.
   std::vector<LightNuisance> nuisances(const std::string& name, std::size_t channel) const override;
 };
 

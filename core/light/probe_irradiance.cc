@@ -9,9 +9,10 @@
 namespace scattermeter {
 namespace {
 
-// Cells wider than the picture / 64 (5.6 degrees) are cut before anything is said of what they see.
+// Cells wider than the picture / 64 (5.6 degrees) are always subdivided before their visibility is
+// judged.
 constexpr int kProbesAcross = 64;
-// A corner of what is in front is looked for where it is one of at most so many.
+// Corners of the occluding mesh are considered only if there are at most this many.
 constexpr std::size_t kMostCorners = 256;
 // Cells and pixels are cut for the sum over open sky until flux times angular variance falls below
 // this times the tolerance and the flux of all. Measured:
@@ -25,7 +26,7 @@ constexpr double kEdgeShare = 1.0;
 // A pixel is cut at most into 2^n parts across.
 constexpr int kPixelCuts = 5;
 constexpr int kSumCuts = 8;
-// Directions below the horizon are asked for right above it.
+// Directions below the horizon are tested just above it.
 constexpr double kLowestCosine = 1e-3;
 constexpr std::size_t kMostLattice = 2'000'000;
 
@@ -191,7 +192,7 @@ Eigen::Array3d ProbeIrradiance::at(const Eigen::Vector3d& point_mm, Part part) {
   std::vector<Eigen::Vector2d> corners;
   if (in_front_mm_.size() <= kMostCorners) {
     for (const Eigen::Vector3d& v : in_front_mm_) {
-      corners.push_back(tree_.map().place_px(world_from_probe_.conjugate() * (v - point_mm)));
+      corners.push_back(tree_.map().position_px(world_from_probe_.conjugate() * (v - point_mm)));
     }
   }
   if (part == Part::kSky) {

@@ -1,4 +1,4 @@
-// Irradiance that a light probe causes at a point.
+// Irradiance at a point under a light probe.
 #pragma once
 
 #include <array>
@@ -13,26 +13,26 @@
 
 namespace scattermeter {
 
-// ∫ L(w) cos Ft(eta, cos) V(w) dw at points of one facet after the other, R G B, per unit of the
-// probe's radiance. `tolerance`: aimed at for each of the parts, relative to what the facet would
-// receive if nothing stood before it. A workspace: one for each thread.
+// ∫ L(w) cos Ft(eta, cos) V(w) dw at points of one facet after another, R G B, per unit of the
+// probe's radiance. `tolerance`: target error of each part, relative to the irradiance of the
+// unoccluded facet. A workspace: one per thread.
 class ProbeIrradiance {
  public:
   enum class Part { kSky, kBright };
 
-  // scene: may be nullptr where only open() is asked for. What is pointed to must outlive this.
+  // scene: may be nullptr if only open() is called. The arguments must outlive the object.
   ProbeIrradiance(const ProbeTree& tree, const RayScene* scene,
                   const TransmittedCosine& transmitted, double tolerance);
 
-  // The facet that the calls below are about: its unit normal, and the mesh's vertices before its
-  // plane (empty: nothing can be in front of it).
+  // The facet for the calls below: its unit normal, and the mesh's vertices in front of its plane
+  // (empty: nothing can occlude it).
   void set_facet(const Eigen::Vector3d& normal, std::vector<Eigen::Vector3d> in_front_mm);
 
-  // Of a facet with nothing before it, the same all over it.
+  // Irradiance of the unoccluded facet, constant over it.
   const Eigen::Array3d& open(Part part) const {
     return part == Part::kSky ? open_sky_ : open_bright_;
   }
-  // With what is in front of it. The point lies on the facet, not on its border.
+  // Irradiance with occlusion. The point lies in the interior of the facet.
   Eigen::Array3d at(const Eigen::Vector3d& point_mm, Part part);
   std::size_t rays() const { return rays_; }
 
@@ -52,16 +52,16 @@ class ProbeIrradiance {
   const TransmittedCosine& transmitted_;
   double tolerance_;
   Eigen::Quaterniond world_from_probe_;
-  int wide_level_;  // cells above it are never judged as one
+  int wide_level_;  // cells above it are always subdivided
 
-  // Of the facet.
+  // Values of the facet.
   Eigen::Vector3d normal_;
   Eigen::Vector3d normal_in_probe_;
   std::vector<Eigen::Vector3d> in_front_mm_;
   Eigen::Array3d open_sky_;
   Eigen::Array3d open_bright_;
   std::vector<Eigen::Array3d> bright_energy_;  // by bright pixel
-  // Energies of the sky's cells above the pixels, as far as they were asked for.
+  // Energies of the sky's cells above the pixels, as far as they have been needed.
   struct Known {
     std::uint32_t facet = 0;
     Eigen::Array3f energy;
@@ -69,7 +69,7 @@ class ProbeIrradiance {
   std::uint32_t facet_ = 0;
   std::vector<std::vector<Known>> known_;  // by level - 1
 
-  // Of the point: what was seen on a lattice of pixel corners, 2^shift apart.
+  // Values of the point: visibility on a lattice of pixel corners, 2^shift apart.
   Eigen::Vector3d point_mm_;
   std::uint32_t point_ = 0;
   int shift_;

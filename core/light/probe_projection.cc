@@ -115,7 +115,7 @@ Eigen::Vector3d ProbeMap::direction(double x_px, double y_px) const {
   return {x * s, std::cos(kPi * r), z * s};
 }
 
-Eigen::Vector2d ProbeMap::place_px(const Eigen::Vector3d& direction) const {
+Eigen::Vector2d ProbeMap::position_px(const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d d = direction.normalized();
   const double across = std::hypot(d.x(), d.z());
   if (projection_ == ProbeProjection::kEquirectangular) {

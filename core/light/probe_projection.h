@@ -1,4 +1,4 @@
-// How the picture of a light probe shows the sphere of directions.
+// Projections of the sphere of directions onto the picture of a light probe.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 
 namespace scattermeter {
 
-// All in the probe's frame: the image centre shows +y, the top of the picture lies towards +z.
+// In the probe's frame the image centre shows +y and the top of the picture lies towards +z.
 //
 // equirectangular (latitude-longitude): right of the centre lies +x, a quarter of the width away;
 // the left and right edges show -y, the top row +z.
@@ -28,18 +28,19 @@ class ProbeMap {
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
 
-  // Unit direction that a place of the picture shows. Places beyond the disc show what the nearest
-  // point of its rim does, -y.
+  // Unit direction shown at a position in the picture. Positions beyond the disc show the same as
+  // the nearest point of its rim, -y.
   Eigen::Vector3d direction(double x_px, double y_px) const;
-  // Its inverse, for any direction but zero. Where several places show one direction (the poles,
-  // the seam, -y), one of them. Seam: the left edge.
-  Eigen::Vector2d place_px(const Eigen::Vector3d& direction) const;
+  // Its inverse, for any direction but zero. If several positions show the direction (the poles,
+  // the seam, -y), one of them; at the seam, the left edge.
+  Eigen::Vector2d position_px(const Eigen::Vector3d& direction) const;
   // Solid angle of a rectangle, sr; 0 where it lies beyond the disc. Exact for equirectangular and
   // mirror ball; for the angular map to 1e-9 of a rectangle of at most a quarter of the picture's
   // side.
   double solid_angle_sr(const ImageRect& rect) const;
-  // Mean direction over a rectangle by solid angle (length below 1: the shorter, the wider the
-  // rectangle); to fourth order in its size, near the rim of a disc to second.
+  // Mean direction over a rectangle, weighted by solid angle (of length below 1: the wider the
+  // rectangle, the shorter); accurate to fourth order in its size, near the rim of a disc to
+  // second.
   Eigen::Vector3d mean_direction(const ImageRect& rect) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace scattermeter {
 namespace {
 
-// However bright the picture is in places, no more pixels than these are kept apart.
+// At most this many bright pixels are kept separately.
 constexpr std::size_t kMostBright = 4096;
 // A bright pixel's radiance exceeds the mean of the whole by this factor.
 constexpr double kBrighter = 4.0;

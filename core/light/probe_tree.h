@@ -1,4 +1,4 @@
-// A light probe as a quadtree over its picture.
+// A quadtree over the picture of a light probe.
 #pragma once
 
 #include <array>
@@ -31,13 +31,14 @@ struct ProbeLight {
   }
 };
 
-// Pixels so bright that each outshines a share of all the rest (the sun, a lamp) are kept apart:
-// they throw shadow edges that are worth finding one by one. What remains is the sky.
+// Pixels so bright that each outshines a share of all the rest (the sun, a lamp) are kept
+// separately: they cast shadow edges that are worth finding one by one. The remaining pixels are
+// the sky.
 class ProbeTree {
  public:
   struct Options {
-    // A pixel is bright when its flux, in any channel, exceeds this share of the flux of all the
-    // pixels that are not, and its radiance four times the mean.
+    // A pixel is bright when its flux, in any channel, exceeds this share of the flux of all pixels
+    // that are not bright, and its radiance four times the mean.
     double bright_share = 3e-3;
   };
   // Throws std::invalid_argument unless probe_problem() is empty.
@@ -49,13 +50,13 @@ class ProbeTree {
   // The whole picture: one cell.
   ProbeCell root() const { return {static_cast<int>(levels_.size()), 0, 0}; }
   const std::vector<ProbeCell>& bright() const { return bright_; }
-  // Of the whole sphere, W/mm^2 per unit of the probe: sky and bright pixels.
+  // Flux from the whole sphere, W/mm^2 per unit of the probe, of sky and bright pixels.
   const Eigen::Array3d& sky_flux() const { return sky_flux_; }
   const Eigen::Array3d& bright_flux() const { return bright_flux_; }
 
-  // The rectangle of the picture that a cell covers; empty where the cell lies beyond it.
+  // The rectangle of the picture that a cell covers; empty if the cell lies outside the picture.
   ImageRect rect(const ProbeCell& cell) const;
-  // Light of the sky in a cell; level <= 0 as well.
+  // Light of the sky in a cell of any level, also <= 0.
   ProbeLight sky(const ProbeCell& cell) const;
   // Light of a bright pixel, or of a part of one: level <= 0.
   ProbeLight pixel(const ProbeCell& cell) const;

@@ -1,4 +1,4 @@
-// A light probe made from a formula.
+// An analytic clear-sky light probe.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,8 @@
 
 namespace scattermeter {
 
-// A clear sky with its sun, over a ground. Not a model of the atmosphere: a light of the same
-// contrast. Radiance is in units of the zenith's green.
+// A clear sky with its sun, over a ground. Not a model of the atmosphere, but a light of the same
+// contrast. Radiance is relative to the green channel at the zenith.
 struct SkyProbe {
   int width_px = 1024;                           // even, at least 16; the height is half of it
   Eigen::Vector3d sun_direction{0.4, 0.6, 0.7};  // any length but 0; z > 0
@@ -18,9 +18,9 @@ struct SkyProbe {
 
 // Equirectangular, probe frame = world. Each pixel holds the mean over its solid angle of the sky
 // (zenith blue, three times brighter and whiter towards the horizon), of the sun's disc and of the
-// ground (a fifth of the horizon, brownish); a pixel that lies within the sun's disc holds its
-// radiance, one across its edge a share. The same digits on every call. Throws
-// std::invalid_argument outside the domain above.
+// ground (a fifth of the horizon, brownish); a pixel within the sun's disc has its radiance, one
+// across its edge a share of it. Deterministic. Throws std::invalid_argument outside the domain
+// above.
 Environment make_sky_probe(const SkyProbe& sky = {});
 
 }  // namespace scattermeter

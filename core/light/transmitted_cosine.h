@@ -1,4 +1,4 @@
-// The part of a direction's radiance that enters a surface.
+// The cosine times the Fresnel transmittance of a surface, tabulated.
 #pragma once
 
 #include <vector>

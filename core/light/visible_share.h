@@ -1,4 +1,4 @@
-// The part of an extended light that a point sees.
+// The visible part of an extended light as seen from a point.
 #pragma once
 
 #include <array>
@@ -10,33 +10,34 @@
 
 namespace scattermeter {
 
-// Sums the light of those parts of an emitter that are seen. The emitter is a quadtree over a
-// picture of itself; Emitter has
+// Sums the light of the visible parts of an emitter. The emitter is a quadtree over a picture of
+// itself; Emitter provides
 //   Cell                              a square of the picture
 //   Eigen::Array3d energy(cell)       what the cell would contribute if it were seen
 //   ImageRect rect(cell)
 //   std::array<Cell, 4> children(cell)
-//   bool wide(cell)                   too wide to be judged by its corners and centre
+//   bool wide(cell)                   too wide to be judged from its corners and centre
 //   bool last(cell, energy)           too small or too dim to be cut further
-//   bool visible(x, y)                whether the point sees that place of the picture
-// A cell whose corners and centre agree, and which holds none of the given places, is seen as a
-// whole or not at all; others are cut. In a cell that is not cut the edge is taken as straight
-// between the places where it crosses the cell's sides, found to an eighth of the side.
+//   bool visible(x, y)                whether the point sees that position in the picture
+// A cell whose corners and centre agree, and which contains none of the given positions, counts as
+// wholly visible or wholly hidden; others are subdivided. In a cell that is not subdivided the edge
+// is taken as straight between its crossings with the cell's sides, which are located to an eighth
+// of a side.
 template <class Emitter>
 class VisibleShare {
  public:
   using Cell = typename Emitter::Cell;
-  using Places = std::vector<Eigen::Vector2d>;
+  using Positions = std::vector<Eigen::Vector2d>;
 
   explicit VisibleShare(Emitter& emitter) : emitter_(emitter) {}
 
-  // `corners`: places of the picture at which the edge of what is seen may have a corner, so that a
-  // tip that reaches between the probes is not missed.
-  Eigen::Array3d sum(const Cell& cell, const Places& corners) {
+  // `corners`: positions in the picture at which the edge of the visible part may have a corner, so
+  // that a tip that reaches between the probes is not missed.
+  Eigen::Array3d sum(const Cell& cell, const Positions& corners) {
     const Eigen::Array3d energy = emitter_.energy(cell);
     if ((energy == 0.0).all()) return energy;
     const ImageRect r = emitter_.rect(cell);
-    Places inside;
+    Positions inside;
     for (const Eigen::Vector2d& p : corners) {
       if (p.x() > r.x0 && p.x() < r.x1 && p.y() > r.y0 && p.y() < r.y1) inside.push_back(p);
     }
@@ -54,7 +55,7 @@ class VisibleShare {
   }
 
  private:
-  Eigen::Array3d sum_children(const Cell& cell, const Places& corners) {
+  Eigen::Array3d sum_children(const Cell& cell, const Positions& corners) {
     Eigen::Array3d total = Eigen::Array3d::Zero();
     for (const Cell& child : emitter_.children(cell)) total += sum(child, corners);
     return total;
@@ -80,7 +81,7 @@ class VisibleShare {
     return n == 1 ? triangle : 1.0 - triangle;
   }
 
-  // Where between a (0) and b (1) the state changes; `seen`: that of a.
+  // Where between a (0) and b (1) the visibility changes; `seen`: that at a.
   double crossing(const Eigen::Vector2d& a, const Eigen::Vector2d& b, bool seen) {
     double lo = 0.0;
     double hi = 1.0;

@@ -10,8 +10,8 @@
 
 namespace scattermeter {
 
-// p(cos) = (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^(3/2)), 1/sr; cos: between the directions of
-// flight before and after; mean cosine g, -1 < g < 1.
+// p(cos) = (1 - g^2) / (4 pi (1 + g^2 - 2 g cos)^(3/2)), 1/sr; cos: cosine between the directions
+// of flight before and after scattering; mean cosine g, -1 < g < 1.
 class HenyeyGreenstein {
  public:
   explicit HenyeyGreenstein(double g) : g_(g) {}

@@ -1,4 +1,4 @@
-// A homogeneous scattering material.
+// A homogeneous scattering medium in the diffusion limit.
 #pragma once
 
 namespace scattermeter {

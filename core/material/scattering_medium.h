@@ -1,4 +1,4 @@
-// A homogeneous scattering material, as the path tracer sees it.
+// A homogeneous scattering medium with a phase function, for path tracing.
 #pragma once
 
 #include <cmath>
@@ -33,7 +33,7 @@ struct ScatteringMedium {
   }
 };
 
-// The material of this g that has the reduced coefficients of `medium`.
+// The medium with this g and the reduced coefficients of `medium`.
 inline ScatteringMedium scattering_medium(const Medium& medium, double g = 0.0) {
   return {medium.sigma_s_prime_per_mm / (1.0 - g), medium.sigma_a_per_mm, g,
           medium.eta_int_over_ext};

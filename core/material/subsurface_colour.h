@@ -1,17 +1,17 @@
-// The colour that a renderer asks for in place of a single-scattering albedo, both ways.
+// Conversion between single-scattering albedo and the colour that renderers use instead.
 #pragma once
 
 #include <string>
 
 namespace scattermeter {
 
-// A renderer takes the reflectance of a thick body lit from all sides as the colour and finds the
-// albedo (sigma_s / sigma_t, isotropic scattering) from it by a fit of its own. What is exported is
-// the colour from which this fit gets the measured albedo back, so that the error of the fit moves
-// the colour only, not the material.
+// A renderer takes the diffuse reflectance of a thick body as the colour and derives the albedo
+// (sigma_s / sigma_t, isotropic scattering) from it with a fit of its own. Exported is the colour
+// from which this fit recovers the measured albedo, so that the error of the fit affects only the
+// colour, not the material.
 struct ColourFit {
   std::string source;
-  double (*albedo_of)(double colour);  // 0 .. 1 -> 0 .. 1, as the renderer does it
+  double (*albedo_of)(double colour);  // 0 .. 1 -> 0 .. 1, as in the renderer
   double (*colour_of)(double albedo);  // its inverse; 0 .. 1 -> 0 .. 1
 };
 
@@ -22,15 +22,16 @@ struct ColourFit {
 const ColourFit& openpbr_colour();
 
 // The fit of Blender's Cycles (intern/cycles/kernel/integrator/subsurface_random_walk.h, Blender
-// 2.93 to 4.x), for g = 0. Its albedo ends at 0.999999. Within 0.006 of half_space_albedo() up to
-// an albedo of 0.95, but darker by 0.010 at 0.99, 0.034 at 0.999 and 0.062 at 0.9999 (test).
+// 2.93 to 4.x), for g = 0. Its albedo is limited to 0.999999. Within 0.006 of half_space_albedo()
+// up to an albedo of 0.95, but darker by 0.010 at 0.99, 0.034 at 0.999 and 0.062 at 0.9999 (test).
 const ColourFit& cycles_colour();
 
-// Colour less half_space_albedo(albedo): the excess of the fit.
+// colour_of(albedo) - half_space_albedo(albedo): the error of the fit.
 double colour_error(const ColourFit& fit, double albedo);
 
-// Cycles' random walk takes 1 / sigma_t' as radius / (4 pi) (intern/cycles/kernel/closure/bssrdf.h,
-// bssrdf_setup_radius, of the method Random Walk in Blender 4.0 and later).
+// Ratio of Cycles' radius to 1 / sigma_t', 4 pi in its random walk
+// (intern/cycles/kernel/closure/bssrdf.h, bssrdf_setup_radius, of the method Random Walk in Blender
+// 4.0 and later).
 double cycles_radius_over_mean_free_path();
 
 }  // namespace scattermeter

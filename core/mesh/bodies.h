@@ -1,4 +1,4 @@
-// Bodies to shoot, made in code.
+// Test bodies generated in code.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ TriangleMesh slab_mesh();
 
 // "cube", "pyramid" (on its pedestal), "sphere", "slab", "scan" (core/mesh/round_bodies.h).
 const std::vector<std::string>& body_names();
-// By one of these names; std::invalid_argument for another.
+// The body with one of these names; std::invalid_argument for any other.
 TriangleMesh body_mesh(const std::string& name);
 
 }  // namespace scattermeter

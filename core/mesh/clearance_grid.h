@@ -1,4 +1,4 @@
-// How far the surface is, at least.
+// A grid of lower bounds of the distance to the surface.
 #pragma once
 
 #include <cmath>
@@ -15,10 +15,11 @@ namespace scattermeter {
 // (Euclidean distance transform). The bound falls short by at most three diagonals of a cell.
 class ClearanceGrid {
  public:
-  // cells: along the longest side of the mesh, >= 1.
+  // cells: number along the longest side of the mesh, >= 1.
   explicit ClearanceGrid(const TriangleMesh& mesh, int cells = 96);
 
-  // Of a point; negative beyond the grid, which is a cell wider than the mesh's bounds.
+  // The bound at a point; negative outside the grid, which extends one cell beyond the mesh's
+  // bounds.
   double at(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d u = (x - origin_mm_) * cells_per_mm_;
     const int i = static_cast<int>(std::floor(u.x()));

@@ -1,4 +1,4 @@
-// Where light leaves the object.
+// Exit sites: regions of the surface where observed light leaves the object.
 #pragma once
 
 #include <array>
@@ -10,14 +10,13 @@
 
 namespace scattermeter {
 
-// Where light leaves: a patch, or the samples that fell on it (their mean counts), or a single
-// point (covariance 0).
+// A patch, or the samples on it (of which the mean is observed), or a single point (covariance 0).
 struct ExitSite {
   static constexpr int kMaxPoints = 6;
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_mm2 = Eigen::Matrix3d::Zero();  // rank at most 2
-  // Quadrature points with this mean and covariance; weights add up to 1. Six of them are those of
-  // kCowper, in its order, under an affine map.
+  // Quadrature points with this mean and covariance; weights add up to 1. If six, they are an
+  // affine image of kCowper's, in its order.
   int n_points = 1;
   std::array<Eigen::Vector3d, kMaxPoints> points_mm;
   std::array<double, kMaxPoints> weights{};
@@ -26,9 +25,9 @@ struct ExitSite {
 
 // The whole patch, sampled evenly: Cowper's six points, exact for polynomials of degree 4.
 ExitSite exit_patch(const PatchMesh& patches, int patch_idx);
-// The samples that fell on a patch, by their mean and covariance: the patch's six points, moved and
-// stretched as little as makes mean and covariance those of the samples, so that the mean of any
-// quadratic over the samples is exact, and of higher degrees nearly so where the samples fill the
+// The samples on a patch, given by their mean and covariance: the patch's six points under the
+// smallest affine change that gives them this mean and covariance, so that the mean of any
+// quadratic over the samples is exact, and that of higher degrees nearly so if the samples fill the
 // patch. A covariance of rank below 2 is taken as a single point.
 ExitSite exit_samples(const PatchMesh& patches, int patch_idx, const Eigen::Vector3d& mean_mm,
                       const Eigen::Matrix3d& covariance_mm2);

@@ -56,7 +56,7 @@ class Picture {
  private:
   double depth(int vertex) const { return at_[static_cast<std::size_t>(vertex)].z(); }
 
-  // All cells of the triangle's bounds; stops where `call` says no.
+  // All cells of the triangle's bounds; stops when `call` returns false.
   template <class Call>
   bool for_cells(const std::array<int, 3>& t, const Call& call) {
     const auto& a = at_[static_cast<std::size_t>(t[0])];

@@ -18,7 +18,7 @@ struct PatchPoint {
 };
 
 // The facets of a mesh, each bisected at its longest edge until every patch has an area of at most
-// size^2 and no edge longer than 2.5 size. Patches keep their facet's plane and orientation;
+// size^2 and no edge is longer than 2.5 size. Patches keep their facet's plane and orientation;
 // vertices on shared edges are shared.
 class PatchMesh {
  public:
@@ -41,13 +41,13 @@ class PatchMesh {
   double area_mm2(int patch) const;
   double patch_size_mm() const { return size_mm_; }
 
-  // The patch that holds a point of a facet. barycentric: weights of the facet's three vertices.
+  // The patch that contains a point of a facet. barycentric: weights of the facet's three vertices.
   PatchPoint locate(int facet, const Eigen::Vector3d& barycentric) const;
 
  private:
   // A triangle of the bisection tree. A leaf has child < 0 and is patch -child - 1. An inner node
-  // was cut from corner `apex` to the middle m of the opposite edge (b, c); its children are one
-  // after the other: (apex, b, m) and (apex, m, c).
+  // was cut from corner `apex` to the middle m of the opposite edge (b, c); its children are
+  // consecutive: (apex, b, m) and (apex, m, c).
   struct Node {
     std::int32_t child;
     std::uint8_t apex;

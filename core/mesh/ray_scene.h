@@ -1,4 +1,4 @@
-// Rays against a triangle mesh (Embree).
+// Ray casting against a triangle mesh (Embree).
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace scattermeter {
 struct RayHit {
   int facet_idx = -1;                                     // -1: nothing hit
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();  // weights of the facet's vertices
-  double distance = 0;                                    // in lengths of the direction vector
+  double distance = 0;  // in units of the direction vector's length
 };
 
 // Embree computes in float: the mesh is stored relative to the centre of its bounds, so that an
@@ -31,8 +31,9 @@ class RayScene {
   // First facet that the ray meets; direction of any length.
   RayHit first_hit(const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction) const;
 
-  // The same of many rays from one origin, side by side in lanes: quickest for neighbours.
-  // Precondition: as many hits as directions. A direction that is not finite hits nothing.
+  // The same for many rays from one origin, several at a time in SIMD lanes: fastest for
+  // neighbouring rays. Precondition: as many hits as directions. A direction that is not finite
+  // hits nothing.
   void first_hits(const Eigen::Vector3d& origin_mm, std::span<const Eigen::Vector3f> directions,
                   std::span<RayHit> hits) const;
 
@@ -50,23 +51,23 @@ class RayScene {
   bool occluded_toward(const Eigen::Vector3d& surface_mm, const Eigen::Vector3d& normal,
                        const Eigen::Vector3d& direction) const;
 
-  // Whether a point lies inside the closed mesh, by the solid angle the mesh fills around it.
+  // Whether a point lies inside the closed mesh, by the solid angle that the mesh subtends there.
   bool contains(const Eigen::Vector3d& point_mm) const;
 
   const TriangleMesh& mesh() const { return mesh_; }
-  // Of a convex body no facet that faces a target is occluded from it.
+  // In a convex body, no facet that faces a target is occluded from it.
   bool convex() const { return convex_; }
 
  private:
   struct Embree;
-  // A ray of unit length that starts where it comes near the object, so that float keeps its digits
-  // for a far camera: relative to the centre.
+  // A ray with unit direction that starts near the object, relative to its centre, so that float
+  // keeps its digits for a distant camera.
   struct Start {
     Eigen::Vector3d at_mm, unit;
     double skip_mm, length;
   };
   Start start_of(const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction) const;
-  // `start_mm`: relative to the centre, as in the next.
+  // `start_mm`: relative to the centre, as in occluded_between().
   RayHit hit_between(const Eigen::Vector3d& start_mm, const Eigen::Vector3d& unit, float near_mm,
                      float far_mm) const;
   bool occluded_between(const Eigen::Vector3d& start_mm, const Eigen::Vector3d& unit,

@@ -61,7 +61,8 @@ void set_down(TriangleMesh& mesh) {
 
 TriangleMesh sphere_mesh(int levels) {
   TriangleMesh mesh = unit_sphere(levels);
-  // The icosphere's own lowest place is a middle of an edge: it has a corner there.
+  // The icosphere's lowest point is the midpoint of an edge, where a subdivided sphere has a
+  // corner.
   for (Eigen::Vector3d& v : mesh.vertices_mm) v = 10.0 * v + Eigen::Vector3d(0, 0, 10);
   return mesh;
 }

@@ -33,18 +33,18 @@ struct Box3d {
 Box3d bounds(const TriangleMesh& mesh);
 
 struct MeshCheckOptions {
-  double min_size_mm = 0.5;  // longest side of the bounds below this: the file is surely in metres
+  double min_size_mm = 0.5;     // longest side of the bounds below this: presumably in metres
   double max_size_mm = 2000.0;  // ... above this: in micrometres, or not the object
 };
 
-// Says what makes the mesh unusable as the boundary of a scattering body, or an empty string when
-// nothing does: no triangles, an index out of range, a vertex that is not finite, a triangle of
-// zero area, an edge that is not shared by exactly two triangles in opposite directions (open, or
-// not consistently oriented), enclosed volume not positive (inside out), a size outside the
-// options. Vertices at the same place count as one (OBJ files often repeat them per face).
+// The reason why the mesh is unusable as the boundary of a scattering body, or an empty string: no
+// triangles, an index out of range, a vertex that is not finite, a triangle of zero area, an edge
+// that is not shared by exactly two triangles in opposite directions (open, or not consistently
+// oriented), enclosed volume not positive (inside out), a size outside the options. Vertices at the
+// same position count as one (OBJ files often repeat them per face).
 std::string mesh_problem(const TriangleMesh& mesh, const MeshCheckOptions& options = {});
 
-// The mesh with vertices at exactly the same place merged; triangles keep their order.
+// The mesh with vertices at exactly the same position merged; triangles keep their order.
 TriangleMesh merge_equal_vertices(const TriangleMesh& mesh);
 
 // Every triangle cut into four at the middles of its edges, `levels` times over: the same surface.

@@ -1,4 +1,4 @@
-// Triangles: their middle, area and longest edge, their equal parts, a rule to integrate over them.
+// Triangles: centroid, area, longest edge, equal parts and quadrature rules.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ inline double longest_edge_mm(const Triangle& t) {
       {(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()}));
 }
 
-// Corner opposite the longest edge; of equals the first.
+// Corner opposite the longest edge; the first of equals.
 inline std::size_t apex_of_longest_edge(const Triangle& t) {
   std::size_t apex = 0;
   double longest = -1.0;
@@ -53,7 +53,7 @@ void for_16_parts(const Triangle& t, const Visit& visit) {
 }
 
 // Cowper's six-point rule of degree 4: two orbits of points with barycentric weights (a, b, b) and
-// its turns.
+// their rotations.
 struct TriangleOrbit {
   double a;
   double weight;  // of each point; the six add up to 1
@@ -62,7 +62,7 @@ struct TriangleOrbit {
 inline constexpr std::array<TriangleOrbit, 2> kCowper = {
     {{0.108103018168070, 0.223381589678011}, {0.816847572980459, 0.109951743655322}}};
 
-// Three points, of degree 2.
+// The three-point rule of degree 2.
 inline constexpr std::array<TriangleOrbit, 1> kThreePoints = {{{2.0 / 3.0, 1.0 / 3.0}}};
 
 }  // namespace scattermeter

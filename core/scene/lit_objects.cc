@@ -22,8 +22,8 @@ LitObjects::LitObjects(const Scene& scene, const ObjectScenes& objects,
     for (const std::string& name : shot.lights) scene.light(name)->open();
   }
   for (const auto& [name, object] : objects) {
-    // Fewer than about six samples across a patch, and its mean depends on where they fell, not on
-    // what it is.
+    // With fewer than about six samples across a patch, its mean depends on where they happen to
+    // be.
     const double samples_mm = 8.0 * distance_to_camera_mm / scene.camera.intrinsics.fx_px;
     const double chosen_mm = std::max(object.size_mm() / 50.0, samples_mm);
     const double size_mm = patch_size_mm.value_or(object.stated->patch_size_mm.value_or(chosen_mm));
@@ -47,7 +47,7 @@ const IncidentLight& LitObjects::light(const std::string& object, const std::str
   if (out.lit.empty() && light->position_mm()) {
     throw InputError(
         scene_.at(light.line) + ": lights." + name,
-        "the LED shines on no part of object " + object + " (look at position_mm and axis)");
+        "the LED illuminates no part of object " + object + " (check position_mm and axis)");
   }
   return out;
 }

@@ -18,24 +18,23 @@ namespace scattermeter {
 
 class LitObjects {
  public:
-  // Opens the lights that shots refer to. patch_size_mm: for every object; else the scene's; else
-  // object size / 50, but at least six samples at this distance from the camera (0: not known).
-  // Scene and objects must outlive it. Throws InputError for a light that cannot be read and for
-  // patches that are too small.
+  // Opens the lights that shots refer to. patch_size_mm: for every object; by default the scene's;
+  // failing that, object size / 50, but at least six samples at this distance from the camera (0:
+  // unknown). Scene and objects must outlive it. Throws InputError for a light that cannot be read
+  // and for patches that are too small.
   LitObjects(const Scene& scene, const ObjectScenes& objects, std::optional<double> patch_size_mm,
              double distance_to_camera_mm);
 
   const PatchMesh& patches(const std::string& object) const { return *patches_.at(object); }
-  // c_k of one light on one object, for a channel 0 .. channels() - 1 of the light; computed at the
-  // first call. Throws InputError when an LED reaches no part of the object. Not for several
-  // threads at once.
+  // c_k of one light on one object, for a channel 0 .. channels() - 1 of the light; computed on the
+  // first call. Throws InputError when an LED illuminates no part of the object. Not thread-safe.
   const IncidentLight& light(const std::string& object, const std::string& name,
                              std::size_t channel);
-  // The same on other patches of the object or for another eta; kept, too.
+  // The same on other patches of the object or for another eta; cached as well.
   const IncidentLight& light_on(const std::string& object, const SceneLight& light,
                                 std::size_t channel, const PatchMesh& patches,
                                 double eta_int_over_ext);
-  // All that were computed.
+  // All lights computed so far.
   std::vector<const IncidentLight*> lights_so_far() const;
   double smallest_patch_mm() const;
   double longest_distance_mm() const;
@@ -49,8 +48,8 @@ class LitObjects {
       lights_;
 };
 
-// The patches that a light is computed on: the object's, or coarser ones where it is smooth.
-// `coarse` holds them then.
+// The patches on which a light is computed: the object's, or, for smooth light, coarser ones, which
+// are then stored in `coarse`.
 const PatchMesh& patches_for(const Light& light, LightUse use, const ObjectScene& object,
                              const PatchMesh& patches, std::optional<PatchMesh>& coarse);
 

@@ -1,4 +1,4 @@
-// The objects of a scene as geometry.
+// The geometry of a scene's objects.
 #pragma once
 
 #include <map>
@@ -25,7 +25,7 @@ struct ObjectScene {
 using ObjectScenes = std::map<std::string, ObjectScene>;
 
 // Checks the mesh and builds the geometry of an object of the scene, which must outlive it. Throws
-// InputError naming line, object, mesh file and what is wrong: open, inside out, in metres.
+// InputError naming line, object, mesh file and fault: open, inside out, in metres.
 ObjectScene object_scene(const Scene& scene, const SceneObject& object, const TriangleMesh& mesh);
 
 // Throws InputError where a light of a shot is inside the object that it lights.

@@ -37,12 +37,12 @@ void require_known_names(const Scene& scene) {
   for (const SceneShot& shot : scene.shots) {
     const std::string where = scene.at(shot.line) + ": shots." + shot.file;
     if (find_name(scene.objects, shot.object) == scene.objects.end()) {
-      throw InputError(where + ".object", shot.object + " is none of the objects");
+      throw InputError(where + ".object", shot.object + " is not one of the objects");
     }
     if (shot.lights.empty()) throw InputError(where + ".lights", "expected at least one light");
     for (const std::string& name : shot.lights) {
       if (find_name(scene.lights, name) == scene.lights.end()) {
-        throw InputError(where + ".lights", name + " is none of the lights");
+        throw InputError(where + ".lights", name + " is not one of the lights");
       }
     }
   }

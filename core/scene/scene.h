@@ -21,8 +21,8 @@
 
 namespace scattermeter {
 
-// What is known of the sensor. Simulation makes raws with it; of a raw that was shot, black, white
-// and filter phase are those of the raw itself.
+// Properties of the sensor. Simulated raws use all of them; for a real raw, black, white and filter
+// phase come from the raw itself.
 struct SceneSensor {
   SensorNoise noise;
   CfaPattern cfa;
@@ -38,61 +38,61 @@ struct SceneCamera {
   // Counts per (W/(mm^2 sr)) and second, R G B; absent: the scale is free.
   std::optional<std::array<double, 3>> responsivity;
   double responsivity_relative_std = 0.02;
-  // Standard deviation of the veiling glare that is left in the samples, as a share of the frame's
-  // mean of its colour.
+  // Standard deviation of the veiling glare left in the samples, as a share of the frame's mean in
+  // the same channel.
   std::array<double, kRgb> glare_std{};
   SceneSensor sensor;
-  std::optional<double> exposure_s;  // of simulated shots; absent: chosen so that nothing clips
+  std::optional<double> exposure_s;  // for simulated shots; absent: so that nothing clips
   int iso = 100;
   double f_number = 8.0;
 };
 
 struct SceneObject {
   std::string name;
-  std::string mesh_path;  // of a closed mesh, mm; for messages and for whoever opens it
+  std::string mesh_path;  // of a closed mesh, mm; for messages and for the code that reads it
   double eta_int_over_ext = 1.3;
   double eta_std = 0;
   std::optional<double> patch_size_mm;  // absent: chosen
   int line = 0;
 };
 
-// A new kind of light is one more row here.
+// A new kind of light is added here.
 using LightKind = std::variant<LedLight, DistantLight, AmbientLight>;
 
 struct SceneLight {
   std::string name;
   LightKind kind;
-  std::vector<std::string> files;  // that it was described by, besides the scene's own
+  std::vector<std::string> files;  // further files that describe it, besides the scene's own
   int line = 0;
 
   const Light& operator*() const;
   const Light* operator->() const { return &**this; }
-  // The LED; null for another kind.
+  // The LED; null for other kinds of light.
   const LedLight* led() const { return std::get_if<LedLight>(&kind); }
   LedLight* led() { return std::get_if<LedLight>(&kind); }
-  // Which of the light's channels belongs to a channel 0 .. 2 of the camera.
+  // The light's channel for a channel 0 .. 2 of the camera.
   std::size_t channel_of(std::size_t channel) const {
     return (*this)->channels() > 1 ? channel : 0;
   }
 };
 
 struct SceneShot {
-  std::string file;  // that names the shot
+  std::string file;  // its name identifies the shot
   std::string object;
   std::string material;
   std::vector<std::string> lights;
   std::optional<double> exposure_s;  // of a simulated shot
   // A bracket: further exposures of the same scene, merged with the first, in whose counts the shot
-  // is stated.
+  // is expressed.
   std::vector<std::string> more_files;
-  std::vector<double> more_exposures_s;  // of these, or empty; of a simulated shot
+  std::vector<double> more_exposures_s;  // of more_files, or empty; for a simulated shot
   int line = 0;
 
   std::vector<std::string> files() const;  // the first and the others
 };
 
 struct Scene {
-  std::string source;  // the file that describes it, for messages; "": made in code
+  std::string source;  // the file that describes it, for messages; "": created in code
   SceneCamera camera;
   std::vector<SceneObject> objects;
   std::vector<SceneLight> lights;
@@ -102,12 +102,12 @@ struct Scene {
   const SceneLight& light(const std::string& name) const;    // std::out_of_range
   // Materials in the order of their first shot.
   std::vector<std::string> materials() const;
-  // "rig.yaml:12" for messages; without a line (0) the source alone.
+  // "rig.yaml:12" for messages; without a line number (0), the source alone.
   std::string at(int line) const;
 };
 
-// Throws InputError, with the shot and the field, unless every shot names an object and at least
-// one light of the scene.
+// Throws InputError naming the shot and the field unless every shot refers to an object and at
+// least one light of the scene.
 void require_known_names(const Scene& scene);
 
 }  // namespace scattermeter

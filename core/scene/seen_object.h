@@ -1,4 +1,4 @@
-// The objects of a scene as one camera pose sees them.
+// The objects of a scene as seen from one camera pose.
 #pragma once
 
 #include <map>
@@ -23,7 +23,8 @@ struct SeenObject {
   Eigen::Vector3d camera_center_mm = Eigen::Vector3d::Zero();
   SampleMap map;
   std::vector<ExitSite> sites;  // of the map's rows
-  // What shadows an LED, where that is more than the object itself (changed_weights()); else null.
+  // The geometry that shadows an LED, if it is more than the object itself (changed_weights());
+  // else null.
   const RayScene* shadows = nullptr;
 };
 
@@ -32,7 +33,7 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
                                       const LitObjects& lit, const std::string& object,
                                       const PoseResult& pose);
 
-// One pose for all shots, and the objects as seen from it.
+// One pose common to all shots, and the objects as seen from it.
 struct SharedView {
   PoseResult pose;
   std::map<std::string, std::shared_ptr<const SeenObject>> objects;

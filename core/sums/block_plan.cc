@@ -7,10 +7,10 @@
 namespace scattermeter {
 namespace {
 
-// A table for limits that differ by this factor at most among quantities costs less than it saves.
+// Reusing a table for limits that differ by at most this factor costs less than it saves.
 constexpr double kAlike = 1.05;
-// Whether a cluster's series will do is decided for a row nearer than the middle of its block, or
-// of the blocks that share a plan, by this share of their radius.
+// Whether a cluster's series is accurate enough is decided for a row nearer than the centre of its
+// block, or of the blocks that share a plan, by this share of their radius.
 constexpr double kTypical = 0.9;
 
 }  // namespace
@@ -158,7 +158,7 @@ bool BlockPlanner::fit(const RowBlocks::Block& block, const std::vector<PerQuant
     const bool last = attempt >= 3;
     if (error > kMost) {
       if (attempt == 3) {
-        // What is shared may be at fault.
+        // The shared plan may be the cause.
         shared = nullptr;
         share = before;
       }

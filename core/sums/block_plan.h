@@ -1,4 +1,4 @@
-// The plan of what is summed for a block of rows, and a bound of what that leaves out.
+// The plan of the sums for a block of rows, and a bound of the light that it leaves out.
 #pragma once
 
 #include <array>
@@ -11,23 +11,23 @@
 
 namespace scattermeter {
 
-// The clusters that neighbouring blocks of rows have in common.
+// The clusters common to neighbouring blocks of rows.
 struct SharedPlan {
   std::vector<AcceptedSeries> accepted;
   std::vector<std::int32_t> open;    // left to each block
   std::vector<PerQuantity> dropped;  // bounds of the light of clusters left out, by medium
-  std::vector<PerQuantity> limits;   // the least of the blocks', by medium
+  std::vector<PerQuantity> limits;   // the smallest of the blocks', by medium
   RowRegion region;
 };
 
-// A bound of the light that is left out: of whole clusters; and by series, for each row, in units
-// of the limits that they were selected for.
+// A bound of the light that is left out: of whole clusters, and by series, for each row, in units
+// of the limits for which they were selected.
 struct LeftOut {
   std::vector<PerQuantity> dropped;
   std::vector<PerQuantity> limits;
   alignas(64) std::array<double, kRowLanes> series;
 
-  // Of a medium, a quantity and a row.
+  // The bound for a medium, a quantity and a row.
   double error(std::size_t m, std::size_t q, std::size_t row) const {
     return dropped[m][q] + limits[m][q] * series[row];
   }
@@ -68,15 +68,15 @@ class BlockPlanner {
 
   const ClusterSelection& selection() const { return selection_; }
 
-  // light: what the rows of each block receive, by medium. share: of the limits, for one cluster.
+  // light: received by the rows of each block, by medium. share: of the limits, for one cluster.
   SharedPlan plan_shared(std::span<const RowBlocks::Block> blocks,
                          std::span<const std::vector<PerQuantity>> light, double share,
                          Workspace& workspace) const;
-  // All points one by one.
+  // A plan that sums all points one by one.
   void plan_direct(BlockPlan& plan) const;
-  // A plan that uses most of the tolerance for rows that receive `light`, by fitting the share.
-  // Falls back to a plan without what is shared, where `shared` is given. Whether the plan is to be
-  // summed together with the shared series.
+  // Makes a plan that uses most of the tolerance for rows that receive `light`, by adjusting the
+  // share. If `shared` is given, it may fall back to a plan without the shared series. Returns
+  // whether the plan is to be summed together with the shared series.
   bool fit(const RowBlocks::Block& block, const std::vector<PerQuantity>& light,
            const SharedPlan* shared, double& share, BlockPlan& plan, Workspace& workspace) const;
 

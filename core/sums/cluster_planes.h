@@ -1,4 +1,4 @@
-// Planes that hold the points of a cluster.
+// Planes that contain the points of a cluster.
 #pragma once
 
 #include <cmath>
@@ -23,14 +23,14 @@ struct ClusterPlane {
   bool holds(const Eigen::Vector3d& p) const { return std::abs(normal.dot(p - at)) <= tolerance; }
 };
 
-// A frame whose third axis is the normal of the plane that holds all the points to 1e-7 of the
-// radius (mm, about the center), which is less than floats resolve. nullopt if there is no such
-// plane, or the points lie on a line. Precondition: at least one point.
+// A frame whose third axis is the normal of the plane that contains all the points to 1e-7 of the
+// radius (mm, about the center), below the resolution of floats. nullopt if there is no such plane,
+// or the points lie on a line. Precondition: at least one point.
 std::optional<Eigen::Matrix3d> plane_of_all(std::span<const WeightedPoint> points,
                                             const Eigen::Vector3d& center, double radius);
 
-// A plane that holds many of the points, if there is one: through three of sixteen samples, such
-// that it holds six or more of the samples to 1e-11 of the size (mm, the points' largest side).
+// A plane that contains many of the points, if there is one: through three of sixteen samples,
+// containing six or more of the samples to 1e-11 of the size (mm, the points' largest side).
 // Precondition: at least one point.
 std::optional<ClusterPlane> plane_of_many(std::span<const WeightedPoint> points, double size);
 

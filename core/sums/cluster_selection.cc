@@ -10,7 +10,7 @@ namespace scattermeter {
 namespace {
 
 constexpr double kLeastLight = 1e-30;
-// Most rows of a block receive at least this share of what its middle does.
+// Most rows of a block receive at least this share of the light at its centre.
 constexpr double kDarker = 0.8;
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace scattermeter {
 // decay. Units are those of LaneSums for a total weight of 1.
 using PerQuantity = std::array<double, 3>;
 
-// A sphere that holds rows.
+// A sphere that contains rows.
 struct RowRegion {
   Eigen::Vector3d center_mm;
   double radius_mm;
@@ -29,12 +29,12 @@ struct RowRegion {
 struct AcceptedSeries {
   std::int32_t node;
   std::size_t series;
-  double rest;        // bound of what the series leaves out for the nearest row, over the limit
+  double rest;        // bound of the series' remainder for the nearest row, over the limit
   double nearest_mm;  // from that row to the nearest pole
 };
 
-// Chooses clusters by the bounds of core/sums/kernel_bounds.h. Thread-safe: what a search needs in
-// memory is in its Workspace. The sources must outlive it.
+// Chooses clusters by the bounds of core/sums/kernel_bounds.h. Thread-safe: the memory of a search
+// is in its Workspace. The sources must outlive it.
 class ClusterSelection {
  public:
   // The memory of one thread.
@@ -44,7 +44,7 @@ class ClusterSelection {
     // of all the light over its limit.
     std::vector<PerQuantity> table_limits;
     std::vector<float> need, all;
-    // Nodes to be looked at: where select() starts; empty afterwards.
+    // Nodes to be examined: the start of select(); empty afterwards.
     std::vector<std::int32_t> nodes;
     std::vector<std::int32_t> next, verdicts;
     std::vector<float> rests, nearest_mm;
@@ -57,11 +57,12 @@ class ClusterSelection {
 
   const KernelBounds& bounds() const { return bounds_; }
   double farthest_pole_mm() const { return farthest_pole_mm_; }
-  // Light below which sums are not relative to what a row receives: 1e-30 of all light at the row.
+  // Light below which errors are absolute instead of relative to a row's light: 1e-30 of that with
+  // all light at the row.
   PerQuantity least_light(std::size_t medium) const;
 
-  // What the rows in the region receive, about: by the clusters' centres, at the region's centre,
-  // less a fifth for rows in less light. Not a bound.
+  // Approximate light of the rows in the region: with the clusters' weights at their centres, at
+  // the region's centre, minus a fifth for rows in less light. Not a bound.
   std::vector<PerQuantity> estimate_light(const RowRegion& region, Workspace& workspace) const;
 
   // Tables for these limits (one for each medium), for rows in the region or nearer to the middle
@@ -69,9 +70,9 @@ class ClusterSelection {
   void build_limit_tables(const std::vector<PerQuantity>& limits, const RowRegion& region,
                           Workspace& workspace) const;
 
-  // Looks at the clusters in workspace.nodes and their parts. Each is dropped, for giving less than
+  // Examines the clusters in workspace.nodes and their parts. Each is dropped if it gives less than
   // `share` of the limits to any row of the region; or accepted with the series of the lowest
-  // degree that leaves out at most that for a row nearer than the region's centre by `typical`
+  // degree whose remainder is at most that for a row nearer than the region's centre by `typical`
   // radii; or else opened, unless it is a leaf or not larger than `smallest_mm`, which go to
   // `open`. Appends to `accepted`, adds bounds of what is dropped to `dropped` (one for each
   // medium), replaces `open`.

@@ -1,4 +1,4 @@
-// Decides for many clusters at once whether rows in a region may sum them by their series.
+// Decisions, for many clusters at once, whether rows in a region may sum them by their series.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace scattermeter {
 
-// What the decision needs to know of a cluster, in one cache line.
+// The properties of a cluster used in the decision, in one cache line.
 struct alignas(64) ClusterTraits {
   float center_mm[3];  // from the centre of the root
   float radius_mm;
@@ -44,9 +44,9 @@ struct Verdicts {
 };
 inline constexpr std::int32_t kVerdictOpen = -1, kVerdictDrop = -2;
 
-// A cluster is dropped if it gives less than the share at a distance, which `nearest_mm` then
-// holds. A series is summed if its rest for the typical row is at most the share, the lowest degree
-// that meets this. Precondition: the outputs have room for the next multiple of 16 clusters.
+// A cluster is dropped if it gives less than the share at a distance, which is then stored in
+// `nearest_mm`. A series is summed if its rest for the typical row is at most the share, the lowest
+// degree that meets this. Precondition: the outputs have room for the next multiple of 16 clusters.
 void judge_clusters(const ClusterTraits* traits, std::span<const std::int32_t> nodes,
                     const VerdictRegion& region, const Verdicts& out);
 

@@ -1,4 +1,4 @@
-// Direct sums of the dipole over points, with the processor's best vectors, one row in each lane.
+// Direct sums of the dipole over points, with the processor's widest vectors, one row per lane.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ struct RowLanes {
   alignas(64) double z[kRowLanes];
 };
 
-// The sums that value and derivatives are combined from: with g_i = z_i (1 + x_i) exp(-x_i) /
+// The sums from which value and derivatives are combined: with g_i = z_i (1 + x_i) exp(-x_i) /
 // rho_i^3 of core/material/dipole.h, over both poles, the sums of c g (unit of c / mm^2), of c z
 // dg/dz (unit of c / mm^2) and of -2 c dg/d(kappa^2) (unit of c).
 struct LaneSums {
@@ -38,9 +38,9 @@ struct KernelPoints {
   std::size_t count;
 };
 
-// Adds the direct sums over the points, one for each medium, times `unit` (what a weight of 1
-// stands for). Precondition: as many sums as media. Relative rounding error for positive weights:
-// 1e-6 (tests/core/sums/dipole_pairs_test.cc) where the exponential is at least 1e-30.
+// Adds the direct sums over the points, one for each medium, times `unit` (the value of a weight of
+// 1). Precondition: as many sums as media. Relative rounding error for positive weights: 1e-6
+// (tests/core/sums/dipole_pairs_test.cc) where the exponential is at least 1e-30.
 void add_point_sums(std::span<const KernelDipole> media, const RowLanes& rows,
                     std::span<const KernelPoints> points, double unit, std::span<LaneSums> sums);
 

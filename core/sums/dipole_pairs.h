@@ -18,7 +18,7 @@ struct DipoleSum {
   double per_sigma_a = 0;        // by sigma_a, 1/mm
 };
 
-// The sums that the three of them are combined from: with g_i = z_i (1 + x_i) exp(-x_i) / rho_i^3
+// The sums from which the three are combined: with g_i = z_i (1 + x_i) exp(-x_i) / rho_i^3
 // of core/material/dipole.h, over both poles, the sums of c g, of c z dg/dz and of c dg/d(kappa^2).
 struct PoleSum {
   double value = 0;     // unit of c / mm^2
@@ -43,7 +43,7 @@ class PairSources {
   static constexpr std::size_t kBlock = 256;
   struct Block {
     Eigen::Vector3d origin_mm;
-    double weight;  // that a stored weight of 1 stands for
+    double weight;  // value of a stored weight of 1
     std::size_t first, count;
   };
   std::size_t size_ = 0;

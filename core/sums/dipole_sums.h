@@ -34,8 +34,8 @@ struct DipoleSumsCount {
   std::int64_t series = 0;  // of a row and a cluster, summed by its series
   std::int64_t coefficients = 0;     // in these
   std::int64_t dropped = 0;          // clusters that give a block of rows too little light
-  std::int64_t tests = 0;            // of clusters against blocks of rows
-  std::int64_t repeated_blocks = 0;  // whose light was estimated too high
+  std::int64_t tests = 0;            // of clusters for blocks of rows
+  std::int64_t repeated_blocks = 0;  // whose estimated light was too high
   // The largest bound of a row's error, relative as `tolerance` is.
   double certified_error = 0;
 };
@@ -43,14 +43,14 @@ struct DipoleSumsCount {
 // Computes the sum over the points of c_k R(|row - x_k|) and its derivatives for each medium:
 // out[m][row], rows in the order given to RowBlocks.
 // Near points are summed one by one, farther clusters by their Taylor series
-// (core/sums/series_kernels.h) of the lowest degree that leaves out less than a share of the
+// (core/sums/series_kernels.h) of the lowest degree whose remainder is below a share of the
 // tolerance times the light that the rows receive, by the bounds of core/sums/kernel_bounds.h and
 // the cluster's absolute moments. The bounds are added up for each row by its own distances; the
 // share is fitted to each block of rows so that most of the tolerance is used. Afterwards the total
 // is compared with the rows' own sums, and a block above the tolerance is repeated with a smaller
 // share: the tolerance is a bound, not an estimate. Measured errors are about a hundredth of it.
 // Single precision adds at most kDipoleSumsRounding (measured). Both hold for sums above 1e-30 of
-// that with all points at the row; below, errors are at most of that size.
+// that with all points at the row; below, errors are at most of that size (absolute).
 // Parallel; the same digits for any number of threads. Throws std::invalid_argument for a tolerance
 // outside its domain, a medium that Dipole refuses, or outputs of the wrong size.
 inline constexpr double kDipoleSumsRounding = 3e-6;

@@ -1,4 +1,5 @@
-// Upper and lower bounds of the dipole's poles, and bounds of what their Taylor series leave out.
+// Upper and lower bounds of the dipole's poles, and bounds of the remainders of their Taylor
+// series.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace scattermeter {
 using ThreeBounds = std::array<float, 3>;
 
 // Tables over the distance d of a row from a cluster's centre, in sixteenths of octaves, for a
-// weight of 1. An entry is right for all distances of its cell.
+// weight of 1. An entry holds for all distances of its cell.
 class KernelBounds {
  public:
   // Precondition: at least one medium.
@@ -28,8 +29,9 @@ class KernelBounds {
   static constexpr std::size_t kSeries = std::size(kDegrees);
   static constexpr int kPerOctave = 16;
   static constexpr std::size_t kCells = kPerOctave * 28 + 2;
-  // Distances in units of the least z_r, from 2^-6 of them on; beyond the last octave the least is
-  // 0 and the rest that of its beginning. The cell comes from the exponent and the first digits.
+  // Distances in units of the least z_r, from 2^-6 of them on; beyond the last octave the lower
+  // bound is 0 and the remainder that at its beginning. The cell comes from the exponent and the
+  // first digits.
   std::size_t cell(double distance_mm) const {
     const auto x = static_cast<float>(distance_mm * per_z_r_);
     const auto bits = static_cast<std::int64_t>(std::bit_cast<std::uint32_t>(x) >> 19);
@@ -46,8 +48,8 @@ class KernelBounds {
     return least_[medium * kCells + cell];
   }
 
-  // How far away the rows are that a rest is to hold for: one or two octaves beyond the cell of the
-  // nearest, the last any distance. The farther, the more of them look along the cluster.
+  // The range of row distances for which a remainder holds: up to one or two octaves beyond the
+  // cell of the nearest row; the last, any distance. Farther rows see the cluster more obliquely.
   static constexpr std::size_t kReaches = 3;
   static std::size_t reach(std::size_t nearest_cell, std::size_t farthest_cell) {
     const std::size_t cells = farthest_cell - nearest_cell;

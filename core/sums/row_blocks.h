@@ -1,4 +1,4 @@
-// Rows in groups of neighbours, as many as fit into the lanes.
+// Blocks of neighbouring rows, as many as fit into the lanes.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class RowBlocks {
   struct Block {
     RowLanes lanes;  // those beyond `count` repeat the first
     Eigen::Vector3d center_mm;
-    double radius_mm;          // no row is farther from the centre
+    double radius_mm;          // largest distance of a row from the centre
     std::size_t first, count;  // rows order()[first, first + count)
   };
 

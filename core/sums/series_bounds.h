@@ -16,8 +16,8 @@ namespace scattermeter {
 // C_m the Gegenbauer polynomials of nu = c + 1/2 and p_q = psi_q rho^(2q+1) exp(y): Gegenbauer's
 // addition theorem for K_nu(kappa w) / w^nu (Watson, Theory of Bessel Functions, 1922, 11.41) with
 // the power series of I_(nu+m). No a_nm is negative and |C_m(x)| <= C_m(1), so no term is larger
-// than at x = 1; and where |x| <= cosine, none is larger than with each |C_m| at its largest there,
-// which is what this returns. Domain: c 0 .. 2, 0 <= n <= 40, y >= 0, cosine 0 .. 1.
+// than at x = 1; and where |x| <= cosine, none is larger than with each |C_m| at its largest there;
+// this bound is returned. Domain: c 0 .. 2, 0 <= n <= 40, y >= 0, cosine 0 .. 1.
 double largest_term(int c, int n, double y, double cosine);
 
 // Tables of these bounds over the depth y = kappa rho and the angle between the direction of a row

@@ -45,10 +45,10 @@ struct KernelCluster {
   bool planar;
 };
 
-// What a series of degree kDegrees[i] leaves out falls at least with this power of the distance.
+// The remainder of a series of degree kDegrees[i] falls at least with this power of the distance.
 inline constexpr int kFalls[] = {2, 4, 6, 8, 10};
 
-// A bound of what a series leaves out for a row at a distance d from the cluster's centre:
+// A bound of a series' remainder for a row at a distance d from the cluster's centre:
 // largest (nearest^2 / (d^2 + pole^2))^power.
 struct LaneRest {
   double center_mm[3];

@@ -1,4 +1,4 @@
-// Weighted points as a tree of clusters, each with the coefficients of its series.
+// A tree of clusters of weighted points, each with the coefficients of its series.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace scattermeter {
 
-// A binary tree (core/sums/cluster_tree.h) over points whose weights are > 0; others are left out.
+// A binary tree (core/sums/cluster_tree.h) over the points with weights > 0; others are left out.
 // Inner clusters hold the coefficients of their series (core/sums/series_kernels.h) up to the given
 // degree, unless their radius exceeds kLargestShare of the root's: rows on the same body are rarely
 // far enough from these.

@@ -17,7 +17,7 @@ namespace {
 // Connections are always made down to this optical depth; below, with the probability that light
 // comes up from there rather than from here.
 constexpr double kSureDepth = 0.7;
-// Of the body's size: a place this far beyond a plane is still on the body.
+// Relative to the body's size: a point this far beyond a plane still counts as on the body.
 constexpr double kOnBody = 1e-9;
 
 // The camera's ray through a plane to a point at a depth below it.
@@ -115,7 +115,8 @@ void CameraConnection::connect(const Vertex& vertex, RandomStream& random,
   std::array<int, PathBoundary::kFewPlanes> near{};
   int n_near = 0;
   for (std::size_t k = 0; k < planes.size(); ++k) {
-    // A point of a body that is not convex may lie before some planes: those reflect nothing to it.
+    // A point of a body that is not convex may lie before some planes: those do not reflect light
+    // to it.
     const double depth_mm = planes[k].depth_mm(vertex.x);
     if (depth_mm < deepest_mm && depth_mm > 0.0)
       near[static_cast<std::size_t>(n_near++)] = static_cast<int>(k);
@@ -176,11 +177,11 @@ void CameraConnection::through(const Window& window, const Image& image, const V
     const double behind_mm = -wall.depth_mm(toward);
     if (!(before_mm > 0.0 && behind_mm > 0.0)) return;
     const Eigen::Vector3d way = toward - from;
-    const Eigen::Vector3d place = from + before_mm / (before_mm + behind_mm) * way;
-    if (convex ? !on_body(place) : !boundary_.reaches_plane(from, place, image.walls[i])) return;
+    const Eigen::Vector3d point = from + before_mm / (before_mm + behind_mm) * way;
+    if (convex ? !on_body(point) : !boundary_.reaches_plane(from, point, image.walls[i])) return;
     reflectance *= 1.0 - fresnel_transmittance(1.0 / eta_, way.dot(wall.normal) / way.norm());
     toward = i > 0 ? image.before_last : vertex.x;
-    from = place;
+    from = point;
   }
   const Eigen::Vector3d outgoing = (from - toward).normalized();
   if (!convex && !boundary_.clear_inside(toward, from)) return;

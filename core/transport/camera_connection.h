@@ -1,4 +1,4 @@
-// Light from a scattering to a camera, through the smooth surface.
+// Connections from scattering events to a camera, through the smooth surface.
 #pragma once
 
 #include <memory>
@@ -17,17 +17,18 @@
 
 namespace scattermeter {
 
-// Where the ray from a point inside to the camera passes a plane, and how densely.
+// The ray from a point inside to the camera through a plane, and its spread.
 struct RefractedRay {
-  double radius_mm = 0;  // of the passage from the camera's foot on the plane
+  double radius_mm = 0;  // distance on the plane from the camera's foot to the passage
   double length_mm = 0;  // from the point to the passage
   double cos_inside = 1;
-  double spread = 1;  // area at the point's depth over area on the plane, of the camera's rays
+  double spread = 1;  // ratio of a ray bundle's area at the point's depth to that on the plane
 };
 
-// Snell on a plane: the camera `height_mm` above it, the point `depth_mm` below it, their feet
-// `foot_mm` apart. Solves r + depth r / sqrt(eta^2 (r^2 + height^2) - r^2) = foot by Newton's
-// method, to 1e-10 of the distance to the camera. Domain: height > 0, depth >= 0, foot >= 0,
+// Snell on a plane: the camera is `height_mm` above it, the point `depth_mm` below it, and their
+// feet are `foot_mm` apart. Solves r + depth r / sqrt(eta^2 (r^2 + height^2) - r^2) = foot by
+// Newton's method, to 1e-10 of the distance to the camera. Domain: height > 0, depth >= 0, foot >=
+// 0,
 // eta >= 1.
 RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
                            double eta_int_over_ext);
@@ -36,25 +37,26 @@ RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
 // area * mean of pi L_o(P, toward the camera) / Ft(eta, w_o).
 //
 // Radiance outside is radiance inside times Ft / eta^2, so Ft cancels: l = pi / eta^2 L_inside(P).
-// That is an integral along the camera's ray inside, of what is scattered into it:
+// That is an integral of the in-scattered light along the camera's ray inside:
 // l dA = pi / eta^2 ∫ exp(-sigma_t s) S ds dA, and a scattering at x is a point sample of S dV.
 // With ds dA = dV / (cos_inside spread), it scores
 //   pi / eta^2 * weight * p(angle) exp(-sigma_t s) / (cos_inside * spread)
-// at the place where its ray passes the surface: no choice of a place, no bias.
+// at the point where its ray passes the surface; no point is chosen at random, so there is no bias.
 //
 // The ray may have been reflected inside before it leaves (near edges, where the camera looks along
-// a wall, that is much of the light): the same for the point's mirror images in one wall or two,
-// with the walls' reflectances. Images in three walls and more are left out; they matter within a
-// mean free path of corners only.
+// a wall, that is much of the light): the mirror images of the point in one or two walls are
+// connected likewise, times the walls' reflectances. Images in three walls and more are left out;
+// they matter within a mean free path of corners only.
 //
-// A connection of n images through one plane is made with a probability that falls with the depth
-// below the plane and the walls' distances, and weighs more for it (roulette; unbiased).
+// A connection of n images through one plane is made with a probability that decreases with the
+// depth below the plane and the walls' distances, and is weighted by its inverse (roulette;
+// unbiased).
 //
-// Bodies of more than PathBoundary::kFewPlanes planes: through every facet whose refracted beam
-// holds the point (FacetBeams), where nothing lies between; probability by the ray's length. No
-// images: what is reflected inside after its last scattering, or leaves a body that is not convex
-// and enters it again after it, is not connected. Of what leaves within 0.38 rad of (1, -1, 1), eta
-// 1.3, isotropic, sigma_a 0.002 per mm, LED at (30, -60, 80) mm, that is in per cent, +- the last
+// Bodies of more than PathBoundary::kFewPlanes planes: through every unobstructed facet whose
+// refracted beam contains the point (FacetBeams), with a probability by the ray's length. No
+// images: light that after its last scattering is reflected inside, or leaves a non-convex body and
+// enters it again, is not connected. Its share in per cent of the light that leaves within 0.38 rad
+// of (1, -1, 1), for eta 1.3, isotropic, sigma_a 0.002 per mm, LED at (30, -60, 80) mm, +- the last
 // digit (0.00: below 0.01):
 //   mean free path mm           0.46   2
 //   20 mm cube, sharp           0.9    4.8   (few planes: images make up for it)
@@ -63,22 +65,22 @@ RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
 //   edges rounded by 8 mm              0.00
 //   sphere of radius 10 mm      0.00   0.04 at 3.3 mm
 //   the same, its radius waved by 30 % (about 6 mm from dent to dent): 0.9 at 0.46 and at 1 mm
-// It is scored where it leaves in about the camera's direction, the one thing that is not free of
-// bias: see not_connected(). A box of 8 x 8 x 6 mm, mean free path 0.5 mm, beam from above, from
-// three sides: 1.85 +- 0.05, 1.33 +- 0.05 and 0.53 +- 0.04 % of the light, where images give 1.99,
-// 1.40 and 0.43 %; within a mean free path of the edges the light is off by at most 1.6 %.
+// It is scored if it leaves in roughly the camera's direction, the only biased part: see
+// not_connected(). A box of 8 x 8 x 6 mm, mean free path 0.5 mm, beam from above, from three sides:
+// 1.85 +- 0.05, 1.33 +- 0.05 and 0.53 +- 0.04 % of the light, where images give 1.99, 1.40 and 0.43
+// %; within a mean free path of the edges the error of the light is at most 1.6 %.
 class CameraConnection {
  public:
-  // The boundary must outlive the object. most_walls: 0 .. 2, reflections inside on the way; of
+  // The boundary must outlive the object. most_walls: 0 .. 2, number of internal reflections; for
   // bodies of few planes only.
   CameraConnection(const PathBoundary& boundary, const Eigen::Vector3d& camera_in_world_mm,
                    const ScatteringMedium& medium, int most_walls = 2);
-  // The same camera and body for another medium: what takes long to build is shared.
+  // The same camera and body for another medium; shares the data that are expensive to build.
   // std::invalid_argument if eta differs.
   CameraConnection with(const ScatteringMedium& medium) const;
 
-  // A scattering: where, the direction of flight before it, the path's weight after it, number of
-  // scatterings (this one with them) and length up to here.
+  // A scattering event: position, direction of flight before it, the path's weight after it, number
+  // of scatterings (this one included) and length so far.
   struct Vertex {
     const Eigen::Vector3d& x;
     const Eigen::Vector3d& before;
@@ -89,19 +91,19 @@ class CameraConnection {
   // Replaces `scores` by those of the vertex.
   void connect(const Vertex& vertex, RandomStream& random, std::vector<PathScore>& scores) const;
 
-  // The score of an escape that did not come straight from a scattering and so was not connected:
-  // l toward the camera, averaged over a cone (EscapeCone). Empty for other escapes, bodies of few
-  // planes, and light that was never scattered.
+  // The score of an escape that did not come directly from a scattering and hence was not
+  // connected: l toward the camera, averaged over a cone (EscapeCone). Empty for other escapes,
+  // bodies of few planes, and light that was never scattered.
   std::optional<PathScore> not_connected(const PathScore& escape) const;
 
  private:
-  // Of a plane that faces the camera.
+  // A plane that faces the camera.
   struct Window {
     int plane_idx;
     double height_mm;      // of the camera above it
     Eigen::Vector3d foot;  // of the camera on it
   };
-  // A mirror image of the scattering. walls[0]: the wall that the light meets first.
+  // A mirror image of the scattering. walls[0]: the wall that the light hits first.
   struct Image {
     Eigen::Vector3d x;            // the image in all walls
     Eigen::Vector3d before_last;  // the image in all but the last one
@@ -124,7 +126,7 @@ class CameraConnection {
   int most_walls_;
   HenyeyGreenstein phase_;
   std::vector<Window> windows_;
-  // Of a body of many planes.
+  // For a body of many planes.
   std::shared_ptr<const FacetBeams> beams_;
   std::shared_ptr<const EscapeCone> cone_;
 };

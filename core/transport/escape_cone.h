@@ -8,9 +8,9 @@ namespace scattermeter {
 // An escape of weight w whose direction lies within kHalfAngle of the direction to the camera
 // scores
 //   pi w / C,  C = ∫ cos Ft(eta, cos) over the directions of that cone that leave the surface:
-// in the mean over the surface pi L_o / Ft, averaged over the cone with weights cos Ft. That is
-// l toward the camera but for what l bends within the cone (second order in its width). No facet
-// that faces the camera, however little, makes the score large.
+// in the mean over the surface pi L_o / Ft, averaged over the cone with weights cos Ft. That is l
+// toward the camera except for the curvature of l within the cone (second order in its width). The
+// score remains bounded even for facets seen at grazing angles.
 class EscapeCone {
  public:
   static constexpr double kHalfAngle = 0.3;  // rad
@@ -23,7 +23,7 @@ class EscapeCone {
   double transmitting_sr(double cosine) const;
 
  private:
-  std::vector<double> sr_;  // at even steps of the cosine
+  std::vector<double> sr_;  // at equal steps of the cosine
 };
 
 }  // namespace scattermeter

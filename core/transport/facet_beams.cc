@@ -78,7 +78,7 @@ void FacetBeams::grow(const TriangleMesh& mesh, std::vector<Beam>& beams, double
       nodes_[static_cast<std::size_t>(o.node)].first = -beams[o.from].facet - 1;
       continue;
     }
-    // Halves along the widest of three places and three directions.
+    // Halves along the widest of three coordinates of position and three of direction.
     const auto coordinate = [&](const Beam& b, int axis) {
       return axis < 3 ? b.middle[axis] : reach_mm * b.direction[axis - 3];
     };
@@ -140,7 +140,7 @@ FacetBeams::Node FacetBeams::node_around(const TriangleMesh& mesh, const Beam* f
   for (const Beam* b = from; b != to; ++b) {
     half_angle = std::max(half_angle, angle(sum, b->direction) + b->half_angle);
   }
-  constexpr double kWide = 1.5;  // rad; the bound holds below a right angle
+  constexpr double kWide = 1.5;  // rad; the bound is valid below a right angle
   const bool cone = half_angle < kWide && sum.norm() > 0.0;
   node.axis = cone ? Eigen::Vector3d(sum.normalized()) : Eigen::Vector3d::Zero();
   node.sin_half = cone ? std::sin(half_angle) : 0.0;

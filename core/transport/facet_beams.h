@@ -1,4 +1,4 @@
-// Which facets' refracted beams hold a point.
+// A search tree for the facets whose refracted beams contain a point.
 #pragma once
 
 #include <array>
@@ -10,15 +10,15 @@
 
 namespace scattermeter {
 
-// The camera's rays that pass a facet from outside go on inside as a beam whose axis bends a little
-// over the facet. A point may lie in the beams of several facets (behind convex edges) or of none
-// (behind concave ones).
+// The camera's rays that enter through a facet continue inside as a beam whose direction varies
+// slightly over the facet. A point may lie in the beams of several facets (behind convex edges) or
+// of none (behind concave ones).
 //
 // A binary tree over the facets that face the camera. Each node has a sphere around its facets
 // (centre c, radius rho) and a cone around its refracted directions (axis d, half angle alpha):
 // refraction into the denser side brings directions closer together, by 1 / eta at least, so that a
 // facet's directions lie within (its own half angle, seen from the camera) / eta of the one at its
-// middle. The node's beams are a part of the cone at c, fattened by rho, so a point at c + v, with
+// middle. The node's beams are part of the cone at c, widened by rho, so a point at c + v, with
 // t = d . v and r = |v - t d|, is in none of them where
 //   r cos(alpha) - t sin(alpha) > rho   or   t < -rho,
 // and no ray to it is shorter than |v| - rho. 80 bytes a node, two nodes a facet: 10^6 facets, half
@@ -28,7 +28,7 @@ class FacetBeams {
   // A facet that faces the camera.
   struct Facet {
     int facet_idx;
-    bool surely_seen;        // all of it, from the camera
+    bool surely_seen;        // all of it is visible from the camera
     double height_mm;        // of the camera above its plane
     Eigen::Vector3d normal;  // unit, outwards
     Eigen::Vector3d foot;    // of the camera on its plane
@@ -41,8 +41,8 @@ class FacetBeams {
   // Facets that face the camera.
   const std::vector<Facet>& facets() const { return facets_; }
 
-  // Calls visit(const Facet&) with every facet whose beam may hold x at less than `within_mm`
-  // behind the surface, and with some others.
+  // Calls visit(const Facet&) for every facet whose beam contains x at less than `within_mm` behind
+  // the surface, and for some others.
   template <class Visit>
   void for_candidates(const Eigen::Vector3d& x, double within_mm, const Visit& visit) const {
     if (nodes_.empty()) return;
@@ -73,7 +73,7 @@ class FacetBeams {
   }
 
  private:
-  static constexpr int kDeepest = 64;  // halved each time: of 2^31 facets at most
+  static constexpr int kDeepest = 64;  // depth of the tree for 2^31 facets
 
   struct Node {
     Eigen::Vector3d center;

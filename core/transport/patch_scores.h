@@ -1,4 +1,4 @@
-// Light toward the camera by patch, with what a re-weighing to another material needs.
+// Light toward the camera by patch, with the moments needed for re-weighting to another material.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ namespace scattermeter {
 struct PatchScores {
   std::vector<Eigen::Vector3d> mean;        // by patch, over the blocks
   std::vector<Eigen::Matrix3d> covariance;  // of that mean, from the spread of the blocks
-  PathAudit audit;                          // of a block in the mean; counts are of all
+  PathAudit audit;                          // mean per block; counts are totals
   int blocks = 0;
 };
 

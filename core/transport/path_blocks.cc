@@ -45,7 +45,7 @@ void share_in_order(PathPeers& peers, std::uint64_t task, int first, int end,
                     const std::function<void(int, const double*)>& merge) {
   for (int begin = first; begin < end; begin += kBlocksAtATime) {
     const int n = std::min(kBlocksAtATime, end - begin);
-    const auto from = [&](int place) { return begin + n * place / peers.count(); };
+    const auto from = [&](int rank) { return begin + n * rank / peers.count(); };
     std::vector<double> mine;
     run_in_order(
         from(peers.rank()), from(peers.rank() + 1),

@@ -1,4 +1,4 @@
-// Blocks of paths on all threads, added up in order.
+// Parallel tracing of blocks of paths, added up in order.
 #pragma once
 
 #include <concepts>
@@ -14,22 +14,22 @@
 namespace scattermeter {
 
 // Calls work(i) for first <= i < end on all threads at once and merge(i, result) one after the
-// other, in the order of i. Few results wait at a time.
+// other, in the order of i. Only a few results are held at a time.
 void run_in_order(int first, int end, const std::function<std::shared_ptr<void>(int)>& work,
                   const std::function<void(int, void*)>& merge);
 
 // Calls work(i), which appends to a vector, for first <= i < end, each with one of the peers, and
-// merge(i, numbers) one after the other, in the order of i, with all of them. Every call appends as
-// many. `task` distinguishes peers that work on something else.
+// merge(i, numbers) one after the other, in the order of i, with all of them. Every call appends
+// the same number. `task` detects peers that work on something else.
 void share_in_order(PathPeers& peers, std::uint64_t task, int first, int end,
                     const std::function<void(int, std::vector<double>&)>& work,
                     const std::function<void(int, const double*)>& merge);
 
-// The same for the same paths, whatever the blocks.
+// An identifier of the paths: equal for the same paths, whatever the blocks.
 std::uint64_t path_task(const PathWorld& world, const PathOptions& options);
 
-// A tally that peers can send each other: numbers(f) calls f(double&) for all it holds, in the same
-// order for every tally that make_tally() makes.
+// A tally that peers can send each other: numbers(f) calls f(double&) for all its numbers, in the
+// same order for every tally from make_tally().
 template <class Tally>
 concept SentTally = requires(Tally& tally) {
   tally.numbers([](double&) {});

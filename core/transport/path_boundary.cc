@@ -9,7 +9,7 @@
 namespace scattermeter {
 namespace {
 
-constexpr double kGrain = 2e-6;     // of the body's size: some units in the last place of a float
+constexpr double kGrain = 2e-6;     // of the body's size: a few ulp of a float
 constexpr double kOffEdges = 16.0;  // grains
 constexpr std::size_t kFewFacets = 8;
 

@@ -13,26 +13,26 @@
 
 namespace scattermeter {
 
-// A place where a path meets the surface.
+// A point where a path meets the surface.
 struct Crossing {
   double distance_mm = 0;    // along the path
-  Eigen::Vector3d point_mm;  // the place, or one some grains away from it (see PathBoundary)
+  Eigen::Vector3d point_mm;  // the point, or one some grains away from it (see PathBoundary)
   Eigen::Vector3d normal;    // outwards
-  int plane_idx = -1;        // of a body of few planes that is convex
-  int facet_idx = -1;        // else
+  int plane_idx = -1;        // for a convex body of few planes
+  int facet_idx = -1;        // otherwise
 };
 
-// Positions are double. A convex body of few planes is bounded by them and needs no ray: a point is
-// inside where it is behind all of them, and rounding at edges ends in another crossing of zero
-// length. Any other body asks Embree, in float, which facet comes next, and takes the distance from
-// the facet's plane. Against rounding, in grains of 2e-6 of the body's size: a ray starts a grain
-// behind its origin, so that a float that lands beyond a facet ahead does not lose it, and goes on
-// past facets met from the wrong side there; a place on the surface is moved to 16 grains from its
-// facet's edges (less on facets not much larger), where the neighbours are far enough for that. A
-// wrong side farther on means that the path has got outside.
+// Positions are double. A convex body of few planes needs no rays: a point is inside if it is
+// behind all planes, and rounding at edges results in another crossing of zero length. Any other
+// body asks Embree, in float, which facet comes next, and takes the distance from the facet's
+// plane. Against rounding, in grains of 2e-6 of the body's size: a ray starts a grain behind its
+// origin, so that a float rounded beyond a facet ahead does not miss it, and ignores facets hit
+// from the wrong side there; a point on the surface is moved to 16 grains from its facet's edges
+// (less on facets not much larger), which keeps it clear of the neighbours. A hit from the wrong
+// side farther on means that the path has left the body.
 class PathBoundary {
  public:
-  enum class Method { kAuto, kRays };  // kRays: even where planes would do
+  enum class Method { kAuto, kRays };  // kRays: even where planes suffice
   static constexpr int kFewPlanes = 32;
 
   // The scene must outlive the object. Precondition as RayScene's.
@@ -40,11 +40,11 @@ class PathBoundary {
 
   const RayScene& scene() const { return scene_; }
   double size_mm() const { return size_mm_; }
-  // Planes are there for every body of few of them; by_planes(): they bound it.
+  // The planes exist for every body of few planes; by_planes(): paths use them instead of rays.
   const BodyPlanes& body() const { return body_; }
   bool by_planes() const { return by_planes_; }
   bool convex() const { return convex_; }
-  // A lower bound of the distance from a point inside to the surface; 0 for a body by planes.
+  // A lower bound of the distance from a point inside to the surface; 0 if by_planes().
   double clearance_mm(const Eigen::Vector3d& x) const {
     return grid_ ? std::max(0.0, grid_->at(x)) : 0.0;
   }
@@ -53,9 +53,9 @@ class PathBoundary {
   }
 
   enum class Flight { kInside, kAtSurface, kLost };
-  // Flies from x, inside, along the unit direction by `step_mm`, or to the surface, and leaves in
-  // step_mm what is left of it. `clearance_mm`: before and after, a lower bound of the distance to
-  // the surface, so that most steps ask for nothing.
+  // Flies from x, inside, along the unit direction by `step_mm`, or to the surface, and leaves the
+  // remainder in step_mm. `clearance_mm`: before and after, a lower bound of the distance to the
+  // surface, so that most steps need no query.
   Flight fly(Eigen::Vector3d& x, const Eigen::Vector3d& direction, double& step_mm,
              double& clearance_mm, Crossing& crossing) const {
     if (step_mm < clearance_mm) {
@@ -75,9 +75,10 @@ class PathBoundary {
   // Whether the straight line between two points inside or on the surface stays inside.
   bool clear_inside(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
-  // The same, and `to` lies on a facet of that plane.
+  // The same, if `to` also lies on a facet of that plane.
   bool reaches_plane(const Eigen::Vector3d& from, const Eigen::Vector3d& to, int plane) const;
-  // The facet of a plane that a point outside sees at x; -1: it sees something else there.
+  // The facet of a plane that is visible at x from a point outside; -1: x is hidden or on no facet
+  // of the plane.
   int facet_seen(const Eigen::Vector3d& from, const Eigen::Vector3d& x, int plane) const;
 
   // The facet that a crossing at x lies on.
@@ -91,8 +92,8 @@ class PathBoundary {
                        double& clearance_mm, Crossing& crossing) const;
   Flight fly_by_rays(Eigen::Vector3d& x, const Eigen::Vector3d& direction, double& step_mm,
                      double& clearance_mm, Crossing& crossing) const;
-  // First facet passed outwards (side 1) or inwards (-1) within a distance. `lost`: one was passed
-  // the other way before.
+  // First facet passed outwards (side 1) or inwards (-1) within a distance. `lost`: another was
+  // passed in the opposite direction before.
   std::optional<Crossing> passed(const Eigen::Vector3d& x, const Eigen::Vector3d& direction,
                                  double within_mm, double side, bool& lost) const;
   Eigen::Vector3d off_the_edges(int facet, const Eigen::Vector3d& x) const;

@@ -1,4 +1,4 @@
-// Processes that trace the same blocks of paths together.
+// Processes that share the tracing of blocks of paths.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 namespace scattermeter {
 
 // Each of them runs the same program on the same input, traces its part of the blocks and adds up
-// those of all in the same order: all have the same digits, which are those of a single process.
+// all blocks in the same order: all obtain the same digits as a single process would.
 class PathPeers {
  public:
   virtual ~PathPeers() = default;
@@ -16,7 +16,7 @@ class PathPeers {
   virtual int rank() const = 0;   // of this process, 0 .. count() - 1
 
   // The numbers of all, one after the other in the order of their ranks. Waits for the others.
-  // Throws where they are at another `task` than this one, or at none any more.
+  // Throws if others are at another `task` or have ended.
   virtual std::vector<double> gathered(std::uint64_t task, const std::vector<double>& mine) = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a path records of itself.
+// Scores of paths, and the audit of their power.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace scattermeter {
 
-// A share of light at a place of the surface. Weighted by (sigma_s/sigma_s0)^scatterings
-// exp(-(sigma_t - sigma_t0) length_mm) it is that of a material of sigma_s and sigma_t, where the
-// path was drawn for sigma_s0 and sigma_t0 (same g and eta).
+// A share of light at a point of the surface. Weighted by (sigma_s/sigma_s0)^scatterings
+// exp(-(sigma_t - sigma_t0) length_mm) it becomes that of a material with sigma_s and sigma_t, if
+// the path was drawn for sigma_s0 and sigma_t0 (same g and eta).
 struct PathScore {
   Eigen::Vector3d point_mm;   // on the surface
   Eigen::Vector3d direction;  // unit, outside, away from the surface
@@ -17,7 +17,7 @@ struct PathScore {
   double weight = 0;
   int scatterings = 0;   // before it
   double length_mm = 0;  // inside the body
-  // Since its last scattering it was neither reflected nor did it leave the body and enter again.
+  // Since its last scattering it has neither been reflected nor left the body and entered again.
   bool straight = false;
 };
 
@@ -26,7 +26,7 @@ struct PathAudit {
   double entered = 0;
   double absorbed = 0;
   double escaped = 0;
-  double roulette = 0;  // ended by roulette less what its survivors gained; 0 in the mean
+  double roulette = 0;  // ended by roulette minus the gain of its survivors; 0 in the mean
   double lost = 0;      // of paths found outside the body, or cut at max_scatterings
   std::int64_t paths = 0;
   std::int64_t lost_paths = 0;

@@ -1,4 +1,4 @@
-// Light in a scattering body, path by path.
+// Monte Carlo tracing of light paths in a scattering body.
 #pragma once
 
 #include <cmath>
@@ -24,27 +24,27 @@ namespace scattermeter {
 struct PathOptions {
   std::uint64_t seed = 1;
   int paths_per_block = 4096;        // >= 1
-  double roulette_weight = 0.1;      // of the path's first weight; below it, roulette for ten times
-  int max_scatterings = 10'000'000;  // of one path; the rest is lost
-  // Who share the blocks (trace_blocks of a tally that can be sent); none: all are traced here.
+  double roulette_weight = 0.1;      // relative to the initial weight; below it, roulette
+  int max_scatterings = 10'000'000;  // of one path; its remaining power counts as lost
+  // Processes that share the blocks (in trace_blocks with a SentTally); null: all are traced here.
   PathPeers* peers = nullptr;
 };
 
-// What paths run in. Pointers and references must outlive it.
+// The body, medium, source and camera of the paths. Pointers and references must outlive it.
 struct PathWorld {
   const PathBoundary& boundary;
   ScatteringMedium medium;
   const EntrySource& source;
-  const CameraConnection* camera = nullptr;  // none: no connections
+  const CameraConnection* camera = nullptr;  // null: no connections
 };
 
-// Traces one block of paths: the same digits wherever and whenever. Weights are such that the
+// Traces one block of paths, with the same digits wherever and whenever. Weights are such that the
 // scores of one block add up to an estimate of the whole; blocks are independent.
 //
 // A path enters refracted, flies exponential lengths, is scattered after Henyey and Greenstein and
 // reflected or let out at the surface by a draw with Fresnel's reflectance. Absorption lowers its
-// weight (albedo at each scattering) and ends it by roulette only. What leaves a body that is not
-// convex may enter it again; an escape is what does not.
+// weight (albedo at each scattering) and ends it by roulette only. Light that leaves a non-convex
+// body may enter it again; otherwise it is an escape.
 //
 // Sink has escape(const PathScore&): power that leaves for good; and camera(const PathScore&): see
 // CameraConnection.
@@ -130,7 +130,7 @@ class PathTracer {
     Eigen::Vector3d direction;
     double weight;
     int scatterings;
-    double length_mm;  // up to the end of the step under way
+    double length_mm;  // up to the end of the current step
     bool straight;     // as in PathScore
   };
 
@@ -146,8 +146,8 @@ class PathTracer {
     return false;
   }
 
-  // Outside: flies on, reflected from outside as often as it comes to it, until it enters the body
-  // (true) or leaves for good.
+  // Outside: continues, with any number of external reflections, until it enters the body (true) or
+  // leaves for good.
   bool enters_again(RandomStream& random, Path& path) const {
     Eigen::Vector3d x = path.x;
     while (const std::optional<Crossing> at = world_.boundary.entering(x, path.direction)) {
@@ -164,7 +164,7 @@ class PathTracer {
     return false;
   }
 
-  // `at`, `x`: where it left; the direction is its last.
+  // `at`, `x`: where it left; path.direction is the final one.
   void escape(const Crossing& at, const Eigen::Vector3d& x, const Path& path) {
     audit_.escaped += path.weight;
     const PathScore score{x,

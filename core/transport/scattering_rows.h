@@ -1,4 +1,4 @@
-// The rows of one view under one light, by Monte Carlo.
+// The image of one view under one light by Monte Carlo, row by row.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace scattermeter {
 
-// l of every row (the mean over its patch, paper eq. 11), per unit of the light's power, and how it
-// changes with the medium; all from the same paths.
+// l of every row (the mean over its patch, paper eq. 11), per unit of the light's power, and its
+// derivatives by the medium; all from the same paths.
 struct ScatteringImage {
   Eigen::VectorXd l;
   Eigen::VectorXd per_log_sigma_s;  // dl / d log sigma_s at constant sigma_a and g
@@ -24,7 +24,7 @@ struct ScatteringImage {
   Eigen::VectorXd variance;         // of l; the rows' errors are not independent
 };
 
-// A view: which patches are rows.
+// A view: the rows of the patches.
 struct ScatteringView {
   const PatchMesh* patches = nullptr;
   std::vector<std::int32_t> row_of_patch;  // -1: no row
@@ -33,13 +33,13 @@ struct ScatteringView {
 };
 ScatteringView scattering_view(const PatchMesh& patches, const std::vector<int>& patch_of_row);
 
-// Adds up paths of one medium, block by block. The derivatives are those of the paths' weights
+// Sums paths in one medium, block by block. The derivatives are those of the paths' weights
 // under a change of the medium (perturbation Monte Carlo): a path of n scatterings and length L in
 // the body weighs sigma_s^n exp(-sigma_t L).
 class ScatteringSum {
  public:
-  // projection (any number of rows x rows of the view; may have no rows): weights whose sums over l
-  // are wanted with their covariance. The view must outlive the object.
+  // projection (any number of rows x rows of the view; may have no rows): linear combinations of l
+  // whose covariance is required. The view must outlive the object.
   ScatteringSum(const ScatteringView& view, const Eigen::MatrixXd& projection);
 
   // Traces `n` further blocks. The same calls give the same digits on any number of threads.

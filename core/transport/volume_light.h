@@ -1,4 +1,4 @@
-// What the volumetric Monte Carlo makes a lit object look like.
+// The image of a lit object by volume Monte Carlo.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace scattermeter {
 struct VolumeLightOptions {
   std::uint64_t seed = 1;
   std::int64_t paths = 1'000'000;  // in 64 blocks; at least one each
-  PathPeers* peers = nullptr;      // who trace them together; the digits are the same
+  PathPeers* peers = nullptr;      // processes that share the tracing; the digits are the same
 };
 
 struct VolumeLight {
@@ -24,13 +24,13 @@ struct VolumeLight {
 
 // l (paper eq. 11) toward the world's camera at the nodes of a field on the patches: the scores'
 // projection onto functions that are linear on each patch and continuous where patches share nodes
-// (least squares over the surface; edge middles lie between their corners). Smooth light is met to
-// second order in the patch size. Deterministic.
+// (least squares over the surface; edge midpoints are the means of their corners). The error for
+// smooth light is of second order in the patch size. Deterministic.
 VolumeLight volume_radiosity(const SurfaceField& field, const PatchMesh& patches,
                              const PathWorld& world, const VolumeLightOptions& options);
 
-// Facets that share nodes: where an edge bends by less than 20 degrees light is taken as
-// continuous. By facet, numbers from 0.
+// Groups of facets that share nodes: across edges that bend by less than 20 degrees, light is taken
+// as continuous. Returns the number of each facet's group, from 0.
 std::vector<int> smooth_parts(const TriangleMesh& mesh);
 
 // Patch size for the above: 0.8 mean free paths, within 1/125 .. 1/40 of the object's size.

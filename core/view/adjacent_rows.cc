@@ -15,7 +15,7 @@ std::vector<std::vector<std::int32_t>> adjacent_rows(const std::vector<std::int3
   }
   const auto last = std::max_element(row_of_sample.begin(), row_of_sample.end());
   if (last != row_of_sample.end() && *last >= 0 && static_cast<std::size_t>(*last) >= n_rows) {
-    throw std::invalid_argument("adjacent_rows: a row that is not there");
+    throw std::invalid_argument("adjacent_rows: a row is out of range");
   }
   std::vector<std::vector<std::int32_t>> adjacent(n_rows);
   const auto link = [&](std::int32_t a, std::int32_t b) {

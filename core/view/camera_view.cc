@@ -14,7 +14,7 @@ struct PixelBox {
 };
 
 // Corners of a convex outline may bow outwards under lens distortion by far less than the margin;
-// the bounds of all vertices serve.
+// the bounds of all vertices suffice.
 PixelBox image_bounds(const CameraView& view, const TriangleMesh& mesh) {
   PixelBox box;
   for (const Eigen::Vector2d& p :

@@ -36,7 +36,7 @@ struct Scatter {
 struct SampleSums {
   std::array<std::vector<Sum>, kRgb> channel;  // by row
   std::array<Scatter, kRgb> scatter;
-  std::vector<Monomials> place;         // by row, sum over the samples of all channels
+  std::vector<Monomials> monomials;     // by row, sum over the samples of all channels
   std::vector<Eigen::Vector2i> origin;  // by row: its first sample, px
 };
 
@@ -45,7 +45,7 @@ SampleSums sum_samples(const CfaSamples& samples, const SampleMap& map, Observat
   const std::size_t n_rows = map.patch_of_row.size();
   SampleSums sums;
   for (auto& s : sums.channel) s.resize(n_rows);
-  sums.place.assign(n_rows, Monomials::Zero());
+  sums.monomials.assign(n_rows, Monomials::Zero());
   sums.origin.resize(n_rows);
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
@@ -54,9 +54,9 @@ SampleSums sum_samples(const CfaSamples& samples, const SampleMap& map, Observat
       if (map.row_of_sample[i] < 0) continue;
       const auto row = static_cast<std::size_t>(map.row_of_sample[i]);
       const auto c = static_cast<std::size_t>(samples.channel(map.x0 + x, map.y0 + y));
-      if (sums.place[row][0] == 0.0) sums.origin[row] = {x, y};
+      if (sums.monomials[row][0] == 0.0) sums.origin[row] = {x, y};
       const Monomials from_origin = monomials_at(Eigen::Vector2i(x, y) - sums.origin[row]);
-      sums.place[row] += from_origin;
+      sums.monomials[row] += from_origin;
       Sum& s = sums.channel[c][row];
       if (samples.clipped[i] == kSampleDefect) continue;
       ++out.channel[c].samples;
@@ -96,7 +96,7 @@ RowMean mean_of_row(const SampleSums& sums, const SampleMap& map, std::size_t c,
       fit.add_neighbour(s.l, sums.origin[other] - sums.origin[row]);
     }
   }
-  return fit.mean_over(sums.place[row] / sums.place[row][0]);
+  return fit.mean_over(sums.monomials[row] / sums.monomials[row][0]);
 }
 
 // One channel of all rows. unit: W/(mm^2 sr) of one count.
@@ -114,7 +114,7 @@ void observe_channel(const SampleSums& sums, const SampleMap& map, std::size_t c
     const Sum& s = sums.channel[c][row];
     const double n = s.l.n();
     if (n == 0.0 && s.clipped == 0) continue;
-    // A clipped sample is a lower bound; leaving only it out would pull the mean down.
+    // A clipped sample is a lower bound; leaving out only that sample would bias the mean low.
     if (s.clipped > 0) {
       channel.state[row] = RowState::kClipped;
       ++channel.rows_clipped;
@@ -175,7 +175,7 @@ Observation observe(const CfaSamples& samples, const SampleMap& map,
                     const std::array<double, kRgb>& responsivity_counts_mm2_sr_per_W_s) {
   if (samples.x0 != map.x0 || samples.y0 != map.y0 || samples.width != map.width ||
       samples.height != map.height) {
-    throw std::invalid_argument("observe: the samples' rectangle is not the map's");
+    throw std::invalid_argument("observe: the rectangles of samples and map differ");
   }
   if (!(samples.exposure_s > 0.0))
     throw std::invalid_argument("observe: exposure_s is not positive");

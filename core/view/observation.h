@@ -1,4 +1,4 @@
-// What one shot shows of each visible patch.
+// The radiosity of each visible patch as observed in one shot.
 #pragma once
 
 #include <array>
@@ -10,33 +10,34 @@
 
 namespace scattermeter {
 
-// Why a patch takes no part in a channel.
+// Why a patch is not used in a channel.
 enum class RowState : unsigned char {
   kUsed = 0,
   kNoSamples,  // no sample of the channel falls on it
   kClipped,    // at least one of its samples is clipped
-  kFloor,      // so dark that the camera cuts its noise off at zero
+  kFloor,      // so dark that the camera clips its noise at zero
   kMirror,     // mirrors a light into the camera
   kNoise,      // its expected light does not exceed the noise
-  kOutlier,    // far from what all others show: dust, a scratch, a mark
+  kOutlier,    // inconsistent with the other rows: dust, a scratch, a mark
   kEdge,       // beside a silhouette, a step or a crease, for a model of whole patches
 };
 inline constexpr std::size_t kRowStates = 8;
 
 // One exposure of a bracket, in one channel.
 struct ExposurePart {
-  std::vector<double> of_row;  // what part of the row's l comes from it
-  std::size_t samples = 0;     // in rows, that hold anything of it
+  std::vector<double> of_row;  // share of the row's l that comes from it
+  std::size_t samples = 0;     // samples in rows to which it contributes
 };
 
-// One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), the mean over the samples of all
-// channels on the patch (those that SampleMap::mean_mm and spread_mm2 describe) of a quadratic
-// through the channel's own and those of the patches beside it (core/view/row_mean.h).
+// One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), a quadratic fitted to the channel's
+// samples on the patch and its neighbours, averaged over the positions of the samples of all
+// channels on the patch (those that SampleMap::mean_mm and spread_mm2 describe;
+// core/view/row_mean.h).
 struct ChannelObservation {
   std::vector<double> l;         // per row, W/mm^2 for known responsivity, else up to one factor
   std::vector<double> variance;  // of l, from the samples' variances
   std::vector<double> variance_per_l;  // growth of the variance with l (photon noise), W/mm^2
-  std::vector<double> l_per_count;     // mean over the row: a count more in every sample, W/mm^2
+  std::vector<double> l_per_count;     // change of l with one count more in every sample, W/mm^2
   std::vector<RowState> state;
   std::size_t rows_used = 0;
   std::size_t rows_clipped = 0;
@@ -48,14 +49,14 @@ struct ChannelObservation {
   // Mean squared second difference of neighbouring samples of one filter phase over its expectation
   // from their variances: 1 where the noise model is right. 0 without three samples in line.
   double noise_ratio = 0;
-  std::vector<ExposurePart> exposures;  // of a bracket, in its order; else empty
+  std::vector<ExposurePart> exposures;  // for a bracket, in its order; else empty
 };
 
 struct Observation {
   std::array<ChannelObservation, kRgb> channel;
 };
 
-// Clipped samples take their row out, defect ones only themselves.
+// A clipped sample excludes its whole row, a defective one only itself.
 // responsivity: counts per (W/(mm^2 sr)) and second, per channel, > 0.
 // Preconditions (std::invalid_argument): the rectangles of map and samples agree, exposure > 0.
 Observation observe(const CfaSamples& samples, const SampleMap& map,

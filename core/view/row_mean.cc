@@ -34,7 +34,7 @@ void RowSum::add(const Monomials& from_origin, double value, double variance) {
 }
 
 RowFit::RowFit(const RowSum& row) : row_(row), moment_(row.value_), equations_(row.n()) {
-  // Which moment the product of two monomials is.
+  // Index of the moment that is the product of two monomials.
   constexpr int kProduct[6][6] = {{0, 1, 2, 3, 4, 5},    {1, 3, 4, 6, 7, 8},
                                   {2, 4, 5, 7, 8, 9},    {3, 6, 7, 10, 11, 12},
                                   {4, 7, 8, 11, 12, 13}, {5, 8, 9, 12, 13, 14}};
@@ -45,9 +45,9 @@ RowFit::RowFit(const RowSum& row) : row_(row), moment_(row.value_), equations_(r
 
 void RowFit::add_neighbour(const RowSum& neighbour, const Eigen::Vector2i& shift_px) {
   constexpr double kNeighbour = 0.3;
-  const Monomials place = moved(neighbour.mean_place(), shift_px);
-  gram_ += kNeighbour * neighbour.n() * place * place.transpose();
-  moment_ += kNeighbour * neighbour.value_[0] * place;
+  const Monomials monomials = moved(neighbour.mean_monomials(), shift_px);
+  gram_ += kNeighbour * neighbour.n() * monomials * monomials.transpose();
+  moment_ += kNeighbour * neighbour.value_[0] * monomials;
   equations_ += 1.0;
 }
 
@@ -73,7 +73,7 @@ bool RowFit::fitted_mean(const Monomials& step, RowMean& mean) const {
 
 RowMean RowFit::mean_over(const Monomials& target) const {
   RowMean mean{row_.mean(), row_.variance_of_mean(), 1.0};
-  const Monomials step = target - row_.mean_place();
+  const Monomials step = target - row_.mean_monomials();
   if (!fitted_mean<6>(step, mean)) fitted_mean<3>(step, mean);
   return mean;
 }

@@ -32,7 +32,7 @@ void expect(ChannelObservation& observation, const Eigen::VectorXd& expected,
   for (std::size_t j = 0; j < observation.l.size(); ++j) {
     if (observation.state[j] != RowState::kUsed) continue;
     const double l = std::max(0.0, expected[at++]);
-    // The measured variance holds max(l, 0) times the slope.
+    // The measured variance includes max(l, 0) times the slope.
     const double change = observation.variance_per_l[j] * (l - std::max(0.0, observation.l[j]));
     // Photon noise cannot take more than the variance it was part of.
     observation.variance[j] =

@@ -1,4 +1,4 @@
-// Selection of the patches that take part, beyond what their samples decide.
+// Selection of the patches that are used, by criteria beyond the state of their samples.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace scattermeter {
 
-// Leaves a used row out for the given reason; the counts follow.
+// Excludes a used row for the given reason and updates the counts.
 void leave_out(ChannelObservation& observation, std::size_t row, RowState reason);
 
 // Whether a smooth surface at `point_mm` mirrors a light at `light_mm` into the camera, within
@@ -19,8 +19,8 @@ bool mirrors(const Eigen::Vector3d& point_mm, const Eigen::Vector3d& normal,
              const Eigen::Vector3d& camera_mm, const Eigen::Vector3d& light_mm, double cone_rad);
 
 struct RowSelectionOptions {
-  // Rows whose expected l is below this many of its deviations are left out: black level and stray
-  // light decide there.
+  // Rows whose expected l is below this many of its standard deviations are left out: there, black
+  // level and stray light dominate.
   double min_snr = 3.0;
   // Rows farther from the fit than this many deviations, and than this many robust deviations of
   // all rows (kStdPerMad times the median absolute deviation), are outliers.
@@ -31,12 +31,12 @@ struct RowSelectionOptions {
 };
 
 // Variances by the expected light instead of the measured one (which would favour rows that are
-// dark by chance), and rows deep in noise left out. `expected`: predicted l of the used rows, in
-// order. To be called once: afterwards the variances are no longer those of the measured l.
+// dark by chance); rows deep in noise are left out. `expected`: predicted l of the used rows, in
+// order. Call it once only: afterwards the variances are no longer those of the measured l.
 void expect(ChannelObservation& observation, const Eigen::VectorXd& expected,
             const RowSelectionOptions& options = {});
 
-// Used rows that are outliers, as indices of the system. All of one length.
+// Used rows that are outliers, as row indices of the system. All arguments have the same length.
 std::vector<Eigen::Index> outliers(const Eigen::VectorXd& l, const Eigen::VectorXd& predicted,
                                    const Eigen::VectorXd& std_l,
                                    const RowSelectionOptions& options = {});

@@ -17,7 +17,7 @@
 namespace scattermeter {
 namespace {
 
-// What the guard and the rows need of a hit.
+// The part of a hit that the guard and the rows need.
 struct Seen {
   std::int32_t patch = -1;
   std::int32_t facet = -1;
@@ -60,7 +60,7 @@ class Mapper {
   }
   const Seen& seen(std::size_t i) const { return seen_[i]; }
 
-  // Whether the surface goes on smoothly as far as the guard reaches, in all eight directions.
+  // Whether the surface continues smoothly as far as the guard reaches, in all eight directions.
   bool inside(int x, int y) const {
     const Seen& s = seen_[index(x, y)];
     const Eigen::Vector3d p = point(index(x, y));
@@ -139,7 +139,7 @@ SamplesByPatch by_patch(const std::vector<std::int32_t>& patch_of_sample, std::s
   return out;
 }
 
-// What the camera sees of each patch, by patch.
+// The visible part of each patch, by patch.
 struct SeenPatches {
   std::vector<double> area_mm2;
   std::vector<Eigen::Vector3d> mean_mm;  // of its samples, from the patch's centre

@@ -1,4 +1,4 @@
-// Which patch each camera sample sees.
+// The mapping of camera samples to the patches that they see.
 #pragma once
 
 #include <cstdint>
@@ -18,25 +18,25 @@ struct RayGrid {
   std::vector<Eigen::Vector3f> directions_in_world;  // row by row, any length; NaN: no ray
 };
 
-// First hit of one ray, as far as pictures and maps need it.
+// First hit of one ray, with what pictures and maps need of it.
 struct PixelHit {
   std::int32_t facet_idx = -1;  // -1: background
-  PatchPoint at;                // the patch and the place in it
+  PatchPoint at;                // the patch and the position in it
   double distance_mm = 0;
   double cos_theta = 0;  // between the direction back to the camera and the normal; > 0
 };
 
-// Of a ray in that direction (of any length) and what it hits first.
+// From the direction of a ray (of any length) and its first hit.
 PixelHit pixel_hit(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction);
 PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
                      const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction);
 
 struct SampleMapOptions {
   int guard_px = 2;  // samples this near a silhouette, a step in depth or a crease are left out
-  double min_coverage = 0.8;  // patches of which less is seen (and not guarded) have no row
+  double min_coverage = 0.8;  // patches with a smaller visible, unguarded share have no row
 };
 
-// The patches that the camera sees, each a row of the linear system, and the samples of each row.
+// The visible patches, each a row of the linear system, and the samples of each row.
 struct SampleMap {
   int x0 = 0, y0 = 0, width = 0, height = 0;
   std::vector<std::int32_t> row_of_sample;   // -1: background, guarded or in no row
@@ -44,7 +44,7 @@ struct SampleMap {
   std::vector<int> patch_of_row;
   std::vector<Eigen::Vector3d> mean_mm;     // mean surface point of each row's samples, world
   std::vector<Eigen::Matrix3d> spread_mm2;  // their covariance about it
-  std::vector<double> coverage;             // seen share of each row's patch
+  std::vector<double> coverage;             // visible share of each row's patch
   std::vector<std::size_t> guarded_of_row;  // samples on the row's patch that are left out
   std::vector<std::vector<std::int32_t>> adjacent_rows;  // of each row (core/view/adjacent_rows.h)
   std::size_t samples_on_object = 0;

@@ -35,7 +35,7 @@ TEST(ModelChoice, SaysWhyNot) {
   EXPECT_EQ(why_transport(off, image(0.01)), "the dipole misses 4 % of the image");
   ChannelResult torn = good();
   torn.agreement = {40.0, 6, 1e-5};
-  EXPECT_EQ(why_transport(torn, image(0.01)), "by the dipole the shots do not agree");
+  EXPECT_EQ(why_transport(torn, image(0.01)), "the shots do not agree under the dipole");
   EXPECT_EQ(why_transport(good(), image(0.2)),
             "noise hides what the dipole may miss, up to 5.1 % of the image");
 }

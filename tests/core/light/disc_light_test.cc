@@ -79,7 +79,7 @@ TEST(DiscLight, ConcentricMapKeepsAreasAndFillsTheDisc) {
   for (int i = 0; i < kSide; ++i) {
     for (int j = 0; j < kSide; ++j) {
       const Eigen::Vector3d d =
-          disc.place_mm((i + 0.5) / kSide, (j + 0.5) / kSide) - led.position_mm;
+          disc.disc_point_mm((i + 0.5) / kSide, (j + 0.5) / kSide) - led.position_mm;
       EXPECT_LE(d.norm(), 2.0);
       EXPECT_NEAR(d.dot(led.axis), 0.0, 1e-12);
       inside += d.norm() < 1.0 ? 1.0 : 0.0;

@@ -64,7 +64,7 @@ TEST(ProbeMap, PlaceIsTheInverseOfDirection) {
         const Eigen::Vector3d d = map.direction(p.x(), p.y());
         EXPECT_NEAR(d.norm(), 1.0, 1e-12);
         // Near the ball's rim a pixel is a few hundredths of a radian of the direction behind.
-        EXPECT_LT((map.place_px(3.0 * d) - p).norm(), 1e-6) << p.transpose();
+        EXPECT_LT((map.position_px(3.0 * d) - p).norm(), 1e-6) << p.transpose();
       }
     }
   }
@@ -102,7 +102,7 @@ TEST(ProbeMap, SolidAngleOfOneRectangle) {
         for (int j = 0; j < 2 * kRows; ++j) {
           const double phi = std::numbers::pi * (j + 0.5) / kRows;
           const double s = std::sqrt(1.0 - z * z);
-          const Eigen::Vector2d p = map.place_px({s * std::cos(phi), s * std::sin(phi), z});
+          const Eigen::Vector2d p = map.position_px({s * std::cos(phi), s * std::sin(phi), z});
           if (p.x() > r.x0 && p.x() < r.x1 && p.y() > r.y0 && p.y() < r.y1) sum += 1.0;
         }
       }

@@ -55,10 +55,10 @@ TEST(Scene, ShotsThatNameWhatIsNotThereAreRefused) {
   };
   Scene bad = scene;
   bad.shots[1].object = "sphere";
-  EXPECT_EQ(message(bad), "rig.yaml: shots.PE2.dng.object: sphere is none of the objects");
+  EXPECT_EQ(message(bad), "rig.yaml: shots.PE2.dng.object: sphere is not one of the objects");
   bad = scene;
   bad.shots[2].lights = {"led", "lamp"};
-  EXPECT_EQ(message(bad), "rig.yaml: shots.POM3.dng.lights: lamp is none of the lights");
+  EXPECT_EQ(message(bad), "rig.yaml: shots.POM3.dng.lights: lamp is not one of the lights");
   bad.shots[2].lights.clear();
   EXPECT_EQ(message(bad), "rig.yaml: shots.POM3.dng.lights: expected at least one light");
 }

@@ -83,7 +83,7 @@ TEST(RowMean, QuadraticFromNeighbours) {
 TEST(RowMean, PlainWhereTheSamplesTellNoMore) {
   RowSum line;
   for (int x = 0; x < 12; ++x) line.add(monomials_at({x, 0}), quadratic({x, 0}), 1.0);
-  Monomials beside = line.mean_place();
+  Monomials beside = line.mean_monomials();
   beside = moved(beside, {0, 1});
   const RowMean mean = RowFit(line).mean_over(beside);
   EXPECT_EQ(mean.value, line.mean());
