@@ -28,7 +28,7 @@ bool is_ordinary_picture(const std::string& path) {
   return kEndings.contains(ending);
 }
 
-// OpenCV itself takes memory for up to 2^30 pixels, and reads more formats than cameras write.
+// OpenCV itself allocates memory for up to 2^30 pixels and reads more formats than cameras write.
 capture::PictureClaim claim_within(const std::string& path, double max_megapixels) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))

@@ -21,7 +21,7 @@ CameraLayout camera_layout(const std::vector<BoardView>& views, const CameraBund
   std::vector<Eigen::Vector3d> normals;
   for (const Rigid3d& pose : bundle.camera_from_board) {
     const Eigen::Vector3d n = pose.rotation * Eigen::Vector3d::UnitZ();
-    // Either side of the print: some detections number a board's corners mirrored.
+    // The sign of the normal is ignored, as some detections number the corners of a board mirrored.
     for (const Eigen::Vector3d& other : normals) {
       const double angle = std::atan2(n.cross(other).norm(), std::abs(n.dot(other)));
       out.widest_angle_rad = std::max(out.widest_angle_rad, angle);
