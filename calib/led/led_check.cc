@@ -28,7 +28,7 @@ void hold_highlights(const Led& led, const LedShots& shots, LedCheck& check) {
     check.highlights_px.push_back(h.image_px);
     check.highlight_residuals_px.push_back(r);
     sum += r.squaredNorm();
-    // A highlight that should not be there at all has no distance: the worst of all.
+    // A highlight that the rig does not predict at all has no residual: the worst case.
     check.highlight_worst_px =
         r.allFinite() ? std::max(check.highlight_worst_px, r.norm()) : kNotSeen;
   }
@@ -37,7 +37,7 @@ void hold_highlights(const Led& led, const LedShots& shots, LedCheck& check) {
   if (n == 0.0) check.highlight_worst_px = kNotSeen;
 }
 
-// The cells less the ambient light that the fit found.
+// The cells minus the fitted ambient light.
 std::vector<ShadedCell> lit_by_led(const LedShots& shots, const LedFit& fit, LedCheck& check) {
   std::vector<ShadedCell> cells = shots.scene.cells;
   if (cells.empty()) check.ambient_percent = check.ambient_std_percent = kNotSeen;

@@ -22,8 +22,8 @@ namespace scattermeter::calib {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLitSnr = 10.0;  // of a channel's mean, for the channel to take part
-constexpr int kRounds = 6;        // of leaving cells out
+constexpr double kLitSnr = 10.0;  // least SNR of the mean of a channel that is used
+constexpr int kRounds = 6;        // of outlier rejection
 constexpr std::size_t kStartCells = 240;
 
 class LedFitter {
@@ -77,7 +77,7 @@ class LedFitter {
     return fit_;
   }
 
-  // Channels that the plane shows lit take part; the others have no power.
+  // Channels in which the plane is lit are used; the others have no power.
   void choose_channels() {
     std::array<double, 3> sum{}, variance{};
     for (const ShadedCell& cell : scene_.cells) {
@@ -120,8 +120,8 @@ class LedFitter {
     return solution_.converged;
   }
 
-  // Stage 1: a robust fit from several starts on some of the cells. Stage 2: all cells but the
-  // outliers, until no more change sides.
+  // Stage 1: a robust fit from several starts to some of the cells. Stage 2: all cells except
+  // outliers, until the set of outliers no longer changes.
   bool solve_with_planes(bool position_is_known) {
     LedSolve some = what_;
     const std::size_t step = std::max<std::size_t>(

@@ -10,8 +10,8 @@
 namespace scattermeter::calib {
 namespace {
 
-// Standard deviation of the power, the mean log intensity of the free channels, and its correlation
-// with the distance along the unit vector `towards`; 0 where the lobe was not fitted.
+// Standard deviation of the power (mean log intensity of the free channels) and its correlation
+// with the distance along the unit vector `towards`; 0 if the lobe was not fitted.
 double power_std(const LedSolve& what, const Eigen::Vector3d& towards, LedFit& fit) {
   if (!fit.lobe_fitted) return 0.0;
   const LedMatrix& c = fit.uncertainty.covariance;
