@@ -21,8 +21,7 @@ struct LensUncertainty {
   // Above 1, corner errors are correlated within a view (a bent board, a lens beyond the model,
   // blur).
   double view_scatter = 1;
-  double view_scatter_p =
-      1;  // of at least this by chance (chi-square, Satterthwaite's degrees of freedom)
+  double view_scatter_p = 1;  // chance of this much (chi-square with Satterthwaite's freedom)
   // p is below 1e-3 and the covariance was multiplied by view_scatter.
   bool widened = false;
   // The part of view_scatter due to each view, over its expectation.

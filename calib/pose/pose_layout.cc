@@ -29,9 +29,9 @@ Eigen::MatrixXd image_rows(const std::vector<PointPair>& pairs, const std::vecto
   return rows;
 }
 
-// Rms extent of the points about their mean along each principal direction, largest first. By the
-// singular values of the points themselves, not of their scatter matrix: squaring would bury a
-// spread below 1e-8 of the largest.
+// Rms extent of the points about their mean along each principal direction, largest first. It is
+// computed from the singular values of the points themselves, not of their scatter matrix: squaring
+// would lose a spread below 1e-8 of the largest.
 Eigen::VectorXd rms_spread(Eigen::MatrixXd rows) {
   const Eigen::RowVectorXd first = rows.row(0);
   rows.rowwise() -= first;  // in two steps, so that a far origin leaves no rounding in the mean
@@ -40,7 +40,8 @@ Eigen::VectorXd rms_spread(Eigen::MatrixXd rows) {
   return thin_svd(rows).values / std::sqrt(static_cast<double>(rows.rows()));
 }
 
-// Different world points up to `enough`, which keeps a thousand pairs from costing a million tests.
+// The number of different world points, at most `enough`, so that a thousand pairs do not cost a
+// million comparisons.
 int count_different(const Eigen::MatrixXd& rows, double tolerance_mm, int enough) {
   std::vector<Eigen::Vector3d> seen;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
@@ -75,7 +76,7 @@ std::optional<PoseFault> layout_fault(const std::vector<PointPair>& pairs,
     return PoseFault{PoseStatus::kTooFewPoints, out.str()};
   }
   const Eigen::VectorXd spread_mm = rms_spread(world);
-  // Rounding of the coordinates themselves is no spread.
+  // Rounding of the coordinates themselves does not count as spread.
   const double rounding_mm = 1e-12 * world.cwiseAbs().maxCoeff();
   if (spread_mm[0] <= rounding_mm) {
     return PoseFault{PoseStatus::kCollinear,
