@@ -13,8 +13,8 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kMaxClippedGlare = 1e-3;  // of the frame: its mean must be known
-constexpr double kMaxTrapShare = 0.3;      // of the frame's mean, in a trap
+constexpr double kMaxClippedGlare = 1e-3;  // share of the frame, whose mean must be known
+constexpr double kMaxTrapShare = 0.3;      // of the frame mean, in a trap
 
 double clipped_share(const capture::RawFrame& frame,
                      const capture::RadianceCorrection& correction) {
@@ -65,7 +65,7 @@ void find_glare(RadianceSteps& steps) {
             fmt::format("[{}, {}, {}, {}] leaves the frame of {} x {}", r.x0, r.y0, r.width,
                         r.height, frame.width_px, frame.height_px));
       }
-      // Neither glare nor vignetting is in the correction yet.
+      // The correction does not contain glare and vignetting yet.
       const capture::CorrectedSamples s =
           capture::corrected_samples(frame, correction, r.x0, r.y0, r.width, r.height);
       for (std::size_t c = 0; c < kRgb; ++c) {

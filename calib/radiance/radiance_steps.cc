@@ -19,7 +19,7 @@ capture::RawFrame open_radiance_shot(RadianceSteps& steps, const RadianceShot& s
     c.f_number = frame.f_number;
     c.vignetting = vignetting_of_frame(frame.width_px, frame.height_px);
   }
-  // Those that the first file did not state are taken from the next.
+  // Values that the first file does not state are taken from the next.
   if (c.iso == 0.0) c.iso = frame.iso;
   if (c.f_number == 0.0) c.f_number = frame.f_number;
   if (const std::string problem = capture::correction_problem(frame, c); !problem.empty()) {
