@@ -132,7 +132,7 @@ LedCheck check_led(const LedCalibrationInput& input, const std::string& light,
     check.displacement_covariance_mm2.setConstant(kNotSeen);
     check.displacement_length_mm = check.displacement_std_mm = check.displacement_stds = kNotSeen;
     check.exponent_change = check.axis_change_rad = kNotSeen;
-    check.text = light + ": the shots do not tell where it stands: " + fit.message;
+    check.text = light + ": the shots do not determine its position: " + fit.message;
     return check;
   }
   check.displacement_mm = fit.led.position_mm - prior.led.position_mm;
@@ -148,7 +148,7 @@ LedCheck check_led(const LedCalibrationInput& input, const std::string& light,
   check.exponent_change = fit.led.exponent - prior.led.exponent;
   check.axis_change_rad =
       std::atan2(fit.led.axis.cross(prior.led.axis).norm(), fit.led.axis.dot(prior.led.axis));
-  check.text = fmt::format("{} stands {:.2f} +- {:.2f} mm from where the rig says", light,
+  check.text = fmt::format("{} is {:.2f} +- {:.2f} mm from its position in the rig", light,
                            check.displacement_length_mm, check.displacement_std_mm);
   return check;
 }

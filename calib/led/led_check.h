@@ -54,7 +54,7 @@ struct LedCheck {
   // between the axes.
   double exponent_change = 0;
   double axis_change_rad = 0;
-  // "led1 stands 2.1 +- 0.1 mm from where the rig says"
+  // "led1 is 2.10 +- 0.12 mm from its position in the rig"
   std::string text;
   std::vector<std::string> notes;  // spheres without a highlight, clipped planes
 };

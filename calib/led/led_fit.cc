@@ -260,13 +260,13 @@ LedFit fit_led(const LedScene& scene, const Led& start, const LedFitOptions& opt
     for (const double share : a.relative) brightest = std::fmax(brightest, share);
   }
   const std::string seen = fmt::format(
-      "the planes show light beside the LED, up to {:.3g} % of its own", 100.0 * brightest);
+      "the planes show ambient light of up to {:.3g} % of the light of the LED", 100.0 * brightest);
   if (with.status != LedStatus::kOk) {
     with.message = seen + ", and with that " + with.message;
   } else {
     with.warnings.push_back(fmt::format(
         "{}: fitted as a constant of each shot, the distance is known to {:.3g} mm, and to {:.3g} "
-        "mm if there were none; a shot of the plane with the LED off would say more",
+        "mm if there were none; a shot of the plane with the LED off would determine it",
         seen, with.distance_std_mm, without.distance_std_mm));
   }
   return with;

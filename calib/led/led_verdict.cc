@@ -100,7 +100,7 @@ void judge_led(const LedScene& scene, const LedSolve& what, const LedFitOptions&
   const bool tied = fit.lobe_fitted && std::abs(fit.distance_power_correlation) > 0.95;
   if (position_std > 0.05 * fit.distance_mm) {
     const std::string what_is_open =
-        tied ? "the layout cannot tell the LED's distance from its power (" + together + "); "
+        tied ? "the layout cannot separate the LED's distance from its power (" + together + "); "
              : fmt::format("the position is known to {:.3g} mm only; ", position_std);
     refuse_led(fit, LedStatus::kIllConditioned, what_is_open + layout_advice(what));
     return;

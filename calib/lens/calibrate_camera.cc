@@ -107,7 +107,7 @@ CameraCalibrationRun calibrate_camera_shots(const CalibrateCameraOptions& option
   const bool size_given = options.width_px > 0;
   const auto size =
       size_given ? std::pair(options.width_px, options.height_px) : common_size(shots);
-  if (size.first == 0) throw InputError(options.shots.front(), "holds no picture that can be read");
+  if (size.first == 0) throw InputError(options.shots.front(), "contains no readable picture");
   std::vector<BoardView> views;
   std::vector<LeftOutView> left_out;
   for (OpenedBoardShot& shot : shots) {

@@ -134,9 +134,9 @@ class LensFit {
  private:
   void leave_out(std::size_t view_idx) {
     const auto at = static_cast<std::ptrdiff_t>(view_idx);
-    used_.left_out.push_back({used_.views[view_idx].name,
-                              "it asks for another lens than the other views do (another camera, "
-                              "focal length or focus?)"});
+    used_.left_out.push_back(
+        {used_.views[view_idx].name,
+         "it requires another lens than the other views (another camera, focal length or focus?)"});
     used_.views.erase(used_.views.begin() + at);
     bundle_.camera_from_board.erase(bundle_.camera_from_board.begin() + at);
   }

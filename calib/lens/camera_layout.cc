@@ -65,8 +65,8 @@ std::vector<std::string> layout_warnings(const CameraLayout& layout, std::size_t
   if (layout.widest_angle_rad < kGoodAngleRad) {
     text << "all views see the board at nearly the same tilt ("
          << layout.widest_angle_rad * 180 / std::numbers::pi
-         << " degrees apart at most), from which focal length and distance can hardly be told "
-            "apart: tilt the board by 30 to 45 degrees, each time to another side";
+         << " degrees apart at most), from which focal length and distance can hardly be "
+            "separated: tilt the board by 30 to 45 degrees, each time to another side";
     say();
   }
   if (!layout.bare_corners.empty()) {

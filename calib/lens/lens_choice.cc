@@ -54,7 +54,7 @@ Trial try_model(const std::vector<BoardView>& views, const LensModel& model, int
   t.candidate.left_out_rms_px = std::numeric_limits<double>::quiet_NaN();
   t.bundle = adjust_bundle(views, model, width_px, height_px, start);
   if (!t.bundle.converged) {
-    t.candidate.fault = "the fit does not settle";
+    t.candidate.fault = "the fit does not converge";
     return t;
   }
   const CameraIntrinsics k = intrinsics_of(t.bundle.lens, width_px, height_px);

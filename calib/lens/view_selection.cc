@@ -76,7 +76,7 @@ std::string own_fault(const BoardView& view, const std::vector<BoardView>& befor
     if (same_corners(view, other)) return "the same shot as " + other.name;
   }
   if (perspective_share(view, width_px) < kPerspectiveShare) {
-    return "its corners do not lie as those of this board in perspective";
+    return "its corners are not a perspective image of those of this board";
   }
   return "";
 }
@@ -235,10 +235,10 @@ ViewSelection Selection::run(const std::vector<BoardView>& views) {
   leave_out_views();
   const double limit_px = std::max(2.0, 1e-3 * width_px_);
   if (typical_px_ > limit_px) {
-    out_.fault = say(
-        "the corners of the %zu views agree with no camera (they lie %.1f px from where a common "
-        "lens puts them): check the board's squares, and that all shots are of one camera",
-        states_.size(), typical_px_);
+    out_.fault =
+        say("the corners of the %zu views are not consistent with any camera (they are %.1f px off "
+            "with a common lens): check the board's squares, and that all shots are of one camera",
+            states_.size(), typical_px_);
     return out_;
   }
   const std::vector<LeftOutView> by_themselves(

@@ -252,7 +252,7 @@ void conclude(std::size_t n_lines, EdgeDiagnosis& out) {
     if (&e == best || !e.explains || holds_best || e.chi2 > best->chi2 + kCloseChi2) continue;
     if (score(e) <= score(*best) + kCloseScore) {
       out.is_unambiguous = false;
-      others += (others.empty() ? "; cannot be told apart from: " : ", ") + e.text;
+      others += (others.empty() ? "; cannot be distinguished from: " : ", ") + e.text;
     } else {
       unlikely += (unlikely.empty() ? "; as good a fit with more freedom: " : ", ") + e.text;
     }

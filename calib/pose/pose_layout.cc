@@ -79,20 +79,23 @@ std::optional<PoseFault> layout_fault(const std::vector<PointPair>& pairs,
   // Rounding of the coordinates themselves does not count as spread.
   const double rounding_mm = 1e-12 * world.cwiseAbs().maxCoeff();
   if (spread_mm[0] <= rounding_mm) {
-    return PoseFault{PoseStatus::kCollinear,
-                     "the world points are all at one place; give points at different places"};
+    return PoseFault{
+        PoseStatus::kCollinear,
+        "the world points are all at one position; give points at different positions"};
   }
   const int different = count_different(world, 1e-9 * spread_mm[0] + rounding_mm, 4);
   if (different < 4) {
     out << "the " << world.rows() << " point pairs name only " << different
-        << " different places in the world, but a pose needs four; add points at other places";
+        << " different positions in the world, but a pose needs four; add points at other "
+           "positions";
     return PoseFault{PoseStatus::kTooFewPoints, out.str()};
   }
   if (spread_mm[1] < 1e-3 * spread_mm[0] + rounding_mm) return world_line(spread_mm[1]);
 
   const Eigen::VectorXd spread_px = rms_spread(image_rows(pairs, use));
   if (spread_px[0] < 4 * noise_std_px) {
-    out << "the image points are all at one place (within " << std::setprecision(2) << spread_px[0]
+    out << "the image points are all at one position (within " << std::setprecision(2)
+        << spread_px[0]
         << " px rms); come closer, use points farther apart, or check the pixel coordinates";
     return PoseFault{PoseStatus::kCollinear, out.str()};
   }

@@ -38,7 +38,7 @@ PoseResult combine(const Silhouette& silhouette, const CameraIntrinsics& intrins
   const EdgeFit both = fit_with_pose(silhouette, intrinsics, prior);
   if (!alone.converged || !both.converged) {
     out.status = PoseStatus::kIllConditioned;
-    out.message = "the silhouette's least squares do not settle";
+    out.message = "the silhouette's least squares do not converge";
     return out;
   }
   if (chi_square_tail(std::max(0.0, both.chi2 - alone.chi2), 6) < 1e-6) {

@@ -85,7 +85,7 @@ std::vector<WhitePixel> pixels_of_white(const RadianceSteps& steps, const WhiteR
                    0.05 * std::min(white.plane.width_mm, white.plane.height_mm));
   if (pixels.size() < 400) {
     throw InputError(steps.input.shots.at(white.line) + ": calibration.radiance.white",
-                     fmt::format("the plane fills {} pixels of {}, at least 400 wanted; look at "
+                     fmt::format("the plane fills {} pixels of {}, at least 400 are needed; check "
                                  "origin_mm, the axes and the pose",
                                  pixels.size(), file));
   }
@@ -139,7 +139,7 @@ void find_scale(RadianceSteps& steps) {
   capture::RadianceCalibration& calibration = steps.calibration;
   const capture::RadianceCorrection& correction = calibration.correction;
   if (!white) {
-    calibration.notes.emplace_back("no white reference: the responsivity stays open");
+    calibration.notes.emplace_back("no white reference: the responsivity is not determined");
     return;
   }
   const PriorLed& light = *steps.input.white_led;
