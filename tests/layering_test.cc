@@ -224,7 +224,6 @@ const std::set<std::string>& tested_by_the_road() {
       "apps/commands/render_command",
       "apps/program/main",
       "apps/program/ranks",
-      "calib/pose/shot_pose",
   };
   return names;
 }

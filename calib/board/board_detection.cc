@@ -1,4 +1,4 @@
-// find_board_corners(): the chessboard's; ChArUco boards have theirs.
+// find_board_corners(): corners of chessboards; ChArUco boards have find_charuco_corners().
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,7 +16,7 @@ namespace scattermeter::calib {
 namespace {
 
 constexpr int kDetectionPx = 1400;  // longer side of the picture that is searched
-constexpr double kWindow = 0.4;     // half of it, over the distance to the nearest corner
+constexpr double kWindow = 0.4;     // half-width, over the distance to the nearest corner
 constexpr int kMaxHalfWindowPx = 8;
 
 // Corners to a few tenths of a pixel, row by row; empty when the board is not seen.
@@ -36,7 +36,7 @@ std::vector<cv::Point2f> rough_corners(const cv::Mat_<float>& stretched, const c
         cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK);
     if (seen) break;
   }
-  // Slower, but knows blurred and small squares.
+  // Slower, but also finds blurred and small squares.
   if (!seen) {
     seen = cv::findChessboardCornersSB(to_8_bit(small, gamma_curve), corners, found,
                                        cv::CALIB_CB_NORMALIZE_IMAGE);
@@ -49,7 +49,7 @@ std::vector<cv::Point2f> rough_corners(const cv::Mat_<float>& stretched, const c
   return found;
 }
 
-// Gradients of other corners must stay out of the window; nor may it leave the image.
+// The window must not contain gradients of other corners and must not extend beyond the image.
 std::optional<cv::Point2f> refined(const cv::Mat_<float>& stretched,
                                    const std::vector<cv::Point2f>& rough, std::size_t i) {
   double nearest = std::numeric_limits<double>::infinity();

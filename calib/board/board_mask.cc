@@ -25,7 +25,7 @@ void mask_paper(const CharucoBoard& board, const RayScene& body, const CameraInt
   const double height = board.squares_y * board.square_mm;
   const std::vector<Eigen::Vector3f> rays =
       pixel_rays_in_camera(intrinsics, samples.x0, samples.y0, samples.width, samples.height);
-  // Paper as if there were no body, and where the body hides it.
+  // The paper as if there were no body, and the samples where the body hides it.
   std::vector<char> paper(rays.size(), 0), hidden(rays.size(), 0);
   tbb::parallel_for(0, samples.height, [&](int row) {
     for (int column = 0; column < samples.width; ++column) {
@@ -40,7 +40,7 @@ void mask_paper(const CharucoBoard& board, const RayScene& body, const CameraInt
           at.y() > height + margin) {
         continue;
       }
-      // Off the print there is paper (NaN).
+      // Outside the print (NaN) there is blank paper.
       if (pattern.reflectance(at.x(), at.y()) == 0.0) continue;
       paper[i] = 1;
       hidden[i] = body.first_hit(eye_mm, ray).facet_idx >= 0 ? 1 : 0;
@@ -61,7 +61,7 @@ void mask_paper(const CharucoBoard& board, const RayScene& body, const CameraInt
           near = paper[place(x, y)] != 0 && hidden[place(x, y)] == 0;
         }
       }
-      // The body's own samples by its edge stay: what lies beyond the edge speaks against it.
+      // Samples of the body itself near its edge are not marked, only those beyond the edge.
       if (!near || hidden[i] != 0) continue;
       const Eigen::Vector3d ray = world_from_camera.rotation * rays[i].cast<double>();
       if (paper[i] == 0 && body.first_hit(eye_mm, ray).facet_idx >= 0) continue;

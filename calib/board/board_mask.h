@@ -1,4 +1,4 @@
-// What a ChArUco board makes bright around a body.
+// Mask of the bright paper of a ChArUco board around a body.
 #pragma once
 
 #include "calib/board/charuco_board.h"
@@ -9,11 +9,12 @@
 
 namespace scattermeter::calib {
 
-// Marks as kSampleDefect every sample that shows the board's paper, or lies within border_px of one
-// that does: white squares and bits, and the blank margin of half a square around the print. Black
-// squares stay as they are, and so do samples where the body is seen before the board: a step from
-// body to ink is an edge of the body, one from body to paper may be hidden by the pattern's own.
-// Precondition: border_px >= 0, a board without a board_problem() (std::invalid_argument).
+// Marks as kSampleDefect every sample that shows the board's paper (white squares and bits, and the
+// blank margin of half a square around the print) or lies within border_px of such a sample. Black
+// squares are not marked, nor are samples where the body is in front of the board: a step from body
+// to ink is an edge of the body, but a step from body to paper may be hidden by the edges of the
+// pattern. Throws std::invalid_argument for border_px < 0 and for a board that board_problem()
+// rejects.
 void mask_paper(const CharucoBoard& board, const RayScene& body, const CameraIntrinsics& intrinsics,
                 const Rigid3d& camera_from_world, int border_px, CfaSamples& samples);
 

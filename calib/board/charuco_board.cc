@@ -54,7 +54,7 @@ std::string board_problem(const CharucoBoard& board) {
   std::ostringstream out;
   const cv::Ptr<aruco::Dictionary> dictionary = find_dictionary(board.dictionary);
   const Rigid3d& place = board.world_from_board;
-  // The product is that of long long: sizes from a file may be anything.
+  // The product is computed in long long, as sizes from a file may be anything.
   const long long markers = static_cast<long long>(board.squares_x) * board.squares_y / 2;
   if (board.squares_x < 3 || board.squares_y < 3) {
     out << "squares must be at least 3 x 3, got " << board.squares_x << " x " << board.squares_y;
@@ -120,7 +120,7 @@ double CharucoPattern::reflectance(double x_mm, double y_mm) const {
   };
   const int id = marker_id_[at(row, squares_x_, column)];
   if (id < 0) return 0;
-  // The marker sits in the middle of its white square.
+  // The marker lies in the middle of its white square.
   const double margin = 0.5 * (1 - marker_mm_ / square_mm_);
   const double cells_per_square = cells_ * square_mm_ / marker_mm_;
   const double cell_x = std::floor((across - column - margin) * cells_per_square);

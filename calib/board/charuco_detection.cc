@@ -17,7 +17,8 @@ namespace aruco = cv::aruco;
 struct Detection {
   std::vector<cv::Point2f> corners;
   std::vector<int> ids;
-  // Shortest side of the markers seen, px: half-windows of refinement follow from it.
+  // Shortest side of the detected markers, px; it determines the half-widths of the refinement
+  // windows.
   double marker_side_px = 0;
 };
 
@@ -26,8 +27,8 @@ Detection detect(const cv::Mat& picture, const cv::Ptr<aruco::CharucoBoard>& boa
   std::vector<std::vector<cv::Point2f>> markers;
   std::vector<int> ids;
   const cv::Ptr<aruco::DetectorParameters> parameters = aruco::DetectorParameters::create();
-  // The default asks for a perimeter of 3 % of the frame's longer side; boards of many squares in
-  // the background of a 10-megapixel frame have smaller markers that still decode.
+  // The default requires a perimeter of 3 % of the longer side of the frame; boards of many squares
+  // in the background of a 10-megapixel frame have smaller markers that can still be decoded.
   parameters->minMarkerPerimeterRate = 0.015;
   aruco::detectMarkers(picture, board->dictionary, markers, ids, parameters);
   if (markers.empty()) return out;
@@ -35,7 +36,7 @@ Detection detect(const cv::Mat& picture, const cv::Ptr<aruco::CharucoBoard>& boa
   out.marker_side_px = 1e9;
   const int board_markers = static_cast<int>(board->ids.size());
   for (size_t i = 0; i < markers.size(); ++i) {
-    if (ids[i] >= board_markers) continue;  // not of this board
+    if (ids[i] >= board_markers) continue;  // a marker of another board
     const std::vector<cv::Point2f>& marker = markers[i];
     for (size_t k = 0; k < 4; ++k) {
       out.marker_side_px = std::min(out.marker_side_px, cv::norm(marker[k] - marker[(k + 1) % 4]));
@@ -73,7 +74,7 @@ std::vector<PointPair> find_charuco_corners(const CharucoBoard& board,
     }
     if (found.ids.empty()) return {};
 
-    // The window must stay clear of the markers, which begin (square - marker) / 2 from a corner.
+    // The window must not reach the markers, which begin (square - marker) / 2 from a corner.
     const double clear_px =
         0.5 * (board.square_mm - board.marker_mm) / board.marker_mm * found.marker_side_px;
     const int half_window = std::clamp(static_cast<int>(0.9 * clear_px), 2, 12);
@@ -83,7 +84,7 @@ std::vector<PointPair> find_charuco_corners(const CharucoBoard& board,
 
     std::vector<PointPair> pairs;
     for (size_t i = 0; i < refined.size(); ++i) {
-      // A window that reaches over the frame's edge is filled up with copies of the edge.
+      // A window that extends beyond the frame is padded with copies of the edge.
       const cv::Point2f p = refined[i];
       const auto margin = static_cast<float>(half_window + 1);
       const bool inside = p.x >= margin && p.y >= margin &&

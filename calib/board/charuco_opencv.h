@@ -1,5 +1,5 @@
-// CharucoBoard as OpenCV's aruco module knows it. For calib's own .cc files only: unlike all other
-// headers it shows OpenCV's types.
+// Conversion of a CharucoBoard to the type of OpenCV's aruco module. For the .cc files of calib
+// only, as it exposes OpenCV's types.
 #pragma once
 
 #include <opencv2/aruco/charuco.hpp>
@@ -8,7 +8,8 @@
 
 namespace scattermeter::calib {
 
-// std::invalid_argument with board_problem() where that is not empty. In mm, OpenCV's board frame.
+// The board in mm and in OpenCV's board frame. Throws std::invalid_argument with the text of
+// board_problem() if that is not empty.
 cv::Ptr<cv::aruco::CharucoBoard> opencv_board(const CharucoBoard& board);
 
 }  // namespace scattermeter::calib

@@ -28,14 +28,14 @@ bool is_ordinary_picture(const std::string& path) {
   return kEndings.contains(ending);
 }
 
-// OpenCV itself takes memory for up to 2^30 pixels, and reads more formats than cameras write.
+// OpenCV itself allocates memory for up to 2^30 pixels and reads more formats than cameras write.
 capture::PictureClaim claim_within(const std::string& path, double max_megapixels) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     throw MissingFile(path, "there is no such file");
   std::ifstream file(path, std::ios::binary);
   const auto claim = capture::picture_claim(file);
-  if (!claim) throw InputError(path, "is no picture, or a damaged one");
+  if (!claim) throw InputError(path, "is not a picture, or is damaged");
   if (1e-6 * claim->pixels > max_megapixels) {
     throw InputError(
         path,
@@ -105,7 +105,7 @@ GreyPicture read_grey_picture(const std::string& path, double max_megapixels) {
   }
   if (picture.empty() || static_cast<std::uint32_t>(picture.cols) != claim.width_px ||
       static_cast<std::uint32_t>(picture.rows) != claim.height_px) {
-    throw InputError(path, "is no picture, or a damaged one");
+    throw InputError(path, "is not a picture, or is damaged");
   }
   cv::Mat_<float> grey;
   picture.convertTo(grey, CV_32F);

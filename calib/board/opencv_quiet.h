@@ -1,11 +1,12 @@
-// Keeps OpenCV from printing the errors that it also throws.
+// Suppression of the messages that OpenCV prints for the errors that it throws.
 #pragma once
 
 namespace scattermeter::calib {
 
-// While one lives, cv::error() throws without writing to stderr. The callback that does so belongs
-// to the whole process: the first object sets it, the last one puts back what was there. Any number
-// of threads may hold one; a program that sets a callback of its own meanwhile loses it.
+// While an object of this class exists, cv::error() throws without writing to stderr. The error
+// callback that achieves this is global to the process: the first object sets it, and the last one
+// restores the previous callback. Any number of threads may have an object; a callback that a
+// program sets in the meantime is lost.
 class OpencvQuiet {
  public:
   OpencvQuiet();

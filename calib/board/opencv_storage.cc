@@ -10,12 +10,12 @@
 namespace scattermeter::calib {
 namespace {
 
-// The file's text. cv::FileStorage would log to stderr when it cannot open a file.
+// The text of the file. cv::FileStorage would log to stderr when it cannot open a file.
 std::string storage_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path, "cannot open the intrinsics file");
   try {
-    // A folder opens, and throws on the first read.
+    // Opening a folder succeeds, but the first read throws.
     std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
     if (!in.bad()) return text;
   } catch (const std::ios_base::failure&) {
@@ -23,7 +23,7 @@ std::string storage_text(const std::string& path) {
   throw InputError(path, "cannot read the intrinsics file");
 }
 
-// OpenCV 4.6 never returns from some texts with more than one beginning of a document.
+// OpenCV 4.6 never returns from some texts with more than one document start marker.
 bool has_one_document(const std::string& text) {
   int begins = 0;
   std::istringstream lines(text);
@@ -37,7 +37,8 @@ bool has_one_document(const std::string& text) {
 
 cv::FileStorage parse_storage(const std::string& path, const std::string& text) {
   const char* expected = "expected YAML (%YAML), XML or JSON as OpenCV's FileStorage writes it";
-  // It takes a text by its first characters and asserts on an empty one.
+  // FileStorage recognises the format by the first characters and fails an assertion on an empty
+  // text.
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(path, std::string(expected) + ", got an empty file");
   }
@@ -50,7 +51,7 @@ cv::FileStorage parse_storage(const std::string& path, const std::string& text) 
   } catch (const cv::Exception& error) {
     throw InputError(path, std::string(expected) + ", got: " + error.err);
   } catch (const std::logic_error& error) {
-    // Its parser counts characters of some broken lines below zero.
+    // On some damaged lines its parser gets a negative number of characters.
     throw InputError(path, std::string(expected) + ", got: " + error.what());
   }
   throw InputError(path, expected);
@@ -66,7 +67,7 @@ cv::Mat read_storage_matrix(const std::string& where, const cv::FileNode& node) 
   cv::Mat matrix;
   try {
     if (!node.isMap()) throw InputError(where, "expected an opencv-matrix");
-    // OpenCV takes the memory that rows and columns claim before it looks at the values.
+    // OpenCV allocates the memory for the claimed rows and columns before it looks at the values.
     const cv::FileNode rows = node["rows"];
     const cv::FileNode columns = node["cols"];
     const std::size_t values = node["data"].size();

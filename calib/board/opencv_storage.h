@@ -1,4 +1,5 @@
-// Files of OpenCV's FileStorage. For calib's own .cc files only: shows OpenCV's types.
+// Reading of files in the format of OpenCV's FileStorage. For the .cc files of calib only, as it
+// exposes OpenCV's types.
 #pragma once
 
 #include <string>
@@ -7,11 +8,12 @@
 
 namespace scattermeter::calib {
 
-// Opens YAML, XML or JSON whose top is a map. Throws InputError naming the file. Hold an
-// OpencvQuiet: cv::FileStorage logs to stderr what it also throws.
+// Opens a YAML, XML or JSON file whose top level is a map. Throws InputError naming the file. The
+// caller must have an OpencvQuiet, since cv::FileStorage also logs to stderr what it throws.
 cv::FileStorage open_storage(const std::string& path);
 
-// An opencv-matrix of one channel and two dimensions, as doubles. Throws InputError with `where`.
+// A single-channel, two-dimensional opencv-matrix, converted to double. Throws InputError with
+// `where`.
 cv::Mat read_storage_matrix(const std::string& where, const cv::FileNode& node);
 
 }  // namespace scattermeter::calib

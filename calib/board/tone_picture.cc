@@ -11,7 +11,7 @@ struct Range {
   float high = 0;
 };
 
-// Every 37th of many samples: a prime, so that no row or mosaic pattern is in step.
+// Of many samples only every 37th is used: a prime, so that no row or mosaic pattern is in step.
 Range robust_range(const std::vector<float>& image) {
   std::vector<float> sample;
   const size_t step = image.size() > 400000 ? 37 : 1;

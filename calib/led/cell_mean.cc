@@ -52,7 +52,8 @@ std::optional<CellTrend> trend_of(const std::vector<PlaneSample>& samples,
   const Eigen::Vector2d slope = spread.ldlt().solve(slope_sum);
   if (!slope.allFinite()) return std::nullopt;
   const auto spots = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), false));
-  // Unweighted: a sample's own variance follows its noise, and weights made of it pull the mean.
+  // Unweighted: the variance of a sample follows its noise, so weights derived from it bias the
+  // mean.
   return CellTrend{
       {sum.head<2>(), spread, sum.z(), variance / (n * n), spots}, slope, variance / n};
 }

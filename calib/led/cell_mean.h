@@ -1,4 +1,4 @@
-// The mean of a white plane's samples in a cell, without dust and hot pixels.
+// Mean of the samples of a white plane in a cell, without dust and hot pixels.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,8 @@
 
 namespace scattermeter::calib {
 
-// One channel's sample: where its ray meets the plane (in the plane's axes), and its light.
+// A sample of one channel: where its ray meets the plane (in the axes of the plane), and its
+// signal.
 struct PlaneSample {
   float x_mm, y_mm;
   float signal_counts, variance_counts2;
@@ -20,15 +21,15 @@ struct CellMean {
   Eigen::Matrix2d spread_mm2;  // covariance of the samples' positions
   double signal_counts;
   double variance_counts2;  // of signal_counts
-  std::size_t spots;        // samples left out
+  std::size_t spots;        // number of samples left out
 };
 
 inline constexpr std::size_t kLeastCellSamples = 12;
 
-// The unweighted mean of the samples that lie within five standard deviations of the linear trend
-// of those kept (of their noise, or of the bulk of all residuals where that is wider), in at most
-// five rounds. None with fewer than kLeastCellSamples, with more than the share `max_left_out` of
-// the samples left out, or where the positions lie on a line.
+// The unweighted mean of the samples that lie within five standard deviations (of their noise, or
+// of the bulk of all residuals if that is larger) of the linear trend of the samples kept, in at
+// most five rounds. None with fewer than kLeastCellSamples samples, if more than the share
+// `max_left_out` of them is left out, or if the positions lie on a line.
 std::optional<CellMean> robust_cell_mean(const std::vector<PlaneSample>& samples,
                                          double max_left_out);
 

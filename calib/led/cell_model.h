@@ -1,4 +1,4 @@
-// The radiance of a white plane's cell under an LED, as a function of the fit's unknowns.
+// The radiance of a cell of a white plane under an LED as a function of the unknowns of the fit.
 #pragma once
 
 #include <array>
@@ -13,32 +13,33 @@
 namespace scattermeter::calib {
 
 //   L = albedo / pi * I * lobe(w) * cos / r^2,
-// the mean over four points that have the cell's spread and over the LED's disc (four points on a
-// ring of radius / sqrt 2, exact to the second order). Keeps a reference to the frame.
+// averaged over four points that have the spread of the cell and over the disc of the LED (four
+// points on a ring of radius / sqrt 2, exact to second order). Keeps a reference to the frame.
 class CellModel {
  public:
   CellModel(const LedFrame& frame, const ShadedCell& cell);
 
-  // W/(mm^2 sr) at the unknowns of LedFrame: the LED's nine, the view's six, and one each, in units
-  // of its prior's deviation, for albedo and exposure time. T: double or an automatic derivative.
-  // Points behind the plane or more than 90 degrees off the axis get no light.
+  // The radiance in W/(mm^2 sr) at the unknowns of LedFrame: nine of the LED, six of the view, and
+  // one each for albedo and exposure time in units of the standard deviation of its prior. T is
+  // double or a type for automatic differentiation. An LED behind the plane or a point more than 90
+  // degrees off the axis contributes nothing.
   template <typename T>
   T radiance(const T* led, const T* pose, const T* albedo, const T* exposure) const;
 
  private:
-  static constexpr int kPoints = 4;  // of a cell, and of the LED's ring
+  static constexpr int kPoints = 4;  // of a cell, and of the ring of the LED
 
   const LedFrame& frame_;
   int channel_;
   Eigen::Vector3d normal_;
   double albedo_over_pi_, albedo_std_, exposure_std_;
   std::array<Eigen::Vector3d, kPoints> points_mm_;
-  Eigen::Matrix<double, 3, 6> shift_;  // of the points by the pose's unknowns
+  Eigen::Matrix<double, 3, 6> shift_;  // of the points, by the unknowns of the pose
   std::vector<Eigen::Vector3d> ring_mm_;
 };
 
-// Radiance of a cell under an LED alone, W/(mm^2 sr), at the scene's nominal poses, albedo and
-// exposure times.
+// Radiance of a cell under an LED alone, W/(mm^2 sr), with the nominal poses, albedo and exposure
+// times of the scene.
 double cell_radiance(const LedScene& scene, const ShadedCell& cell, const Led& led);
 
 template <typename T>

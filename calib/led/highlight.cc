@@ -11,9 +11,9 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kFoot = 0.1;  // of the peak: where a blob ends
+constexpr double kFoot = 0.1;  // of the peak: the level at which a blob ends
 
-// Sums over 2 x 2 cells of the filter array: any blob shows there whatever its colour.
+// Sums over 2 x 2 cells of the filter array, in which a blob of any colour is visible.
 struct CellSums {
   int width, height;
   std::vector<double> sum;
@@ -45,7 +45,7 @@ struct Blob {
   bool touches_rim = false;
 };
 
-// The cells above `foot` that hang together with the one at (i, j).
+// The cells above `foot` that are connected with the one at (i, j).
 Blob grow(const CellSums& cells, const std::vector<bool>& on_disc, int i, int j, double foot) {
   Blob blob{2 * i, 2 * i + 1, 2 * j, 2 * j + 1};
   std::vector<bool> seen(cells.sum.size(), false);
@@ -81,7 +81,7 @@ Blob grow(const CellSums& cells, const std::vector<bool>& on_disc, int i, int j,
   return blob;
 }
 
-// The brightest cell on the sphere's disc, and what it stands out from.
+// The brightest cell on the disc of the sphere, and the level and scatter of the disc.
 struct Peak {
   int i = 0, j = 0;           // of CellSums
   double value = 0;           // of that cell
@@ -126,12 +126,13 @@ struct PhaseSums {
   double noise2 = 0;
 };
 
-// The samples about a blob, out to a radius of `half` px and what surrounds that.
+// The samples around a blob, out to a radius of `half` px, and their surroundings.
 class BlobWindow {
  public:
   BlobWindow(const CfaSamples& samples, double half) : s_(samples), half_(half) {}
 
-  // Sums of each filter phase about a centre, above the median of the phase's samples around.
+  // Sums of each filter phase about a centre, above the median of the surrounding samples of the
+  // phase.
   std::array<PhaseSums, 4> sums_about(const Eigen::Vector2d& center) const {
     std::array<std::vector<double>, 4> around;
     each(center, [&](const Eigen::Vector2d& p, std::size_t at) {
@@ -147,7 +148,8 @@ class BlobWindow {
     std::array<PhaseSums, 4> sums{};
     each(center, [&](const Eigen::Vector2d& p, std::size_t at) {
       const double r = (p - center).norm();
-      // Samples fade out over the last one of the window: none enters or leaves as a whole.
+      // Weights fall to zero over the last sample of the window, so that none enters or leaves as a
+      // whole.
       const double taper = std::clamp(half_ + 0.5 - r, 0.0, 1.0);
       if (taper == 0.0) return;
       const std::size_t k = phase_at(p);
@@ -164,7 +166,7 @@ class BlobWindow {
     return sums;
   }
 
-  // Share of the samples within `radius` px, less than `half`, that are clipped.
+  // Share of the samples within `radius` px (less than `half`) that are clipped.
   double saturated_share(const Eigen::Vector2d& center, double radius) const {
     std::size_t saturated = 0, in_blob = 0;
     each(center, [&](const Eigen::Vector2d& p, std::size_t at) {
@@ -198,15 +200,16 @@ class BlobWindow {
   double half_;
 };
 
-// Sets image_px, std_px and saturated_share from the blob about `center`, width_px wide; or
-// says in `problem` why there is no centroid.
+// Sets image_px, std_px and saturated_share from the blob about `center`, width_px wide, or sets
+// `problem` to the reason why there is no centroid.
 void find_centroid(const CfaSamples& s, const HighlightOptions& options, Eigen::Vector2d center,
                    FoundHighlight& found) {
-  // Its surroundings: a window of twice its size and more, as far as the sphere goes.
+  // The surroundings: a window at least twice as large, as far as the sphere extends.
   const double half = found.width_px / 2.0 + 6.0;
   const BlobWindow window(s, half);
   double saturated_share = 0.0, std_px = 0.0;
-  // The window is centred on the blob, so that what stays of the surroundings pulls nowhere.
+  // The window is centred on the blob, so that what remains of the surroundings does not shift the
+  // centroid.
   for (int round = 0; round < 4; ++round) {
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     Eigen::Vector2d variance = Eigen::Vector2d::Zero();

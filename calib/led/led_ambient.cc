@@ -73,7 +73,7 @@ PlaneCells without_ambient(const PlaneCells& lit, const PlaneCells& ambient) {
   for (const ShadedCell& cell : ambient.cells) {
     dark[{cell.column, cell.row, cell.channel}] = &cell;
   }
-  // From the index of a cell in the grid of `lit` to that of the cell of `ambient` at its middle.
+  // From the index of a cell in the grid of `lit` to that of the cell of `ambient` at its centre.
   const auto index = [](int at, int of, int on) { return (2 * at + 1) * on / (2 * of); };
   PlaneCells out = lit;
   out.cells.clear();

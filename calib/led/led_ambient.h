@@ -1,4 +1,4 @@
-// Light on white planes that does not come from the LED.
+// Ambient light: light on white planes that does not come from the LED.
 #pragma once
 
 #include <vector>
@@ -12,22 +12,23 @@
 
 namespace scattermeter::calib {
 
-// What a solution found of the ambient light of each plane shot that has it free. `covariance`:
-// over all unknowns of the solution (LedCovariance).
+// The fitted ambient light of each plane shot for which a solution has it free. `covariance` is
+// that of all unknowns of the solution (LedCovariance).
 std::vector<FittedAmbient> fitted_ambient(const LedScene& scene, const LedSolve& what,
                                           const LedSolution& solution,
                                           const Eigen::MatrixXd& covariance);
 
-// Whether the cells ask for the constants of `with`, a fit of the same scene as `without`, which
-// has none: on the cells that both use, chi^2 falls by more than chance would let it, p below 1e-6
-// with as many degrees of freedom as there are constants. The fall counts over plane_inflation of
-// `with`, so that what no constant explains is no evidence of one. False where a fit has no
+// Whether the cells require the ambient constants of `with`, a fit of the same scene as `without`,
+// which has none: on the cells that both use, chi^2 decreases by more than chance explains (p below
+// 1e-6, one degree of freedom per constant). The decrease is divided by plane_inflation of `with`,
+// so that residuals that no constant explains are no evidence of one. False if a fit has no
 // residuals.
 bool ambient_is_seen(const LedScene& scene, const LedFit& without, const LedFit& with);
 
-// The cells less those of the same plane with the LED off, variances added; cells that `ambient`
-// lacks are left out. The grids may differ (another pose of the camera): a cell then takes the one
-// that its middle lies in. Precondition: ambient.cells are of one plane shot.
+// The cells minus those of the same plane with the LED off, with variances added; cells that
+// `ambient` lacks are left out. The grids may differ (another camera pose): the cell subtracted is
+// the one that contains the centre of the lit cell. Precondition: ambient.cells are of one plane
+// shot.
 PlaneCells without_ambient(const PlaneCells& lit, const PlaneCells& ambient);
 
 }  // namespace scattermeter::calib

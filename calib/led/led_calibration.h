@@ -12,11 +12,11 @@ namespace scattermeter::calib {
 struct LedCalibration {
   std::string light;
   LedShots shots;
-  LedFit fit;  // valid where its status is kOk
+  LedFit fit;  // valid if its status is kOk
 };
 
-// fit_led() of read_led_shots(), started from the input's LED, whose radius_mm is kept. Throws
-// InputError as read_led_shots() does.
+// Applies fit_led() to the result of read_led_shots(), starting from the LED of the input, whose
+// radius_mm is kept. Throws InputError as read_led_shots() does.
 LedCalibration calibrate_led(const LedCalibrationInput& input, const std::string& light,
                              const LedFrames& frames);
 

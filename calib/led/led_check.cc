@@ -28,7 +28,7 @@ void hold_highlights(const Led& led, const LedShots& shots, LedCheck& check) {
     check.highlights_px.push_back(h.image_px);
     check.highlight_residuals_px.push_back(r);
     sum += r.squaredNorm();
-    // A highlight that should not be there at all has no distance: the worst of all.
+    // A highlight that the rig does not predict at all has no residual: the worst case.
     check.highlight_worst_px =
         r.allFinite() ? std::max(check.highlight_worst_px, r.norm()) : kNotSeen;
   }
@@ -37,7 +37,7 @@ void hold_highlights(const Led& led, const LedShots& shots, LedCheck& check) {
   if (n == 0.0) check.highlight_worst_px = kNotSeen;
 }
 
-// The cells less the ambient light that the fit found.
+// The cells minus the fitted ambient light.
 std::vector<ShadedCell> lit_by_led(const LedShots& shots, const LedFit& fit, LedCheck& check) {
   std::vector<ShadedCell> cells = shots.scene.cells;
   if (cells.empty()) check.ambient_percent = check.ambient_std_percent = kNotSeen;
@@ -132,7 +132,7 @@ LedCheck check_led(const LedCalibrationInput& input, const std::string& light,
     check.displacement_covariance_mm2.setConstant(kNotSeen);
     check.displacement_length_mm = check.displacement_std_mm = check.displacement_stds = kNotSeen;
     check.exponent_change = check.axis_change_rad = kNotSeen;
-    check.text = light + ": the shots do not tell where it stands: " + fit.message;
+    check.text = light + ": the shots do not determine its position: " + fit.message;
     return check;
   }
   check.displacement_mm = fit.led.position_mm - prior.led.position_mm;
@@ -148,7 +148,7 @@ LedCheck check_led(const LedCalibrationInput& input, const std::string& light,
   check.exponent_change = fit.led.exponent - prior.led.exponent;
   check.axis_change_rad =
       std::atan2(fit.led.axis.cross(prior.led.axis).norm(), fit.led.axis.dot(prior.led.axis));
-  check.text = fmt::format("{} stands {:.2f} +- {:.2f} mm from where the rig says", light,
+  check.text = fmt::format("{} is {:.2f} +- {:.2f} mm from its position in the rig", light,
                            check.displacement_length_mm, check.displacement_std_mm);
   return check;
 }

@@ -1,4 +1,4 @@
-// Does an LED still stand and shine as the rig says?
+// Check of an LED's position and light against the rig.
 #pragma once
 
 #include <array>
@@ -12,52 +12,55 @@
 
 namespace scattermeter::calib {
 
-// A plane's shading against the rig's prediction, cell by cell.
+// The shading of a plane compared with the prediction from the rig, cell by cell.
 struct LedPlaneMap {
   std::string file;
   int columns = 0, rows = 0;
-  // Measured over predicted less one, percent, mean of the channels, each without its own median
-  // (power_change_percent); row by row, NaN where there is no cell. And its standard deviation, by
-  // the noise of the samples.
+  // Measured over predicted radiance minus one, in percent, averaged over the channels after
+  // subtracting the median of each (power_change_percent); row by row, NaN where there is no cell.
+  // Then its standard deviation from the noise of the samples.
   std::vector<double> percent, std_percent;
 };
 
 struct LedCheck {
   std::string light;
-  // Of the rig's LED, its pose taken as exact.
+  // Residuals with the LED of the rig, with its position and axis taken as exact.
   double highlight_rms_px = 0, highlight_worst_px = 0;    // NaN without highlights
-  double plane_rms_percent = 0, plane_worst_percent = 0;  // without the power's; NaN without planes
-  // Fitted light beside the LED on the planes, percent of its own: the brightest shot and channel,
-  // with its deviation. 0 where the shots show none or it was subtracted; NaN without planes. The
-  // figures above and the maps are without it.
+  double plane_rms_percent = 0, plane_worst_percent = 0;  // without the power change; or NaN
+  // Fitted ambient light on the planes in percent of the LED's light, for the shot and channel
+  // where it is largest, with its standard deviation. 0 if the shots show none or it was
+  // subtracted; NaN without planes. The residuals above and the maps exclude it.
   double ambient_percent = 0, ambient_std_percent = 0;
   std::string ambient_file;
-  // Median of measured over predicted less one, per channel; NaN without planes. Of the product of
-  // power and responsivity: in a rig without a responsivity only the lights among each other count.
+  // Median of measured over predicted radiance minus one, for each channel; NaN without planes. It
+  // is the change of the product of power and responsivity: in a rig without a responsivity only
+  // comparisons between lights have a meaning.
   Eigen::Array3d power_change_percent;
   std::vector<LedPlaneMap> maps;
   std::vector<std::string> highlight_names;
   std::vector<Eigen::Vector2d> highlights_px;           // measured
   std::vector<Eigen::Vector2d> highlight_residuals_px;  // predicted - measured
-  // Where the shots put the LED, less where the rig says; its covariance, that of what the rig
-  // itself says of the place included. `problem` is not empty where the shots do not tell.
+  // Position of the LED from the shots minus that of the rig, and its covariance, which includes
+  // that of the position in the rig. `problem` is not empty if the shots do not determine the
+  // position.
   std::string problem;
   Eigen::Vector3d displacement_mm;
   Eigen::Matrix3d displacement_covariance_mm2;
   double displacement_length_mm = 0;
   double displacement_std_mm = 0;  // along it
-  // sqrt(d' C^-1 d): how many standard deviations that is, in three dimensions.
+  // The displacement in standard deviations, in three dimensions: sqrt(d' C^-1 d).
   double displacement_stds = 0;
-  // What `calibrate led` would make of these shots: exponent less the rig's, axes apart.
+  // Exponent that `calibrate led` finds from these shots minus that of the rig, and the angle
+  // between the axes.
   double exponent_change = 0;
   double axis_change_rad = 0;
-  // "led1 stands 2.1 +- 0.1 mm from where the rig says"
+  // "led1 is 2.10 +- 0.12 mm from its position in the rig"
   std::string text;
   std::vector<std::string> notes;  // spheres without a highlight, clipped planes
 };
 
-// Re-measures the calibration shots of a light and holds them against the rig. Throws InputError as
-// read_led_shots() does.
+// Measures the calibration shots of a light again and compares them with the rig. Throws InputError
+// as read_led_shots() does.
 LedCheck check_led(const LedCalibrationInput& input, const std::string& light,
                    const LedFrames& frames);
 

@@ -62,13 +62,13 @@ LedUncertainty led_uncertainty(const Eigen::MatrixXd& covariance, const LedSolut
                                const Led& led, bool albedo_is_uncertain) {
   LedUncertainty u;
   u.tangents = solution.tangents;
-  // The axis moved a little after its tangents were chosen.
+  // The axis has moved a little since its tangents were chosen.
   u.tangents[0] = (u.tangents[0] - u.tangents[0].dot(led.axis) * led.axis).normalized();
   u.tangents[1] = led.axis.cross(u.tangents[0]);
   u.covariance = covariance.topLeftCorner<kLedParameters, kLedParameters>();
   u.covariance = (0.5 * (u.covariance + u.covariance.transpose())).eval();
-  // How the estimate follows an error of the albedo's prior: covariance times that prior's
-  // information, which is 1. The albedo is the last unknown.
+  // The response of the estimate to an error of the albedo's prior: covariance times the
+  // information of that prior, which is 1. The albedo is the last unknown.
   u.common.setZero();
   if (albedo_is_uncertain) {
     u.common = covariance.block<kLedParameters, 1>(0, covariance.cols() - 1);

@@ -22,8 +22,8 @@ namespace scattermeter::calib {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLitSnr = 10.0;  // of a channel's mean, for the channel to take part
-constexpr int kRounds = 6;        // of leaving cells out
+constexpr double kLitSnr = 10.0;  // least SNR of the mean of a channel that is used
+constexpr int kRounds = 6;        // of outlier rejection
 constexpr std::size_t kStartCells = 240;
 
 class LedFitter {
@@ -77,7 +77,7 @@ class LedFitter {
     return fit_;
   }
 
-  // Channels that the plane shows lit take part; the others have no power.
+  // Channels in which the plane is lit are used; the others have no power.
   void choose_channels() {
     std::array<double, 3> sum{}, variance{};
     for (const ShadedCell& cell : scene_.cells) {
@@ -120,8 +120,8 @@ class LedFitter {
     return solution_.converged;
   }
 
-  // Stage 1: a robust fit from several starts on some of the cells. Stage 2: all cells but the
-  // outliers, until no more change sides.
+  // Stage 1: a robust fit from several starts to some of the cells. Stage 2: all cells except
+  // outliers, until the set of outliers no longer changes.
   bool solve_with_planes(bool position_is_known) {
     LedSolve some = what_;
     const std::size_t step = std::max<std::size_t>(
@@ -260,13 +260,13 @@ LedFit fit_led(const LedScene& scene, const Led& start, const LedFitOptions& opt
     for (const double share : a.relative) brightest = std::fmax(brightest, share);
   }
   const std::string seen = fmt::format(
-      "the planes show light beside the LED, up to {:.3g} % of its own", 100.0 * brightest);
+      "the planes show ambient light of up to {:.3g} % of the light of the LED", 100.0 * brightest);
   if (with.status != LedStatus::kOk) {
     with.message = seen + ", and with that " + with.message;
   } else {
     with.warnings.push_back(fmt::format(
         "{}: fitted as a constant of each shot, the distance is known to {:.3g} mm, and to {:.3g} "
-        "mm if there were none; a shot of the plane with the LED off would say more",
+        "mm if there were none; a shot of the plane with the LED off would determine it",
         seen, with.distance_std_mm, without.distance_std_mm));
   }
   return with;

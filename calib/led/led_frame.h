@@ -1,4 +1,4 @@
-// The point about which an LED's least squares counts its unknowns.
+// Reference point of the unknowns in the least squares for an LED.
 #pragma once
 
 #include <array>
@@ -14,25 +14,25 @@
 namespace scattermeter::calib {
 
 // The LED's unknowns x are the parameters of LedUncertainty: position in mm, two steps of the axis
-// along the tangents (0 is the frame's axis), exponent, log intensity. A view's pose takes six
-// unknowns of unit deviation, ambient light one per plane shot and channel in units of
-// ambient_unit.
+// along the tangents (0 is the frame's axis), exponent, log intensity. The pose of a view has six
+// unknowns of unit standard deviation; ambient light has one for each plane shot and channel in
+// units of ambient_unit.
 struct LedFrame {
   const LedScene& scene;
   Lens lens;
   Led led;
-  std::array<Eigen::Vector3d, 2> tangents;  // unit, at right angles to led.axis and to each other
-  // By view: a root of the pose's covariance, so that root z has that covariance for z of unit
-  // deviation.
+  std::array<Eigen::Vector3d, 2> tangents;  // unit vectors orthogonal to led.axis and to each other
+  // For each view a root of the pose's covariance: root z has that covariance if z has unit
+  // covariance.
   std::vector<Eigen::Matrix<double, 6, 6>> pose_root;
-  std::vector<Eigen::Array3d> ambient_unit;  // by plane shot, W/(mm^2 sr): mean of its cells, > 0
+  std::vector<Eigen::Array3d> ambient_unit;  // per plane shot, W/(mm^2 sr): mean of its cells, > 0
 
   LedFrame(const LedScene& led_scene, const Led& center);  // keeps a reference to the scene
 
-  // The LED at x. Channels of no intensity keep none.
+  // The LED at x. Channels without intensity remain so.
   Led at(const double* x) const;
 
-  // The unknowns of the frame's own LED; the log intensity of a channel of none is 0.
+  // The unknowns of the LED of the frame; the log intensity of a channel without intensity is 0.
   std::array<double, kLedParameters> start() const;
 };
 

@@ -67,7 +67,7 @@ PlaneSeen seen_plane(const LedCalibrationInput& input, const LedCalibrationShot&
           light.exposure_relative_std};
 }
 
-// `ambient`: the plane with the LED off, if that was shot.
+// `ambient`: the plane with the LED off, if there is such a shot.
 void read_plane(const LedCalibrationInput& input, const LedCalibrationShot& shot,
                 const capture::RawFrame& frame, std::size_t view,
                 const std::optional<PlaneCells>& ambient, std::vector<double>& exposures_s,
@@ -76,7 +76,7 @@ void read_plane(const LedCalibrationInput& input, const LedCalibrationShot& shot
       seen_plane(input, shot, frame, out.scene.views[view].camera_from_world, view, out);
   PlaneCells& cells = seen.cells;
   if (ambient) cells = without_ambient(cells, *ambient);
-  // Shots of one stated time share its error.
+  // Shots with the same stated time have the same error of it.
   const auto known = std::find(exposures_s.begin(), exposures_s.end(), frame.exposure_s);
   const auto setting = static_cast<std::size_t>(known - exposures_s.begin());
   if (known == exposures_s.end()) {

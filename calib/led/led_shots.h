@@ -1,4 +1,4 @@
-// What the calibration shots show of one LED.
+// Evaluation of the calibration shots of one LED.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@
 
 namespace scattermeter::calib {
 
-// Opens a shot by its index in LedCalibrationShots::shots.
+// Opens the shot with an index into LedCalibrationShots::shots.
 using LedFrames = std::function<capture::RawFrame(std::size_t shot)>;
 
-// Responsivity of each channel where none is given: the intensities then refer to it, and only
-// their product has a meaning.
+// Responsivity of each channel if none is given: only its product with the intensities then has a
+// meaning.
 inline constexpr double kNominalResponsivity = 1e10;  // counts mm^2 sr / (W s)
 
 // One shot of a plane, as a grid of cells.
@@ -29,16 +29,16 @@ struct LedPlaneGrid {
 
 struct LedShots {
   LedScene scene;
-  std::vector<std::string> files;            // of the scene's views, for messages
+  std::vector<std::string> files;            // one per view of the scene, for messages
   std::vector<std::string> highlight_names;  // one per highlight: "spheres_led1.dng sphere 2"
   std::vector<LedPlaneGrid> grids;
   std::array<double, 3> responsivity{};  // the rig's or the nominal one
   std::vector<std::string> notes;        // spheres without a highlight and why; clipped planes
 };
 
-// Poses, highlights and cells of all shots of an LED; a plane's ambient shot is subtracted from its
-// cells. Throws InputError for a light that is not in the input or has no shots, a plane that is
-// out of view, and where the pose or a frame cannot be had.
+// Poses, highlights and cells of all shots of an LED; the ambient shot of a plane is subtracted
+// from its cells. Throws InputError for a light that is not in the input or has no shots, for a
+// plane that is out of view, and if a pose cannot be determined or a frame cannot be opened.
 LedShots read_led_shots(const LedCalibrationInput& input, const std::string& light,
                         const LedFrames& frames);
 

@@ -80,10 +80,10 @@ struct UnitPrior {
 
 struct Unknowns {
   std::array<double, kLedParameters> led;
-  std::vector<std::array<double, 3>> ambient;  // by plane shot
+  std::vector<std::array<double, 3>> ambient;  // per plane shot
   std::vector<std::array<double, 6>> pose;
   std::vector<std::array<double, 4>> sphere;
-  std::vector<double> exposure;  // one more than settings, for scenes that have none
+  std::vector<double> exposure;  // one more than the settings, for scenes without any
   double albedo = 0;             // the last
 
   std::vector<double*> blocks() {
@@ -172,7 +172,7 @@ class LedProblem {
     out.cost = out.converged ? summary.final_cost : std::numeric_limits<double>::infinity();
     predict(out);
     if (what_.robust) return out;
-    // The held ones count as free for the derivative and are then struck out.
+    // Fixed parameters count as free for the derivative; their columns are then removed.
     if (!held_.empty()) problem_.SetManifold(x_.led.data(), nullptr);
     out.highlight_information = information(problem_, x_, highlights_, what_.free);
     out.cell_information = information(problem_, x_, cells_, what_.free);
@@ -245,7 +245,7 @@ class LedProblem {
     }
   }
 
-  // The LED and what it predicts for all data, at the present unknowns.
+  // The LED and its predictions for all data, at the current unknowns.
   void predict(LedSolution& out) const {
     const LedScene& scene = frame_.scene;
     out.led = frame_.at(x_.led.data());
@@ -285,7 +285,7 @@ LedSolution solve_led(const LedScene& scene, const Led& start, const LedSolve& w
     const LedFrame frame(scene, led);
     return LedProblem(frame, what).solve();
   };
-  // Tangents belong to an axis: once more about the one that was found.
+  // Tangents refer to an axis, so the solution is repeated about the fitted one.
   const LedSolution first = solve_about(start);
   if (!first.converged || what.robust) return first;
   return solve_about(first.led);

@@ -14,7 +14,7 @@ struct MirroredRay {
   Eigen::Vector3d from_mm, direction;
 };
 
-// The camera's ray through the highlight, as the sphere sends it on.
+// The camera ray through the highlight after reflection by the sphere.
 std::optional<MirroredRay> mirrored_ray(const LedScene& scene, const Lens& lens,
                                         const SeenHighlight& h) {
   const Rigid3d world_from_camera = inverse(scene.views[h.view].camera_from_world);
@@ -28,7 +28,7 @@ std::optional<MirroredRay> mirrored_ray(const LedScene& scene, const Lens& lens,
   return MirroredRay{*p, d - 2.0 * d.dot(n) * n};
 }
 
-// The point nearest to all rays, in the least squares of distances over the rays' lengths.
+// The point nearest to all rays: least squares of the distances over the lengths of the rays.
 std::optional<Eigen::Vector3d> meeting_point(const std::vector<std::optional<MirroredRay>>& rays,
                                              const std::vector<bool>& use) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();

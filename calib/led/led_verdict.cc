@@ -10,8 +10,8 @@
 namespace scattermeter::calib {
 namespace {
 
-// Standard deviation of the power, the mean log intensity of the free channels, and its correlation
-// with the distance along the unit vector `towards`; 0 where the lobe was not fitted.
+// Standard deviation of the power (mean log intensity of the free channels) and its correlation
+// with the distance along the unit vector `towards`; 0 if the lobe was not fitted.
 double power_std(const LedSolve& what, const Eigen::Vector3d& towards, LedFit& fit) {
   if (!fit.lobe_fitted) return 0.0;
   const LedMatrix& c = fit.uncertainty.covariance;
@@ -100,7 +100,7 @@ void judge_led(const LedScene& scene, const LedSolve& what, const LedFitOptions&
   const bool tied = fit.lobe_fitted && std::abs(fit.distance_power_correlation) > 0.95;
   if (position_std > 0.05 * fit.distance_mm) {
     const std::string what_is_open =
-        tied ? "the layout cannot tell the LED's distance from its power (" + together + "); "
+        tied ? "the layout cannot separate the LED's distance from its power (" + together + "); "
              : fmt::format("the position is known to {:.3g} mm only; ", position_std);
     refuse_led(fit, LedStatus::kIllConditioned, what_is_open + layout_advice(what));
     return;

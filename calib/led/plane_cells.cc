@@ -11,18 +11,18 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kStuckShare = 0.005;  // of a cell's samples that may be clipped: stuck ones
-// The floor lies four deviations of the read noise up; normal noise cut at its mean of 0 has a mean
-// of 1 / sqrt(2 pi) of its deviation.
+constexpr double kStuckShare = 0.005;  // of a cell's samples that may be clipped: stuck pixels
+// The floor is four standard deviations of the read noise above zero; normal noise cut at its mean
+// of 0 has a mean of 1 / sqrt(2 pi) of its standard deviation.
 constexpr double kCutNoise = 0.3989 / 4.0;
 
 // The samples of each cell and channel, at index 3 (row columns + column) + channel.
 struct CellBins {
   std::vector<std::vector<PlaneSample>> samples;
-  std::vector<std::size_t> clipped;  // samples that are, not among the others
+  std::vector<std::size_t> clipped;  // clipped samples, which are not in `samples`
 };
 
-// A plane's grid of cells, `margin_mm` inside its edges.
+// The grid of cells of a plane, `margin_mm` inside its edges.
 struct PlaneGrid {
   double margin_mm, width_mm, height_mm;
   int columns, rows;

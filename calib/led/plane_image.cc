@@ -33,7 +33,8 @@ PlaneImage plane_image(const CameraIntrinsics& intrinsics, const Rigid3d& camera
   double x_min = 1e30, y_min = 1e30, x_max = -1e30, y_max = -1e30;
   bool any = false;
   for (const Eigen::Vector2d& p : project(intrinsics, camera_from_world, points)) {
-    // Parts without an image are out of the frame: the plane is then cut by the frame's edges.
+    // Parts without an image are outside the frame; the plane is then cut by the edges of the
+    // frame.
     if (!p.allFinite()) {
       x_min = y_min = 0.0;
       x_max = intrinsics.width_px;

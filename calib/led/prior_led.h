@@ -15,7 +15,7 @@ struct PriorLed {
   double position_std_mm = 0;  // of each coordinate
   double exponent_std = 0;
   double power_relative_std = 0;  // common to the three channels
-  // From an earlier calibration: takes the place of the three deviations above.
+  // From an earlier calibration; replaces the three standard deviations above.
   std::optional<LedUncertainty> calibrated;
 };
 

@@ -1,4 +1,4 @@
-// By how much the residuals of an LED's fit scatter beyond their noise.
+// Excess scatter of the residuals of an LED fit over their noise.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace scattermeter::calib {
 
-// Mean square of `n` normalised residuals, chi2 / (n - parameters), where it exceeds the 1 of pure
-// noise by more than three of its own standard deviations; else 1, and 1 with less than one degree
-// of freedom.
+// Mean square of `n` normalised residuals, chi2 / (n - parameters), if it exceeds 1, the value for
+// pure noise, by more than three of its standard deviations; otherwise 1, also with less than one
+// degree of freedom.
 double residual_inflation(double chi2, double n, double parameters);
 
-// The same for the cells in use, and the largest of it over blocks of 1, 3 x 3 and 6 x 6 cells of
-// one channel of a shot: errors that neighbours share show in the larger ones. At most half of the
-// degrees of freedom of each size are taken for parameters. `predicted_W_per_mm2_sr`, `use`: one
-// per cell.
+// The same for the cells in use: the largest value over blocks of 1, 3 x 3 and 6 x 6 cells of one
+// channel of a shot. Errors common to neighbouring cells are visible in the larger blocks. At most
+// half of the degrees of freedom of each block size are attributed to parameters.
+// `predicted_W_per_mm2_sr` and `use` have one entry per cell.
 double cell_inflation(const LedScene& scene, const std::vector<double>& predicted_W_per_mm2_sr,
                       const std::vector<bool>& use, double parameters);
 

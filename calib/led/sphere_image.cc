@@ -17,7 +17,7 @@ SphereImage sphere_image(const CameraIntrinsics& intrinsics, const Rigid3d& came
   const Eigen::Vector3d c = camera_from_world * sphere.center_mm;
   const double distance = c.norm();
   if (!(distance > sphere.radius_mm) || !(c.z() > 0.0)) return image;
-  // The outline: the circle of the points where rays touch the sphere.
+  // The outline is the circle of points where rays are tangent to the sphere.
   const Eigen::Vector3d axis = c / distance;
   const double sine = sphere.radius_mm / distance;
   const Eigen::Vector3d foot = c - sphere.radius_mm * sine * axis;

@@ -9,8 +9,8 @@
 namespace scattermeter::calib {
 namespace {
 
-// Intensities that make the median cell of each channel right; false where the LED does not shine
-// on half of a channel's cells.
+// Sets intensities such that the median cell of each channel is matched; false if the LED does not
+// light half of the cells of a channel.
 bool set_intensity(const LedScene& scene, const std::vector<bool>& use, Led& led) {
   Led unit = led;
   for (int c = 0; c < 3; ++c) {

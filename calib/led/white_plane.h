@@ -1,4 +1,4 @@
-// A matt white rectangle, and what is seen of it.
+// A matt white rectangle.
 #pragma once
 
 #include <optional>
@@ -17,13 +17,13 @@ struct WhitePlane {
   double width_mm = 0;
   double height_mm = 0;
   Eigen::Array3d albedo = Eigen::Array3d::Ones();  // R, G, B, in (0, 1]
-  // Standard deviation of the albedo over itself; one error, common to the channels and to all
-  // planes (one sheet at several heights).
+  // Relative standard deviation of the albedo: a single error, common to the channels and to all
+  // planes (the same sheet at several heights).
   double albedo_relative_std = 0;
 
   Eigen::Vector3d normal() const { return x_axis.cross(y_axis); }
-  // Coordinates (x, y) in mm of where a ray meets the plane's front, inside or outside of the
-  // rectangle; none where it does not.
+  // Coordinates (x, y) in mm of the point where a ray meets the front of the plane, inside or
+  // outside the rectangle; none if it does not.
   std::optional<Eigen::Vector2d> meet_mm(const Eigen::Vector3d& eye_mm,
                                          const Eigen::Vector3d& direction) const {
     const double height = normal().dot(eye_mm - origin_mm);

@@ -1,4 +1,4 @@
-// The shots of a board from which a lens is calibrated.
+// Shots of a board from which a lens is calibrated.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace scattermeter::calib {
 
-// Position and orientation of the camera. The board lies in the world's plane z = 0, its origin in
-// the world's.
+// Position and orientation of the camera. The board lies in the plane z = 0 of the world, with its
+// origin at that of the world.
 struct BoardViewpoint {
   Eigen::Vector3d position_mm;
   Eigen::Vector3d look_at_mm;

@@ -42,7 +42,7 @@ std::vector<std::string> files_of_folder(const std::string& folder) {
   return files;
 }
 
-// A shot is named by its file name, or by its path where several have that name.
+// A shot is named by its file name, or by its path if several files have the same name.
 std::vector<OpenedBoardShot> named_shots(const std::vector<std::string>& files) {
   std::map<std::string, int> of_name;
   for (const std::string& file : files) ++of_name[fs::path(file).filename().string()];
@@ -82,7 +82,7 @@ void open_board_shot(const CalibrateCameraOptions& options, bool must_be_picture
   if (shot->view.corners.empty()) shot->fault = "the board is not seen";
 }
 
-// The size that most have; the first such.
+// The most frequent size; the first of several.
 std::pair<int, int> common_size(const std::vector<OpenedBoardShot>& shots) {
   std::map<std::pair<int, int>, int> count;
   std::pair<int, int> best{0, 0};
@@ -107,7 +107,7 @@ CameraCalibrationRun calibrate_camera_shots(const CalibrateCameraOptions& option
   const bool size_given = options.width_px > 0;
   const auto size =
       size_given ? std::pair(options.width_px, options.height_px) : common_size(shots);
-  if (size.first == 0) throw InputError(options.shots.front(), "holds no picture that can be read");
+  if (size.first == 0) throw InputError(options.shots.front(), "contains no readable picture");
   std::vector<BoardView> views;
   std::vector<LeftOutView> left_out;
   for (OpenedBoardShot& shot : shots) {

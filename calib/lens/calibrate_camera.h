@@ -11,7 +11,7 @@
 namespace scattermeter::calib {
 
 struct CalibrateCameraOptions {
-  std::vector<std::string> shots;  // one folder, or the files
+  std::vector<std::string> shots;  // one folder, or the files themselves
   CalibrationBoard board;
   double board_std_mm = 0;         // standard deviation of each coordinate of a printed corner
   std::optional<LensModel> model;  // absent: chosen by cross-validation
@@ -27,9 +27,9 @@ struct CameraCalibrationRun {
 };
 
 // Reads the shots (raws or pictures), finds the board and calibrates
-// (calib/lens/camera_calibration.h). Shots of another size or camera, and files of a folder that
-// are no pictures, are left out and listed in CameraCalibration::left_out. Throws InputError for a
-// file of the list that cannot be read or is given twice, a folder that is empty or holds no
+// (calib/lens/camera_calibration.h). Shots of another size or camera, and files in a folder that
+// are not pictures, are left out and listed in CameraCalibration::left_out. Throws InputError for a
+// listed file that cannot be read or is given twice, and for a folder that is empty or contains no
 // picture.
 CameraCalibrationRun calibrate_camera_shots(const CalibrateCameraOptions& options);
 

@@ -15,7 +15,7 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kMaxFocalWidths = 100;  // focal length over the frame's width; beyond, no lens
+constexpr double kMaxFocalWidths = 100;  // focal length over frame width; more is not plausible
 
 Eigen::Matrix3d rotation_of(const Eigen::Vector3d& w) {
   const double angle = w.norm();
@@ -33,7 +33,7 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& w) {
          (angle - std::sin(angle)) / (s * angle) * m * m;
 }
 
-// The lens at the point that Ceres evaluates, made once for all corners.
+// The lens at the point that Ceres evaluates, computed once for all corners.
 class CurrentLens final : public ceres::EvaluationCallback {
  public:
   CurrentLens(const Eigen::MatrixXd& map, const double* fitted, int width_px, int height_px)
@@ -106,7 +106,7 @@ CameraBundle adjust_bundle(const std::vector<BoardView>& views, const LensModel&
                            int width_px, int height_px, const CameraBundle& start,
                            double cauchy_px) {
   const Eigen::MatrixXd map = parameter_map(model);
-  // Fitted numbers of the start: the mean of those that the map holds equal.
+  // Fitted numbers of the start: means over the parameters that the map keeps equal.
   Eigen::VectorXd fitted =
       (map.transpose() * start.lens).cwiseQuotient(map.colwise().sum().transpose());
   std::vector<Eigen::Matrix<double, 6, 1>> poses;
@@ -118,7 +118,7 @@ CameraBundle adjust_bundle(const std::vector<BoardView>& views, const LensModel&
   ceres::Problem::Options ownership;
   ownership.evaluation_callback = &lens;
   ceres::Problem problem(ownership);
-  auto* order = new ceres::ParameterBlockOrdering;  // taken over by the options
+  auto* order = new ceres::ParameterBlockOrdering;  // owned by the options
   for (std::size_t i = 0; i < views.size(); ++i) {
     for (const PointPair& corner : views[i].corners) {
       problem.AddResidualBlock(new CornerCost(lens, corner),
@@ -131,12 +131,12 @@ CameraBundle adjust_bundle(const std::vector<BoardView>& views, const LensModel&
   auto solver = quiet_solver<ceres::Solver::Options>({100, 1e-13, 1e-14, 1e-11});
   solver.linear_solver_ordering.reset(order);
   solver.linear_solver_type = ceres::DENSE_SCHUR;
-  // Damping of 1e-9 at least keeps the equations of a model with idle terms solvable, of which
-  // Ceres would write to stderr whatever the logging type.
+  // A damping of at least 1e-9 keeps the equations of a model with terms of no effect solvable;
+  // Ceres would otherwise write to stderr whatever the logging type.
   solver.max_trust_region_radius = 1e9;
 
   CameraBundle out = start;
-  // Ceres would complain on the error stream of a start that has no value.
+  // Ceres would print an error for a start at which the cost has no value.
   lens.PrepareForEvaluation(false, true);
   bool can_start = lens.lens().has_value();
   for (std::size_t i = 0; can_start && i < views.size(); ++i) {

@@ -47,7 +47,7 @@ std::vector<ViewEquations> equations_of(const std::vector<BoardView>& views,
   return out;
 }
 
-// The view that pulls too hard, if any.
+// The view with too much influence on the lens, if any.
 std::optional<std::size_t> puller(const LensUncertainty& u) {
   if (u.scatter_of_view.size() < kMinViewsForInfluence) return std::nullopt;
   std::vector<double> sorted = u.scatter_of_view;
@@ -98,15 +98,15 @@ bool too_few_views(const ViewSelection& used, std::size_t n_given, CameraCalibra
   return true;
 }
 
-// The lens, its model and its uncertainty on views that were selected; views that pull too hard are
-// moved to left_out, and the lens chosen anew without them.
+// The lens, its model and its uncertainty from the selected views; views with too much influence
+// are moved to left_out, and the lens is chosen again without them.
 class LensFit {
  public:
   LensFit(ViewSelection& used, const CameraCalibrationOptions& options, CameraCalibration* out)
       : used_(used), options_(options), out_(out), bundle_(used.bundle) {}
 
-  // At most `most_left_out` views are left out. Fills model, intrinsics, layout and warnings; false
-  // where too few of the `n_given` views are left.
+  // Leaves out at most `most_left_out` views. Fills model, intrinsics, layout and warnings; false
+  // if too few of the `n_given` views are left.
   bool run(int width_px, int height_px, std::size_t most_left_out, std::size_t n_given) {
     for (std::size_t left_out = 0;; ++left_out) {
       choice_ = choose_lens(used_.views, width_px, height_px, bundle_, options_.model);
@@ -134,9 +134,9 @@ class LensFit {
  private:
   void leave_out(std::size_t view_idx) {
     const auto at = static_cast<std::ptrdiff_t>(view_idx);
-    used_.left_out.push_back({used_.views[view_idx].name,
-                              "it asks for another lens than the other views do (another camera, "
-                              "focal length or focus?)"});
+    used_.left_out.push_back(
+        {used_.views[view_idx].name,
+         "it requires another lens than the other views (another camera, focal length or focus?)"});
     used_.views.erase(used_.views.begin() + at);
     bundle_.camera_from_board.erase(bundle_.camera_from_board.begin() + at);
   }

@@ -1,4 +1,4 @@
-// A lens from views of a flat board.
+// Calibration of a lens from views of a flat board.
 #pragma once
 
 #include <optional>
@@ -15,19 +15,19 @@
 namespace scattermeter::calib {
 
 struct CameraCalibrationOptions {
-  double board_std_mm = 0;         // of each coordinate of a printed corner, alike in all views
+  double board_std_mm = 0;         // of each coordinate of a printed corner, common to all views
   std::optional<LensModel> model;  // absent: chosen by cross-validation
   void Check() const;              // std::invalid_argument naming the field
 };
 
-// Each status by its condition, in the order in which they are looked for.
+// Each status with its condition, in the order in which they are checked.
 enum class CameraCalibrationStatus {
   kOk,
   // Fewer than three views can be used.
   kTooFewViews,
-  // Their corners agree with no camera (ViewSelection::fault).
+  // The corners are not consistent with any camera (ViewSelection::fault).
   kNoConsensus,
-  // No lens model settles, or the focal length is uncertain by more than 2 %.
+  // The fit of no lens model converges, or the focal length is uncertain by more than 2 %.
   kNotDetermined,
 };
 
@@ -44,26 +44,28 @@ struct CornerResidual {
   Eigen::Vector2d residual_px;  // projected - found
 };
 
-// Everything after `message` is meant where status is kOk only, but for what was left out.
+// Members after `message`, except for the lists of what was left out, are valid only if the status
+// is kOk.
 struct CameraCalibration {
   CameraCalibrationStatus status = CameraCalibrationStatus::kTooFewViews;
-  std::string message;  // why it is refused and what to do; "" if ok
+  std::string message;  // why it was refused and what to do; "" if ok
   CameraIntrinsics intrinsics;
   LensModel model;
-  // Of the fitted numbers (parameter_names()) and their covariance in these units. What was not
-  // fitted is 0, or equal to f_px. The estimate's error of one calibration; the lens may move.
+  // The fitted parameters (parameter_names()) and their covariance in the same units. A parameter
+  // that was not fitted is 0, or equal to f_px. The covariance describes the error of one
+  // calibration; the lens itself may move afterwards.
   std::vector<std::string> parameters;
   Eigen::MatrixXd covariance;
-  double rms_px = 0;  // over the corners used, of the 2-vector's length
+  double rms_px = 0;  // over the corners used, length of the 2-vector
   double worst_px = 0;
-  double noise_std_px = 0;  // per coordinate, on which the covariance stands
-  // LensUncertainty: how much more the views differ than independent corner errors would let them,
-  // in variance, and whether the covariance was multiplied by it.
+  double noise_std_px = 0;  // per coordinate; the covariance is based on it
+  // From LensUncertainty: the factor in variance by which the views differ more than independent
+  // corner errors explain, and whether the covariance was multiplied by it.
   double view_scatter = 1;
   bool widened = false;
   // Largest standard deviation of the image of a fixed ray, px, over the frame's four corners.
   double frame_corner_std_px = 0;
-  std::vector<CalibratedView> views;  // used ones
+  std::vector<CalibratedView> views;  // those used
   std::vector<CornerResidual> residuals;
   std::vector<LeftOutView> left_out;
   std::vector<LeftOutCorner> corners_left_out;
@@ -77,18 +79,18 @@ struct CameraCalibration {
 };
 
 // Shift of the image of the ray that now falls on `pixel`, per unit of each of `parameters`
-// (parameter_names()): 2 x P, px per px or per unit. NaN where the pixel has no ray.
+// (parameter_names()): 2 x P, px per px or per unit. NaN if the pixel has no ray.
 Eigen::MatrixXd image_shift_per_parameter(const CameraIntrinsics& intrinsics,
                                           const std::vector<std::string>& parameters,
                                           const Eigen::Vector2d& pixel);
 
-// Selects views and corners (view_selection.h), chooses the model (lens_choice.h), then leaves out
-// views, worst first, that pull the lens off more than their corner errors can: their part of
-// LensUncertainty::view_scatter beyond 15 times the median view's (a picture of another camera or
-// focus can fit by itself; views at least six, at most a quarter of them). Deterministic, the same
-// digits for any number of threads. Bad layouts are a status. std::invalid_argument for sizes
-// that are not positive, options out of range, coordinates that are not finite, or names of views
-// that repeat.
+// Selects views and corners (view_selection.h), chooses the model (lens_choice.h), then leaves out,
+// worst first, views that change the lens by more than their corner errors can explain: those whose
+// part of LensUncertainty::view_scatter exceeds 15 times that of the median view (a picture with
+// another camera or focus can fit by itself). This needs at least six views and removes at most a
+// quarter of them. Deterministic, with the same digits for any number of threads. An unsuitable
+// layout is reported by the status. Throws std::invalid_argument for sizes that are not positive,
+// options out of range, coordinates that are not finite, or repeated names of views.
 CameraCalibration calibrate_camera(const std::vector<BoardView>& views, int width_px, int height_px,
                                    const CameraCalibrationOptions& options = {});
 

@@ -1,4 +1,4 @@
-// A camera's calibration as a file of OpenCV's FileStorage.
+// Camera calibrations as files in the format of OpenCV's FileStorage.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace scattermeter::calib {
 
-// YAML text with what OpenCV's own samples write and calib::read_intrinsics() reads:
+// YAML text with the fields that OpenCV's own samples write and calib::read_intrinsics() reads:
 //   image_width, image_height, camera_matrix, distortion_coefficients (5 or 8),
 //   avg_reprojection_error (= rms_px, OpenCV's name);
 // and scattermeter_camera: 1 with
@@ -19,16 +19,16 @@ namespace scattermeter::calib {
 //   corners_left_out (view, x_px, y_px, distance_px),
 //   models (name, rms_px, left_out_rms_px, chosen or why not), warnings,
 //   residuals: n x 5: index of the view, found x and y, projected - found x and y, px.
-// Comment lines at its head, one each (no line breaks). Precondition: kOk
-// (std::invalid_argument).
+// `comments` become comment lines at the head of the text, one line each (without line breaks).
+// Throws std::invalid_argument unless the status is kOk.
 std::string camera_calibration_text(const CameraCalibration& calibration,
                                     const std::vector<std::string>& comments);
 
-// What such a file holds of a calibration. Read back to the last digit; candidates, what else was
-// left out, and layout are for people and not read.
+// The part of a calibration that is read back from such a file, to the last digit. The candidates,
+// the lists of what was left out, and the layout are for readers of the file only.
 struct CameraCalibrationFile {
   CameraIntrinsics intrinsics;
-  // From here on empty or 0 in a file that OpenCV wrote.
+  // The members below are empty or 0 for a file that OpenCV wrote.
   std::vector<std::string> parameters;  // names, see parameter_names()
   Eigen::MatrixXd covariance;
   double rms_px = 0;
@@ -38,9 +38,9 @@ struct CameraCalibrationFile {
   std::vector<CornerResidual> residuals;
 };
 
-// Reads any file that read_intrinsics() does, and the rest where it is there. Throws InputError
-// naming file and field: a covariance that does not belong to its parameters, is not symmetric to
-// 1e-9 or not positive, residuals of no view.
+// Reads any file that read_intrinsics() reads, and the other fields if present. Throws InputError
+// naming file and field, also for a covariance that does not match its parameters, is not symmetric
+// to 1e-9 or not positive, and for residuals of an unknown view.
 CameraCalibrationFile read_camera_calibration_file(const std::string& path);
 
 }  // namespace scattermeter::calib

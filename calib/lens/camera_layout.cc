@@ -21,7 +21,7 @@ CameraLayout camera_layout(const std::vector<BoardView>& views, const CameraBund
   std::vector<Eigen::Vector3d> normals;
   for (const Rigid3d& pose : bundle.camera_from_board) {
     const Eigen::Vector3d n = pose.rotation * Eigen::Vector3d::UnitZ();
-    // Either side of the print: some detections number a board's corners mirrored.
+    // The sign of the normal is ignored, as some detections number the corners of a board mirrored.
     for (const Eigen::Vector3d& other : normals) {
       const double angle = std::atan2(n.cross(other).norm(), std::abs(n.dot(other)));
       out.widest_angle_rad = std::max(out.widest_angle_rad, angle);
@@ -65,8 +65,8 @@ std::vector<std::string> layout_warnings(const CameraLayout& layout, std::size_t
   if (layout.widest_angle_rad < kGoodAngleRad) {
     text << "all views see the board at nearly the same tilt ("
          << layout.widest_angle_rad * 180 / std::numbers::pi
-         << " degrees apart at most), from which focal length and distance can hardly be told "
-            "apart: tilt the board by 30 to 45 degrees, each time to another side";
+         << " degrees apart at most), from which focal length and distance can hardly be "
+            "separated: tilt the board by 30 to 45 degrees, each time to another side";
     say();
   }
   if (!layout.bare_corners.empty()) {

@@ -16,16 +16,16 @@ namespace scattermeter::calib {
 namespace {
 
 constexpr double kLadder[] = {0.6, 1.0, 1.6, 2.6, 5.0};  // focal length over the frame's width
-constexpr int kTried = 3;                                // best of them, adjusted
+constexpr int kTried = 3;                                // the best of them, which are adjusted
 
 struct FocalGuess {
   double focal_px;
   double weight;
 };
 
-// From one homography, board to image about the frame's middle: its first two columns are at right
-// angles and of one length once the image is scaled by 1 / f. None for a board seen frontally,
-// whose equations vanish.
+// The focal length from one homography of the board to the image, relative to the frame centre: its
+// first two columns are orthogonal and of equal length once the image is scaled by 1 / f. None for
+// a board seen frontally, for which the equations vanish.
 std::optional<FocalGuess> focal_of(const BoardView& view, const Eigen::Vector2d& middle_px,
                                    double width_px) {
   std::vector<cv::Point2d> board, image;
@@ -84,7 +84,7 @@ Rigid3d board_pose(const BoardView& view, const CameraIntrinsics& intrinsics) {
     rays.emplace_back(undistorted[i].x(), undistorted[i].y());
   }
   cv::Mat w, t;
-  // Before the camera and far away, where the board is a dot.
+  // In front of the camera and far away, where the board is a dot.
   Rigid3d pose;
   pose.translation_mm = -middle;
   for (const PointPair& c : view.corners) {
@@ -154,7 +154,7 @@ CameraBundle start_camera(const std::vector<BoardView>& views, int width_px, int
       least = median;
       best = fit;
     }
-    // A fraction of a pixel: corners, not chance.
+    // A fraction of a pixel: these are real corners.
     if (least < 0.3) break;
   }
   best.converged = std::isfinite(least);

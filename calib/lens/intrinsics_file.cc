@@ -14,7 +14,7 @@ namespace {
 
 using Names = std::initializer_list<const char*>;
 
-// The first of `names` that is there.
+// The first of `names` that is present.
 std::optional<std::pair<std::string, cv::FileNode>> find(const cv::FileStorage& storage,
                                                          Names names) {
   for (const char* name : names) {
@@ -69,7 +69,7 @@ void read_distortion(const std::string& path, const cv::FileStorage& storage,
     throw InputError(where, out.str());
   }
   std::vector<double> terms(d.begin<double>(), d.end<double>());
-  // Thin-prism and tilt terms, which OpenCV writes as zeros when they were not fitted.
+  // Thin-prism and tilt terms, which OpenCV writes as zeros if they were not fitted.
   while (terms.size() > 8 && terms.back() == 0) terms.pop_back();
   if (const size_t n = terms.size(); n != 0 && n != 4 && n != 5 && n != 8) {
     out << "expected 0, 4, 5 or 8 terms (k1 k2 p1 p2 [k3 [k4 k5 k6]]; thin prism and tilt are not "

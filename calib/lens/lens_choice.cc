@@ -20,7 +20,7 @@ struct Trial {
   std::vector<double> left_out_px2;  // sum of squares per view
 };
 
-// Whether every point of the frame's border, half a pixel outside of it, has a ray.
+// Whether every point on the border of the frame, half a pixel outside it, has a ray.
 bool covers_frame(const CameraIntrinsics& k) {
   const Lens lens(k);
   constexpr int kSteps = 32;
@@ -36,7 +36,7 @@ bool covers_frame(const CameraIntrinsics& k) {
   return true;
 }
 
-// Solves symmetric equations brought to unit diagonal; false where they are singular.
+// Solves symmetric equations scaled to unit diagonal; false if they are singular.
 bool solve(const Eigen::MatrixXd& m, const Eigen::VectorXd& right, Eigen::VectorXd* x) {
   const Eigen::VectorXd scale = m.diagonal().cwiseSqrt().cwiseInverse();
   if (!scale.allFinite()) return false;
@@ -54,7 +54,7 @@ Trial try_model(const std::vector<BoardView>& views, const LensModel& model, int
   t.candidate.left_out_rms_px = std::numeric_limits<double>::quiet_NaN();
   t.bundle = adjust_bundle(views, model, width_px, height_px, start);
   if (!t.bundle.converged) {
-    t.candidate.fault = "the fit does not settle";
+    t.candidate.fault = "the fit does not converge";
     return t;
   }
   const CameraIntrinsics k = intrinsics_of(t.bundle.lens, width_px, height_px);
@@ -114,7 +114,7 @@ LensChoice choose_lens(const std::vector<BoardView>& views, int width_px, int he
   std::vector<Trial> trials(models.size());
   tbb::parallel_for(std::size_t{0}, models.size(), [&](std::size_t i) {
     trials[i] = try_model(views, models[i], width_px, height_px, start);
-    // Without views to spare nothing is judged.
+    // With so few views there is no cross-validation.
     if (models.size() == 1 && trials[i].bundle.converged &&
         trials[i].candidate.fault.starts_with("is not determined")) {
       trials[i].candidate.fault.clear();

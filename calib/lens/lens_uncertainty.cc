@@ -27,7 +27,7 @@ LensUncertainty lens_uncertainty(const std::vector<BoardView>& views,
     sum_squares += e.sum_squares_px2;
     freedom += 2 * static_cast<double>(e.n_corners) - 6;
   }
-  // Focal lengths count in thousands, distortion in tenths: brought to one scale first.
+  // Focal lengths are in the thousands, distortion terms in the tenths, so all are scaled first.
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   if (!scale.allFinite() || !(freedom > 0)) return out;
   const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();

@@ -23,7 +23,7 @@ constexpr double kPerspectiveTolerance = 0.02;
 constexpr double kBadView = 4;
 constexpr double kBadCorner = 6;              // standard deviations
 constexpr double kMedianOfRayleigh = 1.1774;  // sqrt(2 ln 2), in standard deviations
-constexpr double kFloorPx = 0.01;             // below, corners agree as well as anyone needs
+constexpr double kFloorPx = 0.01;             // smaller residuals are not distinguished
 
 template <class... Values>
 std::string say(const char* format, Values... values) {
@@ -45,8 +45,8 @@ bool same_corners(const BoardView& a, const BoardView& b) {
   return true;
 }
 
-// Share of the corners that one perspective explains, at 2 % of the frame: lens distortion stays
-// below that, corners that are numbered wrongly do not.
+// Share of the corners that one perspective explains to 2 % of the frame width: lens distortion is
+// smaller than that, the errors of wrongly numbered corners are not.
 double perspective_share(const BoardView& view, double width_px) {
   const OpencvQuiet quiet;
   std::vector<cv::Point2d> board, image;
@@ -61,7 +61,7 @@ double perspective_share(const BoardView& view, double width_px) {
   return cv::countNonZero(mask) / static_cast<double>(board.size());
 }
 
-// Why a view is of no use whatever the camera; "" where it may be.
+// Why a view is unusable whatever the camera, or "".
 std::string own_fault(const BoardView& view, const std::vector<BoardView>& before,
                       double width_px) {
   if (view.corners.size() < kMinCorners) {
@@ -76,14 +76,14 @@ std::string own_fault(const BoardView& view, const std::vector<BoardView>& befor
     if (same_corners(view, other)) return "the same shot as " + other.name;
   }
   if (perspective_share(view, width_px) < kPerspectiveShare) {
-    return "its corners do not lie as those of this board in perspective";
+    return "its corners are not a perspective image of those of this board";
   }
   return "";
 }
 
 struct ViewState {
-  const BoardView* all;  // every corner that was found
-  BoardView used;        // those that stand
+  const BoardView* all;  // all corners found
+  BoardView used;        // those kept
   Rigid3d camera_from_board;
 };
 
@@ -118,7 +118,7 @@ void Selection::fit(double cauchy_px) {
     views.push_back(s.used);
     bundle.camera_from_board.push_back(s.camera_from_board);
   }
-  // Few views would let a rich model run away.
+  // With few views a rich model would diverge.
   const LensModel model = views.size() < 4 ? LensModel{true, DistortionTerms::kK1K2}
                                            : LensModel{false, DistortionTerms::kK1K2P1P2K3};
   bundle = adjust_bundle(views, model, width_px_, height_px_, bundle, cauchy_px);
@@ -180,7 +180,7 @@ void Selection::readmit(const std::vector<BoardView>& views) {
   }
 }
 
-// Chooses anew among all corners; whether anything changed.
+// Repeats the choice among all corners and returns whether anything changed.
 bool Selection::leave_out_corners() {
   out_.corners_left_out.clear();
   bool changed = false;
@@ -235,10 +235,10 @@ ViewSelection Selection::run(const std::vector<BoardView>& views) {
   leave_out_views();
   const double limit_px = std::max(2.0, 1e-3 * width_px_);
   if (typical_px_ > limit_px) {
-    out_.fault = say(
-        "the corners of the %zu views agree with no camera (they lie %.1f px from where a common "
-        "lens puts them): check the board's squares, and that all shots are of one camera",
-        states_.size(), typical_px_);
+    out_.fault =
+        say("the corners of the %zu views are not consistent with any camera (they are %.1f px off "
+            "with a common lens): check the board's squares, and that all shots are of one camera",
+            states_.size(), typical_px_);
     return out_;
   }
   const std::vector<LeftOutView> by_themselves(
@@ -257,7 +257,7 @@ ViewSelection Selection::run(const std::vector<BoardView>& views) {
   }
   out_.bundle.lens = lens_;
   out_.bundle.converged = converged_;
-  // In the order of the shots, whatever came back when.
+  // In the order of the shots, whenever a view was taken back.
   for (const BoardView& view : views) {
     for (const ViewState& s : states_) {
       if (s.all->name != view.name) continue;

@@ -12,12 +12,12 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr int kCoarseWidth = 260;  // cells, at most, in the width
+constexpr int kCoarseWidth = 260;  // most cells in the width
 constexpr double kBesideCells = 1.5;
 constexpr double kMinContrast = 0.25;
 
-// Signal and noise at a position between samples: the mean of the four around it, weighted by
-// nearness; no signal outside the picture.
+// Signal and noise at a position between samples: bilinear interpolation of the four around it; no
+// signal outside the picture.
 struct Interpolated {
   double signal;
   double noise;
@@ -70,7 +70,7 @@ std::vector<ContourPiece> contour_pieces(const std::vector<EdgeShot>& shots, con
   return pieces;
 }
 
-// Mean contrast across the pieces, all shifted by `shift` cells.
+// Mean contrast across the pieces after a shift of all by `shift` cells.
 double mean_contrast(const std::vector<ContourPiece>& pieces, const std::vector<CfaSamples>& cells,
                      const Eigen::Vector2d& shift) {
   double sum = 0;

@@ -20,9 +20,9 @@ namespace {
 using namespace edge_parameter;
 
 constexpr double kDoubt = 1e-4;    // p below which chance is out of the question
-constexpr double kCloseScore = 6;  // two causes nearer than that cannot be told apart
-constexpr double kCloseChi2 = 9;   // one that leaves no more than this is named beside the best
-// Standard deviations that keep what the outline does not determine from running away.
+constexpr double kCloseScore = 6;  // causes closer than this cannot be distinguished
+constexpr double kCloseChi2 = 9;   // a cause that fits as well within this is named, too
+// Standard deviations of priors that bound what the outline does not determine.
 constexpr double kLooseTurn_rad = 0.3;
 constexpr double kLooseDistance = 0.3;
 constexpr double kLooseLog = 0.2;
@@ -40,7 +40,7 @@ std::string formatted(const char* format, double value, double std) {
   return text;
 }
 
-// Length of a part of the values and its standard deviation along itself.
+// Length of a part of the values and its standard deviation along its direction.
 std::pair<double, double> length(const EdgeFit& f, int first) {
   const Eigen::Vector3d v = f.value.segment<3>(first);
   const Eigen::Matrix3d c = f.covariance.block<3, 3>(first, first);
@@ -105,7 +105,7 @@ void describe(const EdgeFit& f, const std::vector<std::string>& names, EdgeExpla
   }
 }
 
-// Causes that no knowledge of the rig limits, each to its loose deviation; the pose to its own.
+// Causes are limited by their loose standard deviations only, the pose by its covariance.
 EdgeFitOptions loose_fit(const std::vector<EdgePoint>& points, const PoseResult& pose) {
   const int size = edge_parameters(points);
   const double distance_mm = pose.camera_from_world.translation_mm.norm();
@@ -123,8 +123,8 @@ EdgeFitOptions loose_fit(const std::vector<EdgePoint>& points, const PoseResult&
   return fit;
 }
 
-// Fits one cause after the other on top of what the rig itself does not know exactly, which goes
-// along with its pose.
+// Fits one cause after the other, each together with the pose and the other uncertain quantities of
+// the rig.
 class CauseFits {
  public:
   CauseFits(const std::vector<EdgePoint>& points, const CameraIntrinsics& intrinsics,
@@ -160,7 +160,7 @@ class CauseFits {
   }
 
  private:
-  // A turn and a move on top of a pose that is free are nothing new: the pose without its prior
+  // A turn and a move in addition to a free pose are redundant: the pose without its prior
   // represents both.
   void fit_all_causes(double line_std_px) {
     std::vector<int> all = {kFocal, kDistortion};
@@ -218,7 +218,7 @@ class CauseFits {
   Eigen::MatrixXd known_prior_;
 };
 
-// Cause, body and verdict from the explanations that were tried, `n_lines` in all.
+// Cause, body and verdict from the explanations tried, with `n_lines` lines in all.
 void conclude(std::size_t n_lines, EdgeDiagnosis& out) {
   if (out.agrees) {
     out.is_unambiguous = true;
@@ -252,7 +252,7 @@ void conclude(std::size_t n_lines, EdgeDiagnosis& out) {
     if (&e == best || !e.explains || holds_best || e.chi2 > best->chi2 + kCloseChi2) continue;
     if (score(e) <= score(*best) + kCloseScore) {
       out.is_unambiguous = false;
-      others += (others.empty() ? "; cannot be told apart from: " : ", ") + e.text;
+      others += (others.empty() ? "; cannot be distinguished from: " : ", ") + e.text;
     } else {
       unlikely += (unlikely.empty() ? "; as good a fit with more freedom: " : ", ") + e.text;
     }

@@ -93,13 +93,13 @@ double difference_step(int parameter) {
   return is_mm ? 1e-4 : 1e-6;
 }
 
-// Pieces of one line, whitened.
+// Whitened residuals of the pieces of one line.
 class LineCost final : public ceres::CostFunction {
  public:
   LineCost(const Problem& problem, std::vector<std::size_t> which, const EdgeFitOptions& options)
       : problem_(problem), which_(std::move(which)) {
     const auto n = static_cast<Eigen::Index>(which_.size());
-    // Places along the line, -1 and 1 at its ends.
+    // Positions along the line, -1 and 1 at its ends.
     Eigen::VectorXd q(n);
     const EdgePoint& first = problem.points[which_[0]];
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -148,7 +148,7 @@ class LineCost final : public ceres::CostFunction {
   Eigen::LLT<Eigen::MatrixXd> root_;
 };
 
-// Normal prior about 0: root of its information times the values.
+// Normal prior about 0: the residual is a root of its information times the values.
 class PriorCost final : public ceres::CostFunction {
  public:
   explicit PriorCost(Eigen::MatrixXd root) : root_(std::move(root)) {
@@ -170,7 +170,7 @@ class PriorCost final : public ceres::CostFunction {
   Eigen::MatrixXd root_;
 };
 
-// The pieces of each line; in a robust fit each piece by itself.
+// The pieces of each line; in a robust fit each piece is a line of its own.
 using EdgeLines = std::map<std::pair<int, int>, std::vector<std::size_t>>;
 EdgeLines lines_to_fit(const std::vector<EdgePoint>& points, bool robust) {
   EdgeLines lines;
@@ -182,7 +182,7 @@ EdgeLines lines_to_fit(const std::vector<EdgePoint>& points, bool robust) {
   return lines;
 }
 
-// Inverse of J^T J at the problem's present values.
+// Inverse of J^T J at the current values of the problem.
 Eigen::MatrixXd inverse_information(ceres::Problem& least_squares) {
   ceres::CRSMatrix sparse;
   double cost = 0;
@@ -195,7 +195,7 @@ Eigen::MatrixXd inverse_information(ceres::Problem& least_squares) {
           sparse.values[static_cast<std::size_t>(k)];
     }
   }
-  // Scaled, as radians and millimetres differ by orders of magnitude.
+  // J^T J is scaled first, as radians and millimetres differ by orders of magnitude.
   const Eigen::VectorXd norms = jacobian.colwise().norm().cwiseMax(1e-300);
   jacobian = (jacobian * norms.cwiseInverse().asDiagonal()).eval();
   const Eigen::MatrixXd information = jacobian.transpose() * jacobian;
@@ -204,7 +204,7 @@ Eigen::MatrixXd inverse_information(ceres::Problem& least_squares) {
   return norms.cwiseInverse().asDiagonal() * covariance * norms.cwiseInverse().asDiagonal();
 }
 
-// Sum of squares of the lines as they are; none where a point has no image.
+// Sum of squares of the lines at the current values; none if a point has no image.
 std::optional<double> unfitted_chi2(const std::vector<std::unique_ptr<LineCost>>& costs) {
   double chi2 = 0;
   for (const auto& cost : costs) {

@@ -13,7 +13,7 @@ namespace scattermeter::calib {
 namespace {
 
 constexpr double kMinPiece = 3.0;        // cells
-constexpr std::size_t kBlurSample = 15;  // strips that tell the blur
+constexpr std::size_t kBlurSample = 15;  // strips from which the blur is estimated
 
 struct Candidate {
   EdgePoint point;

@@ -22,8 +22,8 @@ Lines lines_of(const std::vector<EdgePoint>& points) {
 
 constexpr double kLargest = 30.0;  // px
 
-// Extra deviation of each piece with which the squares about each line's own straight line (in each
-// shot) are what they should be; what they then are.
+// The additional standard deviation of each piece with which the sum of squares about a straight
+// line fitted to each edge (in each shot) has its expectation, and the sum that results.
 double piece_scatter_px(const std::vector<EdgePoint>& points, const std::vector<double>& residual,
                         double* squares, double* freedom) {
   const Lines lines = lines_of(points);
@@ -70,7 +70,7 @@ EdgeScatter edge_scatter(const std::vector<EdgePoint>& points, const CameraIntri
   fit.robust = false;
   fit.line_std_px = floor_px;
   fit.piece_std_px = 0;
-  // Residuals of a fit, so that the lines are straight ones.
+  // Residuals of a fit, so that the lines are straight.
   const EdgeFit first = fit_edges(points, intrinsics, camera_from_world, fit);
   double squares = 0;
   double freedom = 0;

@@ -1,4 +1,4 @@
-// How far pieces of an outline scatter beyond their noise.
+// Excess scatter of the pieces of an outline over their noise.
 #pragma once
 
 #include <vector>
@@ -8,14 +8,15 @@
 namespace scattermeter::calib {
 
 struct EdgeScatter {
-  double piece_std_px = 0;  // each piece's own, about the straight line of its edge
+  double piece_std_px = 0;  // of each piece about the straight line of its edge
   double line_std_px = 0;   // of each end of a line, see EdgeFitOptions
 };
 
-// By moments (R. C. Paule, J. Mandel, "Consensus values and weighting factors", 1982), in two
-// steps. (1) piece_std_px makes the squares about each line's own straight line what its freedom
-// says. (2) line_std_px does the same for place and direction of all lines (two numbers each) about
-// the fit of `model.free` under `model.prior`; its own scatters are not used. At least `floor_px`.
+// Estimates the scatter by the method of moments (R. C. Paule, J. Mandel, "Consensus values and
+// weighting factors", 1982) in two steps. (1) piece_std_px makes the sum of squares about a
+// straight line fitted to each edge equal to its degrees of freedom. (2) line_std_px, at least
+// `floor_px`, does the same for position and direction of all lines (two numbers each) about the
+// fit of `model.free` under `model.prior`; the scatters in `model` are not used.
 EdgeScatter edge_scatter(const std::vector<EdgePoint>& points, const CameraIntrinsics& intrinsics,
                          const Rigid3d& camera_from_world, const EdgeFitOptions& model,
                          double floor_px);

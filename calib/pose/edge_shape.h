@@ -1,4 +1,5 @@
-// The profile of an edge across a pixel grid: powers of the distance, blurred and averaged.
+// Profile of an edge across a pixel grid: powers of the distance, blurred and averaged over a
+// pixel.
 #pragma once
 
 #include <array>
@@ -9,11 +10,11 @@ namespace scattermeter::calib {
 
 inline constexpr int kEdgeTerms = 3;  // S_0, S_1, S_2
 
-// S_k(t): t^k for t > 0 and 0 else, after a Gaussian blur and the mean over a pixel's square, both
-// without approximation. With F_0 = Phi(t / blur), k F_k = t F_k-1 + blur^2 F_k-2 (F_-1 the
-// Gaussian's density; repeated integrals of the normal distribution, Abramowitz and Stegun 7.2),
-// the mean over the square is a second difference of k! F_k+2 over the widths |n_x|, |n_y| that it
-// has along the edge's unit normal, each taken as at least 1e-3.
+// S_k(t) is t^k for t > 0 and 0 otherwise, after a Gaussian blur and averaging over the square of a
+// pixel, both without approximation. With F_0 = Phi(t / blur), k F_k = t F_k-1 + blur^2 F_k-2 (F_-1
+// the Gaussian's density; repeated integrals of the normal distribution, Abramowitz and Stegun
+// 7.2), the mean over the square is a second difference of k! F_k+2 over its widths |n_x|, |n_y|
+// along the unit normal of the edge, each taken as at least 1e-3.
 class EdgeShape {
  public:
   EdgeShape(const Eigen::Vector2d& normal, double blur_px);  // blur_px > 0

@@ -14,9 +14,9 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kMinBlur = 0.02;  // px; the pixel's own box is several times wider
+constexpr double kMinBlur = 0.02;  // px; the box of the pixel is several times wider
 
-// Samples of the strip; empty where it leaves the picture or meets a clipped one.
+// Samples of the strip; empty if it leaves the picture or contains a clipped sample.
 std::vector<StripSample> samples_in(const CfaSamples& samples, const Eigen::Vector2d& at_px,
                                     const Eigen::Vector2d& outward,
                                     const EdgeStripOptions& options) {
@@ -32,7 +32,7 @@ std::vector<StripSample> samples_in(const CfaSamples& samples, const Eigen::Vect
     for (int x = x_low; x <= x_high; ++x) {
       const Eigen::Vector2d d(x - at_px.x(), y - at_px.y());
       const double s = d.dot(outward);
-      // Half open, so that strips end to end share no sample.
+      // Half open, so that strips placed end to end have no sample in common.
       const double l = d.dot(along);
       if (std::abs(s) > half_s || l < -options.half_length_px || l >= options.half_length_px) {
         continue;
@@ -57,7 +57,7 @@ struct EdgeEstimate {
   double offset = 0, blur = 0;  // px
 };
 
-// The best of a grid, as the cost has several minima where shading or noise is strong; none where
+// The best point of a grid, as the cost has several minima if shading or noise is strong; none if
 // no cost is finite.
 std::optional<EdgeEstimate> best_of_grid(StripFit& fit, const EdgeStripOptions& options) {
   double best = std::numeric_limits<double>::infinity();
@@ -78,8 +78,9 @@ std::optional<EdgeEstimate> best_of_grid(StripFit& fit, const EdgeStripOptions& 
   return at;
 }
 
-// Gauss-Newton from `at`, halved where it does not gain; weights anew at the first steps. False
-// where a step is not finite. `blur_is_bound`: the last step wanted the blur beyond its range.
+// Gauss-Newton iteration from `at`, with steps halved if they do not reduce the cost and weights
+// updated in the first steps. False if a step is not finite. `blur_is_bound`: the last step led to
+// a blur beyond its range.
 bool refine_edge(StripFit& fit, const EdgeStripOptions& options, EdgeEstimate& at,
                  bool& blur_is_bound) {
   blur_is_bound = false;

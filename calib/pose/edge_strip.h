@@ -1,4 +1,4 @@
-// Where a straight edge lies in a raw, to a small part of a pixel.
+// Location of a straight edge in a raw image to a small fraction of a pixel.
 #pragma once
 
 #include <optional>
@@ -11,35 +11,36 @@ namespace scattermeter::calib {
 
 struct EdgeStripOptions {
   double half_length_px = 4.0;  // of the strip, along the edge
-  double half_width_px = 5.0;   // across it, on each side of where it is looked for
-  double search_px = 2.0;       // the edge is looked for this far to each side; the strip is wider
-                                // by that much
+  double half_width_px = 5.0;   // across the edge, on each side of its expected position
+  double search_px = 2.0;       // search range to each side, by which the strip is widened
   double max_blur_px = 3.0;
-  std::optional<double> blur_px;  // known, > 0: not fitted
-  double min_snr = 8.0;           // of the step; below, the edge is not found
-  bool both_bright = false;  // there is light on both sides (a crease), and either is the brighter
+  std::optional<double> blur_px;  // > 0: known and not fitted
+  double min_snr = 8.0;           // of the step; the edge is not found below this
+  bool both_bright = false;       // both sides are bright (a crease), and either may be brighter
 };
 
 struct EdgeStrip {
   bool found = false;
-  double offset_px = 0;  // of the edge from where it was looked for, along `outward`
-  double std_px = 0;     // of that: photon and read noise, times the misfit where that is above 1
+  double offset_px = 0;  // of the edge from its expected position, along `outward`
+  double std_px = 0;     // of that: photon and read noise, times the misfit if above 1
   double snr = 0;        // of the step, over all channels
-  double blur_px = 0;    // standard deviation of the blur across the edge, the pixel's box apart
+  double blur_px = 0;    // standard deviation of the blur across the edge, without the pixel's box
   double reduced_chi2 = 0;
 };
 
-// Least squares over all samples of a strip that no other strip need share, each channel with its
-// own brightness, all with one edge:
+// Least squares over all samples of a strip (adjacent strips have no samples in common), with
+// separate brightnesses for each channel but a common edge:
 //   signal = b + a_0 S_0(t) + a_1 S_1(t) + a_2 S_2(t) [+ c t],   t = offset - s,
-// s the distance of the sample's centre along `outward`, S_k as in EdgeShape with the lens's blur,
-// fitted. a_1 and a_2 model the glow that falls off towards the edge of a translucent body; without
-// them it moves the edge by some hundredths of a pixel. Each sample counts once, in one channel:
-// nothing is interpolated. Weights from the fitted signal, not from the noisy sample.
+// with s the distance of the sample's centre along `outward` and S_k as in EdgeShape with the
+// fitted blur of the lens. a_1 and a_2 model the scattered light that decreases towards the edge of
+// a translucent body; without them it would shift the edge by some hundredths of a pixel. Each
+// sample counts once, in one channel: nothing is interpolated. Weights are derived from the fitted
+// signal, not from the noisy sample.
 //
-// Not found: outside the samples, a clipped sample in the strip, step below min_snr or of the wrong
-// sign (the body is the brighter side unless both_bright), an end of the search reached, too few
-// samples. `outward` is a unit vector; else std::invalid_argument.
+// The edge is not found if the strip leaves the samples, contains a clipped sample or has too few
+// samples, if the step is below min_snr or of the wrong sign (the body is the brighter side unless
+// both_bright), or if the fit reaches an end of the search range. Throws std::invalid_argument
+// unless `outward` is a unit vector.
 EdgeStrip locate_edge(const CfaSamples& samples, const Eigen::Vector2d& at_px,
                       const Eigen::Vector2d& outward, const EdgeStripOptions& options = {});
 

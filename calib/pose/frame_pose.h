@@ -10,9 +10,9 @@
 namespace scattermeter::calib {
 
 struct FramePose {
-  // Pose of the camera in a frame; `file` is for messages. Throws InputError where there is none.
+  // Pose of the camera in a frame; `file` is for messages. Throws InputError if there is none.
   std::function<PoseResult(const capture::RawFrame& frame, const std::string& file)> estimate;
-  bool is_shared = false;  // the camera stands still: the pose of one frame is that of all
+  bool is_shared = false;  // the camera does not move: all frames have the same pose
 };
 
 }  // namespace scattermeter::calib

@@ -8,7 +8,7 @@
 namespace scattermeter::calib {
 namespace {
 
-// A pose moved by (w, dt), see PoseResult::covariance.
+// A pose displaced by (w, dt), see PoseResult::covariance.
 Rigid3d moved_pose(const Rigid3d& pose, const Eigen::Matrix<double, 6, 1>& by) {
   Rigid3d out = pose;
   const double angle = by.head<3>().norm();

@@ -1,4 +1,4 @@
-// What a pose and a ray become where the lens is another than was thought.
+// Response of a pose to changes of the lens parameters.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,9 +10,10 @@
 
 namespace scattermeter::calib {
 
-// PoseResult::per_lens_parameter of combine(silhouette, intrinsics, prior): both of its sources are
-// read anew through the other lens, by central differences of the given steps (one a parameter; 0:
-// that column is 0). Found edges stay where they are in the image. Two least squares a step.
+// PoseResult::per_lens_parameter of combine(silhouette, intrinsics, prior), by central differences
+// with the given steps (one for each parameter; 0: that column is 0). Silhouette and prior are both
+// evaluated again with the changed lens, while the edges located in the image remain unchanged. Two
+// least squares for each step.
 PosePerLens combined_per_lens_parameter(const Silhouette& silhouette,
                                         const CameraIntrinsics& intrinsics, const PoseResult& prior,
                                         const LensParameters& steps);

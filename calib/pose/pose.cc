@@ -53,7 +53,7 @@ bool is_consensus(int inliers, size_t pairs) {
   return inliers >= 4 && 2 * static_cast<size_t>(inliers) > pairs;
 }
 
-// Says why there is no consensus; looks at the mirror image of the world to tell.
+// The reason why there is no consensus; also tries the mirror image of the world.
 PoseFault consensus_fault(PoseScene scene, int inliers, const PoseOptions& options) {
   const size_t n = scene.points.size();
   // A pose with x_in_camera = -(R x + c) has the same image as one that sees the points -x in
@@ -80,10 +80,10 @@ PoseFault consensus_fault(PoseScene scene, int inliers, const PoseOptions& optio
   return {PoseStatus::kNoConsensus, out.str()};
 }
 
-// Least squares and classification in turns until the inliers stay. Returns the fit; `inlier` is
-// the set it was made over.
+// Alternates least squares and classification until the set of inliers no longer changes. Returns
+// the fit; `inlier` is the set used for it.
 PoseFit settle(const PoseScene& scene, double inlier_px, PoseFit fit, std::vector<bool>* inlier) {
-  constexpr int kMaxRounds = 20;  // two sets can alternate for ever; either is then as good
+  constexpr int kMaxRounds = 20;  // two sets can alternate for ever; either will do
   for (int round = 0; round < kMaxRounds; ++round) {
     fit = refine_pose(scene, *inlier, fit.pose);
     const std::vector<Eigen::Vector2d> r = residuals(scene, fit.pose);
@@ -119,7 +119,7 @@ Matrix6d motion_at(const PoseScene& scene, const Eigen::Vector3d& lever_mm) {
   return move;
 }
 
-// Covariance of that.
+// Covariance of such a motion.
 Matrix6d covariance_at(const PoseScene& scene, const Matrix6d& about_centroid,
                        const Eigen::Vector3d& lever_mm) {
   const Matrix6d move = motion_at(scene, lever_mm);
@@ -217,8 +217,8 @@ PoseResult estimate_pose(const CameraIntrinsics& intrinsics, const std::vector<P
   result.per_lens_parameter =
       -motion_at(scene, origin_mm) * fit.information.ldlt().solve(gradient_per_lens_parameter(
                                          scene, inlier, fit.pose, lens_parameters(intrinsics)));
-  // The camera as a point of the object: where it would go if the object took it along. The camera
-  // moves by the opposite in the world.
+  // The camera as a point of the object: its displacement if it moved with the object. In the world
+  // the camera moves by the opposite.
   const Eigen::Vector3d camera_mm = -scene.scale_mm * fit.pose.center;
   const Matrix6d camera_covariance = covariance_at(scene, about_centroid, camera_mm);
   fault = condition_fault(scene, fit, camera_covariance);

@@ -9,9 +9,10 @@
 namespace scattermeter::calib {
 namespace {
 
-// With d the line of sight and n the normal of the best plane through the points: a mirror at the
-// plane across d sends x_in_camera - center to its depth-reversed twin, a mirror at the points' own
-// plane leaves them where they are. Their product with the rotation between is a rotation again.
+// With d the line of sight and n the normal of the best plane through the points: a reflection at
+// the plane normal to d maps x_in_camera - center to its depth-reversed counterpart, a reflection
+// at the plane of the points leaves the points unchanged. Their product with the rotation between
+// is a rotation again.
 ScenePose reversed(const PoseScene& scene, const std::vector<bool>& use, const ScenePose& pose) {
   std::vector<Eigen::Vector3d> used;
   for (size_t i = 0; i < use.size(); ++i) {

@@ -1,4 +1,4 @@
-// The second pose that explains the same points.
+// Search for a second pose that explains the same points.
 #pragma once
 
 #include <optional>
@@ -8,14 +8,14 @@
 
 namespace scattermeter::calib {
 
-// The best local optimum over the pairs of `use` that is more than three standard deviations (of
-// `first`, with noise_std_px) away from `first`; none if every start leads back to it. It may fit
-// better than `first`.
+// The best local optimum over the pairs whose `use` is set that differs from `first` by more than
+// three standard deviations (of `first`, with noise_std_px); none if every start leads back to
+// `first`. It may fit better than `first`.
 //
-// Points in one plane, or nearly, that are seen small against their distance look the same when the
-// plane's tilt is reversed (Necker's reversal; D. Oberkampf, D. DeMenthon, L. Davis, "Iterative
-// pose estimation using coplanar feature points", 1996): that reversed pose is one start. The
-// others, for up to six pairs, are all exact poses of three of them.
+// Points in or near one plane, in a region small compared with its distance, look the same when the
+// tilt of the plane is reversed (Necker's reversal; D. Oberkampf, D. DeMenthon, L. Davis,
+// "Iterative pose estimation using coplanar feature points", 1996): that reversed pose is one
+// start. The others, for up to six pairs, are all exact poses of three of them.
 std::optional<PoseFit> second_pose(const PoseScene& scene, const std::vector<bool>& use,
                                    const PoseFit& first, double noise_std_px);
 

@@ -29,9 +29,9 @@ Eigen::MatrixXd image_rows(const std::vector<PointPair>& pairs, const std::vecto
   return rows;
 }
 
-// Rms extent of the points about their mean along each principal direction, largest first. By the
-// singular values of the points themselves, not of their scatter matrix: squaring would bury a
-// spread below 1e-8 of the largest.
+// Rms extent of the points about their mean along each principal direction, largest first. It is
+// computed from the singular values of the points themselves, not of their scatter matrix: squaring
+// would lose a spread below 1e-8 of the largest.
 Eigen::VectorXd rms_spread(Eigen::MatrixXd rows) {
   const Eigen::RowVectorXd first = rows.row(0);
   rows.rowwise() -= first;  // in two steps, so that a far origin leaves no rounding in the mean
@@ -40,7 +40,8 @@ Eigen::VectorXd rms_spread(Eigen::MatrixXd rows) {
   return thin_svd(rows).values / std::sqrt(static_cast<double>(rows.rows()));
 }
 
-// Different world points up to `enough`, which keeps a thousand pairs from costing a million tests.
+// The number of different world points, at most `enough`, so that a thousand pairs do not cost a
+// million comparisons.
 int count_different(const Eigen::MatrixXd& rows, double tolerance_mm, int enough) {
   std::vector<Eigen::Vector3d> seen;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
@@ -75,23 +76,26 @@ std::optional<PoseFault> layout_fault(const std::vector<PointPair>& pairs,
     return PoseFault{PoseStatus::kTooFewPoints, out.str()};
   }
   const Eigen::VectorXd spread_mm = rms_spread(world);
-  // Rounding of the coordinates themselves is no spread.
+  // Rounding of the coordinates themselves does not count as spread.
   const double rounding_mm = 1e-12 * world.cwiseAbs().maxCoeff();
   if (spread_mm[0] <= rounding_mm) {
-    return PoseFault{PoseStatus::kCollinear,
-                     "the world points are all at one place; give points at different places"};
+    return PoseFault{
+        PoseStatus::kCollinear,
+        "the world points are all at one position; give points at different positions"};
   }
   const int different = count_different(world, 1e-9 * spread_mm[0] + rounding_mm, 4);
   if (different < 4) {
     out << "the " << world.rows() << " point pairs name only " << different
-        << " different places in the world, but a pose needs four; add points at other places";
+        << " different positions in the world, but a pose needs four; add points at other "
+           "positions";
     return PoseFault{PoseStatus::kTooFewPoints, out.str()};
   }
   if (spread_mm[1] < 1e-3 * spread_mm[0] + rounding_mm) return world_line(spread_mm[1]);
 
   const Eigen::VectorXd spread_px = rms_spread(image_rows(pairs, use));
   if (spread_px[0] < 4 * noise_std_px) {
-    out << "the image points are all at one place (within " << std::setprecision(2) << spread_px[0]
+    out << "the image points are all at one position (within " << std::setprecision(2)
+        << spread_px[0]
         << " px rms); come closer, use points farther apart, or check the pixel coordinates";
     return PoseFault{PoseStatus::kCollinear, out.str()};
   }

@@ -1,4 +1,4 @@
-// A prior so wide that it only keeps an outline's fit from running away.
+// A wide prior that only keeps the fit of an outline from diverging.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,8 @@ namespace scattermeter::calib {
 // The six parameters of the pose (edge_parameter::kPose), for EdgeFitOptions::free.
 std::vector<int> pose_parameters();
 
-// EdgeFitOptions::prior of `size` parameters: the pose to 0.3 rad and 0.3 of its distance, nothing
-// else.
+// EdgeFitOptions::prior for `size` parameters: standard deviations of 0.3 rad and 0.3 of the
+// distance for the pose, nothing for the other parameters.
 Eigen::MatrixXd loose_pose_prior(Eigen::Index size, double distance_mm);
 
 }  // namespace scattermeter::calib

@@ -32,7 +32,8 @@ double sum_squares(const PoseScene& scene, const std::vector<bool>& use, const S
   return std::isfinite(sum) ? sum : kInfinity;
 }
 
-// Image of a pair's point, and J of it. With y = R p: d(R p)/dw = -[y]_x, d(center)/dd = I.
+// Image of the point of a pair, and its Jacobian J. With y = R p: d(R p)/dw = -[y]_x, d(center)/dd
+// = I.
 Eigen::Vector2d seen_at(const PoseScene& scene, size_t i, const ScenePose& pose,
                         Eigen::Matrix<double, 2, 6>* jacobian) {
   Eigen::Matrix<double, 2, 3> by_point;
@@ -108,8 +109,8 @@ PoseFit refine_pose(const PoseScene& scene, const std::vector<bool>& use, const 
     const Eigen::LDLT<Matrix6d> solver(damped);
     const Vector6d step = -solver.solve(gradient);
     if (!step.allFinite()) break;
-    // g^T H^-1 g is the drop still to come, in px^2; against the variance of one coordinate,
-    // sum / (2 n), it is the squared distance to the optimum in standard deviations. The floor ends
+    // g^T H^-1 g is the remaining decrease in px^2; over the variance of one coordinate, sum / (2
+    // n), it is the squared distance to the optimum in standard deviations. The floor ends
     // noise-free problems at 1e-10 px.
     const double drop = -gradient.dot(step);
     const auto used = static_cast<double>(std::count(use.begin(), use.end(), true));
@@ -127,7 +128,7 @@ PoseFit refine_pose(const PoseScene& scene, const std::vector<bool>& use, const 
       damping = std::max(damping * 0.1, 1e-12);
     } else {
       damping *= 10;
-      // No step of any size gains: rounding decides, this is the optimum in double precision.
+      // No step of any size reduces the cost: this is the optimum in double precision.
       if (damping > 1e12) {
         fit.converged = true;
         break;

@@ -12,10 +12,10 @@
 namespace scattermeter::calib {
 namespace {
 
-// Below this many triples (n <= 13) all are tried.
+// Up to this number of triples (n <= 13) all are tried.
 constexpr size_t kAllTriples = 300;
-// Three points of a small object give a poor pose under a long lens, all inliers or not: triples
-// that span it well must come up too, whatever the share of inliers.
+// Three points of a small object determine a poor pose under a long lens even if all are inliers:
+// triples that span it well must be drawn, too, whatever the share of inliers.
 constexpr size_t kLeastTrials = 150;
 constexpr size_t kMostTrials = 1500;
 
@@ -53,8 +53,8 @@ std::vector<std::vector<size_t>> all_triples(const std::vector<size_t>& usable) 
 }
 
 std::vector<size_t> random_triple(const std::vector<size_t>& usable, std::mt19937_64* random) {
-  // Not std::uniform_int_distribution: its algorithm is the library's own affair, and the digits of
-  // a result should not hang on it. The bias of the remainder is 1e-16 here.
+  // std::uniform_int_distribution is not used: its algorithm depends on the standard library, and
+  // the digits of a result should not. The bias of the remainder is 1e-16 here.
   std::array<size_t, 3> picked{};
   const auto draw = [&] { return static_cast<size_t>((*random)() % usable.size()); };
   picked[0] = draw();
@@ -65,7 +65,7 @@ std::vector<size_t> random_triple(const std::vector<size_t>& usable, std::mt1993
   return {usable[picked[0]], usable[picked[1]], usable[picked[2]]};
 }
 
-// Trials after which a triple of inliers was drawn with the given confidence.
+// The number of trials after which a triple of inliers has been drawn with the given confidence.
 size_t trials_needed(int inliers, size_t pairs, double confidence) {
   const double share = static_cast<double>(inliers) / static_cast<double>(pairs);
   const double miss = 1 - share * share * share;
@@ -81,7 +81,7 @@ std::vector<ScenePose> poses_from_three(const PoseScene& scene, const std::vecto
   const Eigen::Vector3d& a = scene.points[triple[0]];
   const Eigen::Vector3d ab = scene.points[triple[1]] - a;
   const Eigen::Vector3d ac = scene.points[triple[2]] - a;
-  // Twice the area against the sides: the sine of an angle of the triangle.
+  // Twice the area over the product of two sides: the sine of an angle of the triangle.
   if (!(ab.cross(ac).norm() > 1e-3 * ab.norm() * ac.norm())) return {};
 
   std::vector<cv::Point3d> object;
@@ -93,8 +93,8 @@ std::vector<ScenePose> poses_from_three(const PoseScene& scene, const std::vecto
   std::vector<cv::Mat> rotations;
   std::vector<cv::Mat> translations;
   try {
-    // AP3P, not SOLVEPNP_P3P: of 3000 noise-free triples OpenCV 4.6 solved 3000 by the former and
-    // 947 by the latter to 1e-5, in the same 10 us each.
+    // AP3P, not SOLVEPNP_P3P: of 3000 noise-free triples OpenCV 4.6 solves 3000 to 1e-5 with the
+    // former and 947 with the latter, in 10 us each with either.
     cv::solveP3P(object, image, cv::Matx33d::eye(), cv::noArray(), rotations, translations,
                  cv::SOLVEPNP_AP3P);
   } catch (const cv::Exception&) {
@@ -136,8 +136,8 @@ PoseConsensus find_consensus(const PoseScene& scene, double inlier_px, double co
   for (size_t trial = 0; trial < trials; ++trial) {
     const std::vector<size_t> triple = list.empty() ? random_triple(usable, &random) : list[trial];
     for (const ScenePose& hypothesis : poses_from_three(scene, triple)) {
-      // A generous first look: three noisy points under a long lens miss the others by more than
-      // the final threshold. Each refined pose is then judged by the final one.
+      // A wide initial threshold: a pose from three noisy points under a long lens misses the
+      // others by more than the final threshold, by which each refined pose is then judged.
       Scored raw = score(scene, hypothesis, 3 * inlier_px);
       if (raw.inliers < 4 || raw.cost >= best_raw_cost) continue;
       best_raw_cost = raw.cost;

@@ -13,8 +13,8 @@
 
 namespace scattermeter::calib {
 
-// Pose from point pairs. Throws InputError naming the line when the layout is
-// degenerate or no pose explains it.
+// Pose from point pairs. Throws InputError naming the line when the layout is degenerate or no pose
+// explains it.
 PoseResult pose_from_points(const Scene& scene, const PoseSource& source);
 
 // Pose from the ChArUco board in the shot. Throws InputError naming the shot when the board is not
@@ -22,17 +22,19 @@ PoseResult pose_from_points(const Scene& scene, const PoseSource& source);
 PoseResult pose_from_board(const Scene& scene, const PoseSource& source,
                            const capture::RawFrame& frame, const std::string& path);
 
-// Where the pose comes from one shot of a board (pose.shot): its corners become the points, as if
-// they had been given. Throws InputError when the shot is missing or does not show the board.
+// If the pose is estimated from a single shot of a board (pose.shot), makes the board corners in
+// that shot the points of the source, as if they had been given. Throws InputError when the shot is
+// missing or does not show the board.
 void take_points_from_board_shot(const Scene& scene, const capture::ShotDecoding& decoding,
                                  const std::string& shots_folder, PoseSource& source);
-// The same from that shot; name: for messages. Precondition: the pose comes from one.
+// The same for the frame of that shot; name: for messages. Precondition: there is such a shot.
 void take_points_from_board_shot(const capture::RawFrame& frame, const std::string& name,
                                  PoseSource& source);
 
-// `prior` (of points or board) and the objects' silhouettes together: of one shot, or of all shots
-// of a source, by one camera that stood still. Throws InputError naming the line and the shot
-// (of several: the first) when the silhouette is not found or contradicts the prior.
+// Pose from `prior` (from points or a board) combined with the silhouettes of the objects in one
+// shot, or in all shots of a source with a camera that did not move. Throws InputError naming the
+// line and the shot (the first of several) when the silhouette is not found or contradicts the
+// prior.
 PoseResult pose_from_silhouette(const Scene& scene, const PoseSource& source,
                                 const ObjectScenes& objects, const PoseResult& prior,
                                 std::size_t shot_idx, const capture::RawFrame& frame,

@@ -37,8 +37,7 @@ std::size_t line_count(const std::vector<EdgePoint>& points) {
   return lines.size();
 }
 
-// Nothing confirms a piece that is alone on its line, and where few lines are seen the pose gives
-// way to it.
+// Nothing confirms a piece that is alone on its line, and with few lines the pose would follow it.
 std::vector<EdgePoint> without_lone_pieces(const std::vector<EdgePoint>& points) {
   std::map<std::pair<int, int>, int> pieces;
   for (const EdgePoint& p : points) ++pieces[{p.body_idx, p.line_idx}];
@@ -53,7 +52,7 @@ bool too_few(const std::vector<EdgePoint>& points) {
   return points.size() < kMinPieces || line_count(points) < kMinLines;
 }
 
-// Those within a few px of where the pose has them, and within a cell.
+// The points within a few px and a cell of their position predicted by the pose.
 std::vector<EdgePoint> near(const std::vector<EdgePoint>& points,
                             const CameraIntrinsics& intrinsics, const Rigid3d& pose, int factor) {
   constexpr double kNear_px = 8;
@@ -84,7 +83,7 @@ Silhouette too_few_pieces() {
                 "longer exposure, or light from another side");
 }
 
-// Step (2) of find_silhouette(): the pose and the pieces found about it.
+// Step (2) of find_silhouette(): the pose and the pieces located with it.
 class FineSearch {
  public:
   FineSearch(const std::vector<EdgeShot>& shots, const CameraIntrinsics& intrinsics,
@@ -95,7 +94,7 @@ class FineSearch {
         pose_(start),
         pose_is_near_(pose_is_near) {}
 
-  // From cells of `coarse_px` down to the raw's samples; false: too few pieces.
+  // From cells of `coarse_px` down to the raw samples; false if there are too few pieces.
   bool run(int coarse_px) {
     bool found = settle(coarse_px, 2.5, 3.0, 3) || pose_is_near_;
     for (int factor = coarse_px / 2; found && factor >= 2; factor /= 2) {
@@ -108,7 +107,7 @@ class FineSearch {
   const std::vector<EdgePoint>& points() const { return points_; }
 
  private:
-  // Pieces and pose on cells of `factor` samples, `times` times.
+  // Pieces and pose on cells of `factor` samples, repeated `times` times.
   bool settle(int factor, double search_px, double half_width_px, int times) {
     for (int i = 0; i < times; ++i) {
       EdgePointOptions o;

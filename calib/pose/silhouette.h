@@ -1,4 +1,4 @@
-// The camera's pose from the outline of a known body in one or several shots.
+// Camera pose from the outline of a known body in one or several shots.
 #pragma once
 
 #include <string>
@@ -12,55 +12,56 @@
 namespace scattermeter::calib {
 
 struct SilhouetteOptions {
-  // The outline is looked for within this part of the frame's width of where the pose has it, in
-  // each direction: 0.06 are 1.4 degrees of a camera that sees 23 degrees. In (0, 0.2].
+  // Search range for the outline to each side of its predicted position, as a share of the frame
+  // width: 0.06 corresponds to 1.4 degrees with a field of view of 23 degrees. In (0, 0.2].
   double search = 0.06;
-  // At least this is what mesh, lens and profile depart from the truth, common to a straight edge,
-  // standard deviation, px. A larger one found in the residuals takes its place. >= 0.
+  // Least standard deviation, px, of the errors of mesh, lens and edge profile that are common to a
+  // straight edge; replaced by that of the residuals if larger. >= 0.
   double line_std_px = 0.1;
-  // The pose is right to a few px, and parts of the shots may be masked (CfaSamples::clipped): the
-  // coarse turn, step (1), is left out, and so is a level of step (2) that finds too little but for
-  // the last. Pieces more than 8 px and a cell away are not of the outline.
+  // The pose is correct to a few px, and parts of the shots may be masked (CfaSamples::clipped):
+  // the coarse search, step (1), is omitted, and a level of step (2) other than the last may find
+  // too few pieces. Pieces more than 8 px and a cell away are not taken for the outline.
   bool pose_is_near = false;
   void Check() const;  // std::invalid_argument naming the field
 };
 
-// Each by its condition, in the order in which they are looked for.
+// Each status with its condition, in the order in which they are checked.
 enum class SilhouetteStatus {
   kOk,
-  // The contrast across the outline is best at an end of the search, or no better than by chance.
+  // The contrast across the outline is highest at an end of the search, or no higher than by
+  // chance.
   kNotFound,
   // Fewer than three straight edges or ten pieces of them were found.
   kTooFewPieces,
-  // The pose is uncertain by more than 0.05 rad or 0.05 of its distance, or did not settle.
+  // The pose is uncertain by more than 0.05 rad or 0.05 of its distance, or did not converge.
   kIllConditioned,
 };
 
 struct Silhouette {
   SilhouetteStatus status = SilhouetteStatus::kNotFound;
   std::string message;  // "" if ok
-  // From here on only where ok.
-  Rigid3d camera_from_world;  // that puts the mesh's outline best on the shots', nothing else known
-  std::vector<EdgePoint> points;    // without outliers; offset_px: from the pose that was given
-  std::size_t pieces_left_out = 0;  // found, but apart from their line or from all others
-  // Scatter of the pieces about the best fit beyond their noise, px: common to a line, of a piece.
+  // The members below are valid only if ok.
+  Rigid3d camera_from_world;        // best match of the outlines of mesh and shots alone
+  std::vector<EdgePoint> points;    // without outliers; offset_px: relative to the given pose
+  std::size_t pieces_left_out = 0;  // located, but off their line or off all others
+  // Excess scatter about the best fit over the noise, px: of lines, and of single pieces.
   double line_std_px = 0;
   double piece_std_px = 0;
 };
 
-// Part of the frame that find_silhouette() needs, px.
+// The part of the frame that find_silhouette() needs, px.
 PixelRect silhouette_window(const RayScene& scene, const CameraIntrinsics& intrinsics,
                             const Rigid3d& camera_from_world, const SilhouetteOptions& options);
 
-// All shots by one camera that stands still. (1) Coarse: on cells of which some 240 are in the
-// width, the turn of the camera, as a shift of the image, with the best contrast
-// (inside - outside) / (inside + outside) over all contours. (2) From these cells to the raw's own
-// samples, each half the size of the one before: pieces located (edge_points()), pose by
-// least squares with Cauchy's loss, so that clutter and unlit edges have little say; pieces alone
-// on their line are dropped. (3) Pieces off by more than six robust deviations are left out,
-// scatter of pieces about their line and of lines about the pose found by moments (R. C. Paule, J.
-// Mandel, "Consensus values and weighting factors", 1982). Deterministic. Throws
-// std::invalid_argument on no shots and options out of range.
+// Pose of a camera that does not move, from all shots. (1) On coarse cells, turn_coarsely() finds
+// the rotation of the camera, as a shift of the image, with the highest contrast (inside - outside)
+// / (inside + outside) over all contours. (2) From these cells down to the raw samples, halving the
+// cell size each time, pieces are located (edge_points()) and the pose is fitted by least squares
+// with Cauchy's loss, so that clutter and unlit edges have little influence; pieces that are alone
+// on their line are dropped. (3) Pieces off by more than six robust standard deviations are left
+// out, and the scatter of pieces about their line and of lines about the pose is estimated by
+// moments (R. C. Paule, J. Mandel, "Consensus values and weighting factors", 1982). Deterministic.
+// Throws std::invalid_argument without shots and for options out of range.
 Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntrinsics& intrinsics,
                            const Rigid3d& camera_from_world, const SilhouetteOptions& options = {});
 

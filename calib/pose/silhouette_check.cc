@@ -17,15 +17,16 @@ namespace scattermeter::calib {
 namespace {
 
 constexpr double kDriftDoubt = 1e-4;
-constexpr int kPaperBorder_px = 3;  // of a lens's blur
+constexpr int kPaperBorder_px = 3;  // for the blur of the lens
 
 struct Shift {
   Eigen::Vector2d px;
   Eigen::Matrix2d covariance;
 };
 
-// Of the outline (right, down), with the least squares of offset_px that it leaves, and its
-// covariance from noise and scatter of lines; offsets of one line share line_std_px.
+// Shift of the outline (right, down) by least squares of offset_px, with the remaining sum of
+// squares and a covariance from noise and scatter of lines; offsets of one line have the error
+// line_std_px in common.
 Shift shift_of(const std::vector<EdgePoint>& points, double line_std_px, double piece_std_px) {
   std::map<std::pair<int, int>, std::vector<const EdgePoint*>> lines;
   for (const EdgePoint& p : points) lines[{p.body_idx, p.line_idx}].push_back(&p);
@@ -50,9 +51,10 @@ Shift shift_of(const std::vector<EdgePoint>& points, double line_std_px, double 
   return {covariance * gradient, covariance};
 }
 
-// Shifts of what all causes together leave of the offsets, every shot against the first of its
-// object: the same edges, so that mesh, lens and glow drop out but for what another light changes
-// of the glow, for which half of line_std_px stands.
+// Shifts of the offsets that remain after the fit of all causes, of every shot relative to the
+// first of its object. Both have the same edges, so that errors of mesh, lens and scattered light
+// cancel, except for the change of the scattered light with another LED, for which half of
+// line_std_px is assumed.
 void find_drift(double line_std_px, SilhouetteCheck& check) {
   std::vector<Shift> shifts;
   auto residual = check.diagnosis.residual_px.begin();
@@ -183,7 +185,7 @@ SilhouetteCheck check_silhouettes_apart(const Scene& scene, const PoseSource& so
     SilhouetteCheck one =
         check_silhouettes(scene, source, objects, frames, {shot_idxs[i]}, stated[i], near);
     if (one.shots_found > 0) {
-      // The first that contradicts the rig speaks for all.
+      // The diagnosis is that of the first shot that contradicts the rig.
       if (all.shots_found == 0 || (all.diagnosis.agrees && !one.diagnosis.agrees)) {
         all.diagnosis = one.diagnosis;
         if (!one.diagnosis.agrees) {

@@ -31,14 +31,14 @@ PoseResult combine(const Silhouette& silhouette, const CameraIntrinsics& intrins
   fit.free = pose_parameters();
   fit.line_std_px = silhouette.line_std_px;
   fit.piece_std_px = silhouette.piece_std_px;
-  // The silhouette alone, then with the prior: what the least squares grow by is the distance of
-  // the two, a chi-square of six.
+  // The silhouette alone, then with the prior: the increase of the sum of squares measures the
+  // difference of the two, a chi-square with six degrees of freedom.
   fit.prior = loose_pose_prior(size, prior.camera_from_world.translation_mm.norm());
   const EdgeFit alone = fit_edges(silhouette.points, intrinsics, silhouette.camera_from_world, fit);
   const EdgeFit both = fit_with_pose(silhouette, intrinsics, prior);
   if (!alone.converged || !both.converged) {
     out.status = PoseStatus::kIllConditioned;
-    out.message = "the silhouette's least squares do not settle";
+    out.message = "the silhouette's least squares do not converge";
     return out;
   }
   if (chi_square_tail(std::max(0.0, both.chi2 - alone.chi2), 6) < 1e-6) {

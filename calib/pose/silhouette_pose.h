@@ -1,4 +1,4 @@
-// The camera's pose from a silhouette and an independent pose together.
+// Camera pose from a silhouette combined with an independent pose.
 #pragma once
 
 #include "calib/pose/edge_fit.h"
@@ -8,15 +8,16 @@
 
 namespace scattermeter::calib {
 
-// Least squares of the silhouette's pieces and the pose `prior` together, which combine() judges;
-// not converged where they fail.
+// Joint least squares of the silhouette's pieces and the pose `prior`, without the consistency test
+// of combine(); not converged if they fail.
 EdgeFit fit_with_pose(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
                       const PoseResult& prior);
 
-// The pose that silhouette and another, independent one give together: informations add. The
-// covariance's frame is that of PoseResult. Status kNoConsensus when the two contradict each other
-// (p below 1e-6 with six degrees of freedom), kIllConditioned when the fit fails. inlier and
-// residuals_px stay those of `prior`; rms and worst of the result are of the silhouette's pieces.
+// The combined estimate from a silhouette and an independent pose, in which their information adds.
+// The frame of the covariance is that of PoseResult. The status is kNoConsensus when the two
+// contradict each other (p below 1e-6 with six degrees of freedom), kIllConditioned when the fit
+// fails. inlier and residuals_px remain those of `prior`; rms and worst of the result are those of
+// the silhouette's pieces.
 PoseResult combine(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
                    const PoseResult& prior);
 

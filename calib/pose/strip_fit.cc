@@ -23,7 +23,7 @@ StripFit::StripFit(std::vector<StripSample> samples, const Eigen::Vector2d& norm
       columns_(kEdgeTerms + 1 + (both_bright ? 1 : 0)),
       weights_(samples_.size()),
       predicted_(samples_.size()) {
-  // Channels numbered densely, in the order in which they are met.
+  // Channels are numbered consecutively in the order of their first samples.
   std::array<int, 3> dense = {-1, -1, -1};
   for (StripSample& s : samples_) {
     auto& p = dense[static_cast<std::size_t>(s.channel)];

@@ -1,4 +1,4 @@
-// The linear part of locating an edge: brightnesses on both sides, for a given offset and blur.
+// The linear part of locating an edge: the brightnesses on both sides for a given offset and blur.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,14 @@
 namespace scattermeter::calib {
 
 struct StripSample {
-  double s;  // along outward from where the edge is looked for, px
+  double s;  // along outward from the expected position of the edge, px
   double signal_counts;
   double dark_variance_counts2;  // without photon noise, > 0
   int channel;                   // 0, 1 or 2
 };
 
 // The model of locate_edge() (edge_strip.h) at an offset and a blur: each channel's brightnesses
-// b, a_0, a_1, a_2 [, c] are linear and solved for; offset and blur are the caller's.
+// b, a_0, a_1, a_2 [, c] are linear and solved for; offset and blur are chosen by the caller.
 class StripFit {
  public:
   // `normal`: unit vector across the edge in the image. `per_count`: photon variance per count.
@@ -28,19 +28,19 @@ class StripFit {
   int unknowns() const { return channels_ * columns_ + 2; }
   double samples() const { return static_cast<double>(samples_.size()); }
 
-  // Best brightnesses for this edge, kept with what they predict: returns chi2, infinite where it
-  // is not finite.
+  // Finds the best brightnesses for this edge and stores them with their predictions. Returns chi2,
+  // or infinity if it is not finite.
   double solve(double offset, double blur);
 
-  // Weights from what the last solve() predicts.
+  // Updates the weights from the predictions of the last solve().
   void reweigh();
 
-  // Information about (offset, blur) with the brightnesses eliminated, and the gradient of -chi2/2:
-  // of a Gauss-Newton step. After solve(offset, blur).
+  // Information about (offset, blur) with the brightnesses eliminated, and the gradient of -chi2/2,
+  // for a Gauss-Newton step. To be called after solve(offset, blur).
   Eigen::Matrix2d information(double offset, double blur, Eigen::Vector2d* gradient) const;
 
-  // Signal to noise of the step a_0 over all channels, and its sign summed over the channels. After
-  // solve().
+  // Signal-to-noise ratio of the step a_0 over all channels, and its sign summed over the channels.
+  // To be called after solve().
   double snr(double* sign) const;
 
  private:
@@ -54,7 +54,7 @@ class StripFit {
   std::vector<double> weights_;
   std::vector<double> predicted_;
   Eigen::MatrixXd basis_;
-  Eigen::MatrixXd linear_;  // column a channel: b, a_0, a_1, a_2 [, c]
+  Eigen::MatrixXd linear_;  // a column per channel: b, a_0, a_1, a_2 [, c]
   std::vector<Eigen::MatrixXd> normal_matrix_;
 };
 

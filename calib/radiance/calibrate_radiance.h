@@ -1,4 +1,4 @@
-// A camera's radiance calibration from dark frames, flats, a white reference and glare shots.
+// Radiance calibration of a camera from dark frames, flats, a white reference and glare shots.
 #pragma once
 
 #include <functional>
@@ -18,8 +18,8 @@ using RadianceFrames = std::function<capture::RawFrame(const RadianceShot& shot)
 // value and what is expected, for: shots of more than one size, ISO or aperture; dark frames with
 // light on them; flats that are clipped, too dark, or without one pair of equal exposure and lamp;
 // fewer than three exposure times; a trap or a white plane out of the frame; noise that does not
-// grow with the light. Frames are opened one after the other, at most two at a time are kept.
-// std::invalid_argument: a white reference without white_led.
+// grow with the light. Frames are opened one after the other, and at most two are kept at a time.
+// Throws std::invalid_argument for a white reference without white_led.
 capture::RadianceCalibration calibrate_radiance(const RadianceCalibrationInput& input,
                                                 const RadianceFrames& open);
 

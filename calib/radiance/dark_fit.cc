@@ -98,7 +98,8 @@ DarkFit fit_dark(const std::vector<DarkFrame>& frames) {
   out.scatter_known = n >= parameters + 2.0;
   double frame_variance = own;
   if (out.scatter_known) frame_variance = std::max(own, squares / (n - parameters));
-  // The fit at its worst place, the ends of the exposures; a frame to come scatters by itself.
+  // The error of the fit is largest at the ends of the range of exposures; a new frame adds its own
+  // scatter.
   double fit_share = 1.0 / n;
   if (out.rate_known) {
     const double far = std::max(t_max - t_mean, t_mean - t_min);
@@ -141,7 +142,7 @@ Unevenness unevenness(std::span<const std::uint16_t> samples, std::span<const st
     int phases = 0;
     for (std::size_t p = 0; p < 4; ++p) {
       const Block& block = blocks[b + p];
-      // Without single bright pixels: the median of rows' means.
+      // The median of the means of rows, to exclude single bright pixels.
       std::vector<float> values;
       for (int y = block.y0; y < block.y1; y += 2) {
         for (int x = block.x0; x < block.x1; x += 2) {

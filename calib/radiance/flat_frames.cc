@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kBlockSide_px = 16;
 
-// Index of the value in the list, to which it is added where nothing in it is the same.
+// Index of the value in the list, to which it is added unless an equal value is in it.
 template <typename Same>
 std::size_t index_in(std::vector<double>& list, double value, const Same& same) {
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -28,8 +28,8 @@ std::size_t index_in(std::vector<double>& list, double value, const Same& same) 
   return list.size() - 1;
 }
 
-// What rounding alone adds to a sample's variance, by value: the noise model of a sensor without
-// any other noise. Empty: 1/12 everywhere.
+// The variance of a sample due to rounding alone, for each value: the noise model of a sensor
+// without any other noise. Empty: 1/12 everywhere.
 std::vector<double> quantisation_table(const capture::RawFrame& frame) {
   if (frame.curve_levels.empty()) return {};
   capture::RawFrame scale;
@@ -50,7 +50,7 @@ void add_pair(const RadianceSteps& steps, const capture::RawFrame& a, const capt
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (other[i] == kSampleClipped) marks[i] = kSampleClipped;
   }
-  // Dark current counts as light here: its electrons make noise as any.
+  // Dark current counts as light here, since its electrons have the same shot noise.
   const std::array<double, 4>& black = c.black_counts;
   const std::vector<PairVariance> pairs =
       pair_variances(a.samples, b.samples, marks, a.width_px, black, steps.blocks);
@@ -66,7 +66,7 @@ void add_pair(const RadianceSteps& steps, const capture::RawFrame& a, const capt
   }
 }
 
-// Every second dark frame of one exposure with the one before: the read noise.
+// Pairs every second dark frame of an exposure time with the one before, for the read noise.
 void open_dark_pairs(RadianceSteps& steps, FlatFrames& flats) {
   std::optional<capture::RawFrame> last;
   for (const RadianceShot& shot : steps.input.shots.dark) {

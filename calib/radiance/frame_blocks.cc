@@ -7,7 +7,7 @@
 namespace scattermeter::calib {
 namespace {
 
-// Even edges that cut `size` into `parts`.
+// Even edges that divide `size` into `parts`.
 int edge(int size, int parts, int i) {
   if (i == parts) return size;
   return static_cast<int>(static_cast<std::int64_t>(size / 2) * i / parts) * 2;

@@ -1,4 +1,4 @@
-// A frame of samples in blocks: what photon transfer, linearity and vignetting are fitted to.
+// Division of a frame into blocks, to which photon transfer, linearity and vignetting are fitted.
 #pragma once
 
 #include <array>
@@ -8,35 +8,36 @@
 
 namespace scattermeter::calib {
 
-// Every sample of one phase of the 2 x 2 filter pattern in a rectangle of pixels:
+// All samples of one phase of the 2 x 2 filter pattern in a rectangle of pixels:
 // x = x0, x0 + 2 ... < x1, y = y0, y0 + 2 ... < y1.
 struct Block {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   int phase = 0;
 };
 
-// The frame cut into about columns x rows rectangles with even sides, four blocks each.
-// Preconditions (std::invalid_argument): at least 2 pixels a rectangle.
+// The frame divided into about columns x rows rectangles with even sides, of four blocks each.
+// Throws std::invalid_argument unless each rectangle has at least 2 pixels on each side.
 std::vector<Block> blocks_of_frame(int width_px, int height_px, int columns, int rows);
 
 struct BlockMean {
   double counts = 0;
-  int n = 0;  // samples; 0: the block has none, or a clipped one
+  int n = 0;  // number of samples; 0: there are none, or one is clipped
 };
 
-// Pixels: 0 usable, 1 clipped (takes its block out), 2 defect (left out alone); capture's marks.
-// samples less black[phase].
+// The mean of samples minus black[phase] for each block. Marks of pixels: 0 usable, 1 clipped
+// (excludes its block), 2 defect (only the pixel is left out).
 std::vector<BlockMean> block_means(std::span<const std::uint16_t> samples,
                                    std::span<const std::uint8_t> marks, int width_px,
                                    const std::array<double, 4>& black,
                                    const std::vector<Block>& blocks);
 
-// Half the variance of the difference of two frames of the same light, inside each block: the noise
-// of one frame, free of what both share (pixel response, gradients) and of a difference in level.
+// Half the variance of the difference of two frames with the same light within each block: the
+// noise of one frame, free of what both have in common (pixel response, gradients) and of a
+// difference in level.
 struct PairVariance {
   double counts = 0;  // mean of both frames
   double variance_counts2 = 0;
-  int n = 0;  // samples; the variance has n - 1 degrees of freedom; 0: left out
+  int n = 0;  // number of samples, n - 1 degrees of freedom; 0: left out
 };
 std::vector<PairVariance> pair_variances(std::span<const std::uint16_t> a,
                                          std::span<const std::uint16_t> b,

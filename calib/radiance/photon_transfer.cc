@@ -22,7 +22,7 @@ PhotonTransfer fit_photon_transfer(const std::vector<NoisePoint>& points) {
     Eigen::Vector2d moment = Eigen::Vector2d::Zero();
     for (const NoisePoint& p : used) {
       const Eigen::Vector2d row(1.0, p.counts);
-      // The first turn weighs by the measured variances' average course: all alike.
+      // In the first iteration all points have the same weight.
       const double predicted = turn == 0 ? 1.0 + std::max(0.0, p.counts)
                                          : std::max(line.dot(row), 1e-6) + p.quantisation_counts2;
       const double weight = p.degrees_of_freedom / (2.0 * predicted * predicted);
@@ -41,7 +41,7 @@ PhotonTransfer fit_photon_transfer(const std::vector<NoisePoint>& points) {
     out.worst_sigma = std::max(out.worst_sigma, std::abs(sigmas));
   }
   out.reduced_chi2 = chi2 / static_cast<double>(used.size() - 2);
-  // Chance alone takes it to 1 + 3 sqrt(2 / n).
+  // By chance alone it reaches 1 + 3 sqrt(2 / n).
   const double chance = 1.0 + 3.0 * std::sqrt(2.0 / static_cast<double>(used.size() - 2));
   const double widen = out.reduced_chi2 > chance ? std::sqrt(out.reduced_chi2) : 1.0;
   const double slope_std = std::sqrt(covariance(1, 1)) * widen;

@@ -1,5 +1,4 @@
-// The shots from which a camera's radiance is calibrated: dark frames, flats, a white reference and
-// glare.
+// Shots for the radiance calibration of a camera: dark frames, flats, a white reference and glare.
 #pragma once
 
 #include <array>

@@ -11,9 +11,9 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kMaxDarkShare = 0.02;       // of the range; dark current fills no more
+constexpr double kMaxDarkShare = 0.02;       // most of the range that dark current may fill
 constexpr double kMaxUneven_counts = 0.5;    // of a block of an eighth of the frame
-constexpr double kMaxDarkStep_counts = 3.0;  // of one frame against the others
+constexpr double kMaxDarkStep_counts = 3.0;  // of one frame from the others
 
 void refuse_lit(const RadianceShot& shot, const std::string& what) {
   throw InputError(
@@ -39,7 +39,7 @@ void find_dark(RadianceSteps& steps) {
   const std::vector<RadianceShot>& shots = steps.input.shots.dark;
   capture::RadianceCalibration& calibration = steps.calibration;
   capture::RadianceCorrection& correction = calibration.correction;
-  // Hot pixels first, from the longest frames, where they show best.
+  // Hot pixels first, from the frames with the longest exposure, in which they are brightest.
   std::vector<float> sums;
   double longest_s = 0, sample_std = 0;
   int n_longest = 0;

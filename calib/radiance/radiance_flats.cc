@@ -15,12 +15,12 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kMostOfRange = 0.95;  // of a block: its noise must not reach the clip
+constexpr double kMostOfRange = 0.95;  // of a block mean: its noise must not reach the clip level
 constexpr double kTransferTop = 0.8;   // of the range, for the photon transfer
 
 using Transfer = std::array<PhotonTransfer, kRgb>;
 
-// Photon transfer of each colour on counts made linear by the curve.
+// Photon transfer of each colour with counts linearised by the curve.
 Transfer transfer_of(const RadianceSteps& steps, const FlatFrames& flats,
                      const ResponseCurve& curve) {
   std::array<std::vector<NoisePoint>, kRgb> points;
@@ -44,12 +44,12 @@ Transfer transfer_of(const RadianceSteps& steps, const FlatFrames& flats,
   return out;
 }
 
-// The flats as fit_response() wants them. A place is a block under one lamp, at index
+// The flats in the form that fit_response() takes. A place is a block under one lamp, with index
 // lamp n_blocks + block.
 struct ResponseInput {
   std::vector<FlatSample> samples;
   std::vector<FlatShot> shots;
-  std::vector<double> n_of_place;  // samples of each; 0 where no flat is usable
+  std::vector<double> n_of_place;  // number of samples of each; 0 if no flat is usable
 };
 
 ResponseInput response_input(const RadianceSteps& steps, const FlatFrames& flats,
@@ -75,7 +75,7 @@ ResponseInput response_input(const RadianceSteps& steps, const FlatFrames& flats
   return in;
 }
 
-// Curve and exposure times, for the correction and for the steps that follow.
+// Stores curve and exposure times for the correction and for the following steps.
 void keep_response(const ResponseFit& fit, const std::vector<double>& settings_s,
                    RadianceSteps& steps) {
   capture::RadianceCalibration& calibration = steps.calibration;
@@ -83,7 +83,7 @@ void keep_response(const ResponseFit& fit, const std::vector<double>& settings_s
   steps.settings_s = settings_s;
   steps.response_covariance = fit.joint_covariance;
   steps.shot_std = fit.shot_std;
-  // One converter: all colours share the curve.
+  // All colours have the same converter and therefore the same curve.
   for (std::size_t c = 0; c < kRgb; ++c) {
     correction.response[c] = fit.curve;
     const Eigen::MatrixXd& v = fit.curve_covariance;
@@ -105,7 +105,7 @@ void keep_response(const ResponseFit& fit, const std::vector<double>& settings_s
       std::hypot(std::sqrt(squares / static_cast<double>(settings_s.size() - 1)), fit.shot_std);
 }
 
-// Gain and read noise, with the points behind them.
+// Stores gain and read noise with the points to which they were fitted.
 void keep_noise(const FlatFrames& flats, const Transfer& transfer,
                 capture::RadianceCalibration& calibration) {
   double worst = 0, chi2 = 0;
@@ -127,7 +127,7 @@ void keep_noise(const FlatFrames& flats, const Transfer& transfer,
       {"photon transfer", std::sqrt(chi2), worst, 1.3, "standard deviations"});
 }
 
-// What the samples depart from linearity after the fit.
+// Stores the departures of the samples from linearity after the fit.
 void keep_departures(const ResponseInput& in, const ResponseFit& fit,
                      const std::vector<double>& settings_s,
                      capture::RadianceCalibration& calibration) {
@@ -146,8 +146,8 @@ void keep_departures(const ResponseInput& in, const ResponseFit& fit,
       {"shots of one exposure time", 100.0 * fit.shot_std, 100.0 * fit.shot_std, 0.5, "%"});
 }
 
-// The light of each block under the lamp whose least known block is known best: that lamp gives the
-// vignetting.
+// The light of each block under the lamp with the smallest uncertainty of its worst block; that
+// lamp is used for the vignetting.
 void keep_light(const ResponseInput& in, const ResponseFit& fit, std::size_t n_lamps,
                 RadianceSteps& steps) {
   std::vector<double> information(in.n_of_place.size(), 0.0);
@@ -166,7 +166,7 @@ void keep_light(const ResponseInput& in, const ResponseFit& fit, std::size_t n_l
       best = lamp;
     }
   }
-  // Independent errors of deviation 1 behind the covariance.
+  // Independent errors of unit standard deviation that give the covariance.
   const Eigen::MatrixXd shared = fit.light_rows * covariance_root(fit.joint_covariance);
   steps.light.resize(n_blocks);
   for (std::size_t k = 0; k < n_blocks; ++k) {

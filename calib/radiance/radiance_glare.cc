@@ -13,8 +13,8 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kMaxClippedGlare = 1e-3;  // of the frame: its mean must be known
-constexpr double kMaxTrapShare = 0.3;      // of the frame's mean, in a trap
+constexpr double kMaxClippedGlare = 1e-3;  // share of the frame, whose mean must be known
+constexpr double kMaxTrapShare = 0.3;      // of the frame mean, in a trap
 
 double clipped_share(const capture::RawFrame& frame,
                      const capture::RadianceCorrection& correction) {
@@ -46,7 +46,7 @@ void find_glare(RadianceSteps& steps) {
   capture::RadianceCalibration& calibration = steps.calibration;
   capture::RadianceCorrection& correction = calibration.correction;
   if (!glare) {
-    calibration.notes.emplace_back("no glare shot: stray light is taken for none");
+    calibration.notes.emplace_back("no glare shot: stray light is assumed to be zero");
     return;
   }
   std::array<std::vector<TrapMean>, kRgb> traps;
@@ -65,7 +65,7 @@ void find_glare(RadianceSteps& steps) {
             fmt::format("[{}, {}, {}, {}] leaves the frame of {} x {}", r.x0, r.y0, r.width,
                         r.height, frame.width_px, frame.height_px));
       }
-      // Neither glare nor vignetting is in the correction yet.
+      // The correction does not contain glare and vignetting yet.
       const capture::CorrectedSamples s =
           capture::corrected_samples(frame, correction, r.x0, r.y0, r.width, r.height);
       for (std::size_t c = 0; c < kRgb; ++c) {
@@ -74,10 +74,9 @@ void find_glare(RadianceSteps& steps) {
         if (!(trap.frame_counts > 0.0) || trap.counts > kMaxTrapShare * trap.frame_counts) {
           throw InputError(
               shot.file,
-              fmt::format(
-                  "glare: the trap at [{}, {}] holds {:.1f} counts in channel {}, the frame "
-                  "{:.1f} in the mean; is the rectangle on a black trap, and is there light?",
-                  r.x0, r.y0, trap.counts, kRgbName[c], trap.frame_counts));
+              fmt::format("glare: the trap at [{}, {}] has {:.1f} counts in channel {}, the frame "
+                          "a mean of {:.1f}; is the rectangle on a black trap, and is there light?",
+                          r.x0, r.y0, trap.counts, kRgbName[c], trap.frame_counts));
         }
         traps[c].push_back(trap);
       }

@@ -17,8 +17,7 @@ namespace {
 
 constexpr double kMaxClippedWhite = 0.01;  // of the plane
 
-// Relative standard deviation of the plane's mean radiance by what the rig does not know of its
-// LED.
+// Relative standard deviation of the plane's mean radiance due to the uncertainty of the LED.
 double led_relative_std(const WhiteReference& white, const PriorLed& light,
                         const std::vector<WhitePixel>& pixels) {
   const Eigen::Vector3d normal = white.plane.normal();
@@ -45,14 +44,14 @@ double led_relative_std(const WhiteReference& white, const PriorLed& light,
   return std::sqrt(variance);
 }
 
-// What a shot of the plane was taken with, and what it shows.
+// Exposure and mean level of a shot of the plane.
 struct WhiteLevel {
   double stated_s;
   double counts;  // mean over the plane
 };
 
-// Standard deviation of the shots' mean log light by the curve and the exposure times, which the
-// flats gave together.
+// Standard deviation of the shots' mean log light due to the curve and the exposure times, whose
+// errors are correlated as both are from the flats.
 double log_light_std(const RadianceSteps& steps, const std::vector<WhiteLevel>& levels,
                      const std::vector<WhiteSum>& sums) {
   const std::vector<double>& knots = steps.calibration.correction.response[0].knot_counts();
@@ -86,7 +85,7 @@ std::vector<WhitePixel> pixels_of_white(const RadianceSteps& steps, const WhiteR
                    0.05 * std::min(white.plane.width_mm, white.plane.height_mm));
   if (pixels.size() < 400) {
     throw InputError(steps.input.shots.at(white.line) + ": calibration.radiance.white",
-                     fmt::format("the plane fills {} pixels of {}, at least 400 wanted; look at "
+                     fmt::format("the plane fills {} pixels of {}, at least 400 are needed; check "
                                  "origin_mm, the axes and the pose",
                                  pixels.size(), file));
   }
@@ -126,7 +125,7 @@ WhiteShot sum_white(const capture::CorrectedSamples& s, const WhiteReference& wh
   shot.clipped_share = clipped / static_cast<double>(pixels.size());
   shot.mean_counts = signal / static_cast<double>(pixels.size());
   for (std::size_t c = 0; c < kRgb; ++c) {
-    // Black and glare are common to the shot's samples.
+    // Errors of black and glare are common to the samples of the shot.
     const double glare = glare_std[c] * s.frame_mean_counts[c];
     shot.sums[c].relative_std = std::hypot(s.black_std_counts, glare) / shot.mean_counts;
   }
@@ -140,7 +139,7 @@ void find_scale(RadianceSteps& steps) {
   capture::RadianceCalibration& calibration = steps.calibration;
   const capture::RadianceCorrection& correction = calibration.correction;
   if (!white) {
-    calibration.notes.emplace_back("no white reference: the responsivity stays open");
+    calibration.notes.emplace_back("no white reference: the responsivity is not determined");
     return;
   }
   const PriorLed& light = *steps.input.white_led;

@@ -11,7 +11,7 @@ namespace scattermeter::calib {
 capture::RawFrame open_radiance_shot(RadianceSteps& steps, const RadianceShot& shot) {
   capture::RawFrame frame = steps.open(shot);
   capture::RadianceCorrection& c = steps.calibration.correction;
-  if (!(frame.exposure_s > 0.0)) throw InputError(shot.file, "the file holds no exposure time");
+  if (!(frame.exposure_s > 0.0)) throw InputError(shot.file, "the file states no exposure time");
   if (c.width_px == 0) {
     c.width_px = frame.width_px;
     c.height_px = frame.height_px;
@@ -19,11 +19,11 @@ capture::RawFrame open_radiance_shot(RadianceSteps& steps, const RadianceShot& s
     c.f_number = frame.f_number;
     c.vignetting = vignetting_of_frame(frame.width_px, frame.height_px);
   }
-  // Those that the first file did not state are taken from the next.
+  // Values that the first file does not state are taken from the next.
   if (c.iso == 0.0) c.iso = frame.iso;
   if (c.f_number == 0.0) c.f_number = frame.f_number;
   if (const std::string problem = capture::correction_problem(frame, c); !problem.empty()) {
-    throw InputError(shot.file, problem + " (its first dark frame says so)");
+    throw InputError(shot.file, problem + " (as in its first dark frame)");
   }
   return frame;
 }

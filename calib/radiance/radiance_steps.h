@@ -1,4 +1,4 @@
-// The steps of a radiance calibration, in their order.
+// Steps of a radiance calibration, in order.
 #pragma once
 
 #include <cstdint>
@@ -11,37 +11,39 @@
 
 namespace scattermeter::calib {
 
-// What one step leaves for the next.
+// Results that the steps pass on to later ones.
 struct RadianceSteps {
   const RadianceCalibrationInput& input;
   const RadianceFrames& open;
   capture::RadianceCalibration& calibration;
-  // Of the flats, by find_response_and_noise().
+  // From the flats, set by find_response_and_noise().
   std::vector<Block> blocks = {};
   struct Light {
-    double per_s = 0;  // light of a block, counts a stated second; 0: unknown
+    double per_s = 0;  // light of a block in counts per stated second; 0: unknown
     double relative_variance = 0;
     double samples = 0;
-    Eigen::VectorXd shared = {};  // FlatLight::shared: curve and exposure times
+    Eigen::VectorXd shared = {};  // FlatLight::shared, of curve and exposure times
   };
   std::vector<Light> light = {};             // of each block
-  std::vector<double> settings_s = {};       // stated times, as in the next
+  std::vector<double> settings_s = {};       // stated times, in the order of response_covariance
   Eigen::MatrixXd response_covariance = {};  // ResponseFit::joint_covariance
   double shot_std = 0;                       // ResponseFit::shot_std
   CfaPattern cfa = {};                       // of the flats
 };
 
-// Opens a shot and holds size, ISO, aperture and an exposure time against the first one's.
+// Opens a shot and checks that it has an exposure time and the size, ISO and aperture of the first
+// one.
 capture::RawFrame open_radiance_shot(RadianceSteps& steps, const RadianceShot& shot);
 
-// Per sample: 1 clipped, 2 defect, else 0.
+// For each sample: 1 clipped, 2 defect, otherwise 0.
 std::vector<std::uint8_t> marks_of(const capture::RawFrame& frame,
                                    const capture::RadianceCorrection& correction);
 
 // Black at an exposure time.
 std::array<double, 4> black_at(const capture::RadianceCorrection& correction, double exposure_s);
 
-// Each fills its part of steps.calibration and throws InputError as calibrate_radiance() says.
+// Each step fills its part of steps.calibration and throws InputError as documented for
+// calibrate_radiance().
 void find_dark(RadianceSteps& steps);
 void find_response_and_noise(RadianceSteps& steps);
 void find_glare(RadianceSteps& steps);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kResponseTurns = 5;
 
-// Columns: settings; per shot an offset in level and one in black, where they have a prior to move
-// in; knots.
+// Columns: settings; for each shot an offset in level and one in black, if their priors are not 0;
+// knots.
 struct ResponseColumns {
   Eigen::Index settings, levels, blacks, knots;
   Eigen::Index level(std::size_t shot) const { return settings + static_cast<Eigen::Index>(shot); }
@@ -49,20 +49,20 @@ double variance_at(const FlatSample& f, double counts) {
   return f.variance_dark + f.variance_per_count * counts;
 }
 
-// Recorded counts where log counts + G = log_light.
+// The recorded counts for which log counts + G = log_light.
 double recorded_at(const ResponseCurve& curve, double log_light, double start) {
   double y = start;
   for (int i = 0; i < 6; ++i) y = std::exp(log_light - curve.log_ratio_at(y));
   return y;
 }
 
-// Sums over samples of each place; with them its log light drops out of the normal equations.
+// Sums over the samples of a place, by which its log light is eliminated from the normal equations.
 struct PlaceSums {
   double weight = 0, value = 0;
   Eigen::VectorXd row;
 };
 
-// One turn: `predicted` counts of every sample; without knots G is held G at 0.
+// One iteration with the `predicted` counts of every sample; without knots G is fixed at 0.
 ResponseSolution solve_turn(const ResponseProblem& problem, const std::vector<double>& predicted,
                             bool with_knots) {
   ResponseSolution out;
@@ -152,7 +152,7 @@ ResponseSolution solve_response(const ResponseProblem& problem) {
     for (std::size_t i = 0; i < predicted.size(); ++i) {
       const FlatSample& f = problem.samples[i];
       const auto setting = static_cast<Eigen::Index>(problem.shots[f.shot].setting);
-      // Without the shot's own level and black, which are of a size that does not matter here.
+      // Without the level and black of each shot, which are negligible here.
       predicted[i] =
           recorded_at(curve,
                       solution.log_light[f.place] + solution.x[setting] +
@@ -163,8 +163,8 @@ ResponseSolution solve_response(const ResponseProblem& problem) {
   return solution;
 }
 
-// Standard deviation by which the shots of one setting differ beyond their samples' noise and
-// black; 0 where chance explains it.
+// Standard deviation of the shots of one setting beyond the noise and black of their samples; 0 if
+// chance explains it.
 double shot_scatter(const ResponseProblem& problem, const ResponseSolution& solution) {
   std::vector<double> weight(problem.shots.size(), 0.0), sum = weight, inverse = weight;
   for (Eigen::Index i = 0; i < solution.residual.size(); ++i) {
@@ -187,7 +187,7 @@ double shot_scatter(const ResponseProblem& problem, const ResponseSolution& solu
       pairs += 1.0;
     }
   }
-  // Half a dozen pairs scatter by themselves.
+  // The scatter of half a dozen pairs is itself uncertain.
   if (!(pairs > 0.0) || squares <= expected * (1.0 + 3.0 * std::sqrt(2.0 / pairs))) return 0.0;
   return std::sqrt(0.5 * (squares - expected) / pairs);
 }

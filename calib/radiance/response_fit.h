@@ -1,4 +1,4 @@
-// Linearity and exposure times, jointly, from a series of flats.
+// Joint fit of linearity and exposure times to a series of flats.
 #pragma once
 
 #include <cstddef>
@@ -10,63 +10,66 @@
 
 namespace scattermeter::calib {
 
-// Mean of one place (block and phase) in one flat.
+// Mean of one place (a block under one lamp) in one flat.
 struct FlatSample {
-  std::size_t shot = 0;   // which flat
-  std::size_t place = 0;  // which block
+  std::size_t shot = 0;   // index of the flat
+  std::size_t place = 0;  // index of the place
   double counts = 0;      // above black, as recorded; > 0
-  // Variance of this mean: at 0 counts, and its growth per count (photon noise); the sum > 0. The
-  // fit evaluates it at the counts that it predicts, lest samples that came out low weigh less.
+  // Variance of this mean at 0 counts, and its increase per count (photon noise); the total is > 0.
+  // The fit evaluates it at the predicted counts, so that the weight does not depend on the noise
+  // of the sample.
   double variance_dark = 0;
   double variance_per_count = 0;
 };
 
 struct FlatShot {
-  std::size_t setting = 0;  // which of the shutter's settings
+  std::size_t setting = 0;  // index of the setting of the shutter
 };
 
 struct ResponseFitOptions {
   std::size_t knots = 3;  // 1 .. 4, evenly spaced up to the brightest sample
-  // Standard deviation of a stated time's relative error before the images are looked at. Cameras
-  // round 1/64 s to 1/60 s: 6 % at the worst.
+  // Prior standard deviation of the relative error of a stated time. Cameras round 1/64 s to 1/60
+  // s: 6 % at worst.
   double stated_time_std = 0.05;
-  double black_std_counts = 0;  // of a shot's black: fitted along within this
+  double black_std_counts = 0;  // of the black of a shot, which is fitted within this
   void Check() const;           // std::invalid_argument naming the field
 };
 
 struct ResponseFit {
   ResponseCurve curve;
-  Eigen::MatrixXd curve_covariance;  // of the curve's log_ratio at its knots
-  // Per setting: log of true over stated time, mean 0 over the settings; and their covariance.
+  Eigen::MatrixXd curve_covariance;  // of log_ratio of the curve at its knots
+  // For each setting the log of true over stated time, with mean 0 over the settings; and their
+  // covariance.
   Eigen::VectorXd log_true_over_stated;
   Eigen::MatrixXd setting_covariance;
-  // Of the settings' logs, then the knots' values: their errors largely cancel in the light of a
-  // shot, log counts + G(counts) - e(setting).
+  // Of the logs of the settings, then of the values at the knots: their errors largely cancel in
+  // the light of a shot, log counts + G(counts) - e(setting).
   Eigen::MatrixXd joint_covariance;
-  // Places x (settings, knots): how a place's log light below moves with these.
+  // Places x (settings, knots): derivative of the log light of each place, below, by these.
   Eigen::MatrixXd light_rows;
-  // Per place: log of (light per stated second), the settings' mean error in it. NaN: never seen.
+  // For each place the log of light per stated second, which includes the mean error of the
+  // settings. NaN: never measured.
   std::vector<double> log_light_per_s;
-  double shot_std = 0;  // by how much shots of one setting differ, relative (lamp, shutter)
-  double rms = 0;       // of the samples' residuals, relative
+  double shot_std = 0;  // relative scatter of shots of one setting (lamp, shutter)
+  double rms = 0;       // of the relative residuals of the samples
   double worst_sigma = 0;
   double reduced_chi2 = 0;
-  bool ok = false;  // false: fewer than three settings, or no place seen in more than one
+  bool ok = false;  // false: fewer than three settings, or no place measured in more than one
 };
 
 // log(counts) = log L(place) + log t(setting) + e(setting) - G(counts) [+ black(shot) / counts]:
-// linear in all that is unknown, the places eliminated. G and the weights are taken at the counts
-// that the fit predicts, in five turns: at the counts as measured, whose noise is the values' own,
-// G would be biased by far more than its uncertainty.
+// linear in all unknowns, of which log L(place) is eliminated. G and the weights are evaluated at
+// the predicted counts, in five iterations: evaluated at the measured counts, with their noise, G
+// would be biased by far more than its uncertainty.
 //
-// Times and linearity alone cannot be told apart: any departure looks like wrong times. What
-// separates them is that all places share the shutter while each has its own light: vignetting
-// spreads a frame over many levels, and their ratios must not change with the exposure. What is
-// assumed: one setting is always open equally long (pairs test that: shot_std), G is smooth (its
-// polynomial of `knots` degrees, 0 without light), the lamp is steady. What remains weak is a power
-// law, counts ~ light^(1 + epsilon), which no finite polynomial with G(0) = 0 follows; the series
-// must span a factor of ten or more to exclude it. The covariance says what was reached.
-// settings_s: stated times.
+// Times and linearity cannot be separated at a single light level, where any departure looks like
+// wrong times. They are separated because all places have the same exposure time but different
+// light: vignetting spreads a frame over many levels, and their ratios must not change with the
+// exposure. Assumptions: the true time of a setting is reproducible (tested by pairs, see
+// shot_std), G is smooth (a polynomial of degree `knots` that is 0 without light), and the lamp is
+// steady. A power law, counts ~ light^(1 + epsilon), is determined only weakly: no finite
+// polynomial with G(0) = 0 follows it, and the series must span a factor of ten or more to exclude
+// it. The covariance includes this. settings_s: stated times.
 ResponseFit fit_response(const std::vector<FlatSample>& samples, const std::vector<FlatShot>& shots,
                          const std::vector<double>& settings_s, std::size_t n_places,
                          const ResponseFitOptions& options = {});

@@ -12,7 +12,7 @@ constexpr std::size_t kRadial = 4;
 constexpr std::size_t kRadialTerms = kRadial + Vignetting::kMapTerms;
 using Terms = Eigen::Matrix<double, kRadialTerms, 1>;
 
-// Mean over the block's samples.
+// Mean over the samples of the block.
 Terms mean_terms(const Block& b, const Vignetting& frame) {
   Terms sum = Terms::Zero(), t;
   int n = 0;
@@ -97,7 +97,7 @@ VignettingFit fit_vignetting(const std::vector<FlatLight>& blocks, int width_px,
     // d factor / d (A, A factor).
     Eigen::MatrixXd j(m, m + 1);
     j << -factor / x[0], Eigen::MatrixXd::Identity(m, m) / x[0];
-    // Each shared error moves the answer as it moves the light.
+    // Each shared error changes the estimate in proportion to its effect on the light.
     const ColourBlocks& of = colours[c];
     const Eigen::MatrixXd moved =
         fits[c].covariance * of.terms.transpose() * of.weight.asDiagonal() * of.shared;

@@ -1,4 +1,4 @@
-// Vignetting from the mean of flats.
+// Fit of the vignetting to the light of the flats.
 #pragma once
 
 #include <array>
@@ -17,31 +17,33 @@ struct FlatLight {
   Block block;
   std::size_t colour = 0;
   double light = 0;     // > 0
-  double variance = 0;  // > 0, of this block alone
-  // Relative changes by what blocks share: one for each of some independent errors of deviation 1,
-  // the same in number for all blocks; may be empty. Widens the covariance.
+  double variance = 0;  // > 0, of independent errors
+  // Relative changes due to errors that blocks have in common: one for each of a number of
+  // independent errors of unit standard deviation, the same number for all blocks; may be empty.
+  // They are added to the covariance.
   Eigen::VectorXd shared = {};
 };
 
 struct VignettingFit {
   Vignetting vignetting;
-  // Of each colour's factors: four radial ones, then map's four.
+  // Of the factors of each colour: the four radial ones, then the four of the map.
   std::array<Eigen::MatrixXd, kRgb> covariance;
-  double rms_std = 0;         // standard deviation of a share, rms over the frame and the colours
-  double corner_std = 0;      // the largest in a corner
+  double rms_std = 0;         // of the relative illumination, rms over frame and colours
+  double corner_std = 0;      // the largest of the corners
   double rms = 0, worst = 0;  // residuals of the blocks, relative
   double reduced_chi2 = 0;
   bool ok = false;  // false: too few blocks of a colour
 };
 
-// light = A(colour) V(block), V averaged over the block's own samples; least squares per colour,
-// centre and radius the frame's. All eight terms always take part: where the data chose the terms,
-// the choice scattered from one calibration to the next by more than the covariance of the terms
-// chosen tells (a quarter of the deviation, over the frame), and what the terms too many cost is a
-// hundredth of what flats resolve. A flat field that is itself uneven is taken for vignetting.
+// light = A(colour) V(block), with V averaged over the samples of the block; least squares for each
+// colour, with centre and radius of the frame. All eight terms are always fitted: with terms chosen
+// by the data, the result varied from one calibration to the next by more than the covariance of
+// the chosen terms (a quarter of the standard deviation, over the frame), while superfluous terms
+// cost only a hundredth of what flats resolve. Unevenness of the flat field itself is taken for
+// vignetting.
 VignettingFit fit_vignetting(const std::vector<FlatLight>& blocks, int width_px, int height_px);
 
-// Standard deviation of a share at a place.
+// Standard deviation of the relative illumination at a pixel.
 double share_std(const VignettingFit& fit, double x_px, double y_px, std::size_t colour);
 
 }  // namespace scattermeter::calib

@@ -1,4 +1,4 @@
-// A white plane's pixels.
+// The pixels that show a white plane.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@ namespace scattermeter::calib {
 
 struct WhitePixel {
   std::size_t pixel;         // y * width_px + x
-  Eigen::Vector3d point_mm;  // where its centre's ray meets the plane
+  Eigen::Vector3d point_mm;  // where the ray of its centre meets the plane
 };
 
-// The pixels whose ray meets the white side of the plane at least margin_mm inside its edges (below
-// 0: outside).
+// The pixels whose ray meets the white side of the plane at least margin_mm inside its edges
+// (negative: at most that far outside).
 std::vector<WhitePixel> white_pixels(const WhitePlane& plane, const CameraView& view,
                                      double margin_mm);
 

@@ -74,7 +74,7 @@ struct Collector {
 TriangleMesh read_obj(const std::string& path, std::size_t max_triangles) {
   std::istringstream stream(read_text(path));
   const ObjCounts counts = check_obj_syntax(path, stream.view(), max_triangles);
-  if (counts.faces == 0) throw InputError(path, "holds no faces");
+  if (counts.faces == 0) throw InputError(path, "contains no faces");
 
   Collector collector;
   tinyobj::callback_t callbacks;

@@ -64,7 +64,7 @@ class Checker {
     } else if (words[0] == "f") {
       face(words);
     } else if (std::find(kKeywords.begin(), kKeywords.end(), words[0]) == kKeywords.end()) {
-      refuse(quoted(words[0]) + " is no keyword of an OBJ file");
+      refuse(quoted(words[0]) + " is not a keyword of an OBJ file");
     }
   }
 
@@ -129,7 +129,7 @@ class Checker {
   void vertex_index(long long index) {
     if (index == 0 || index < -static_cast<long long>(counts_.vertices)) {
       refuse("vertex index " + std::to_string(index) + " is out of range, " +
-             std::to_string(counts_.vertices) + " vertices stand before it");
+             std::to_string(counts_.vertices) + " vertices precede it");
     }
     if (index > largest_index_) {
       largest_index_ = index;

@@ -10,8 +10,7 @@ struct TiffLayout {
   // Why LibRaw 0.20 cannot decode the colour-filter-array image of the file correctly; empty when
   // no reason is known (also for a file that is not a TIFF):
   //  - strips or tiles extend beyond the end of the file, which is truncated. LibRaw reports
-  //  missing
-  //    samples, but not that only the last bytes of a compressed stream are missing;
+  //    missing samples, but not that only the last bytes of a compressed stream are missing;
   //  - DNG, lossless JPEG in more than one strip: decoded to wrong samples without an error;
   //  - DNG, uncompressed in strips that are not contiguous, or in more than one tile: LibRaw reads
   //    on from the first one;

@@ -9,8 +9,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Builds the tree of what is parsed, but no deeper than a shot is: the parser calls itself for each
-// level, and so would a file of nothing but opening brackets until the stack is full.
+// Builds the tree of the parsed values, but no deeper than that of a shot: the parser recurses at
+// each level, and a file of nothing but opening brackets would overflow the stack.
 class ShallowTree : public nlohmann::detail::json_sax_dom_parser<Json> {
  public:
   explicit ShallowTree(Json& whole) : json_sax_dom_parser(whole, false) {}
@@ -31,7 +31,7 @@ class ShallowTree : public nlohmann::detail::json_sax_dom_parser<Json> {
   int depth_ = 0;
 };
 
-// What is read must be there and of its kind; anything else is no shot.
+// Every value must be present and of the right type; anything else is not a shot.
 struct NoShot {};
 
 template <class T>
@@ -138,7 +138,7 @@ std::vector<std::uint8_t> to_bytes(const DecodedShot& shot) {
   for (const ChannelObservation& o : shot.observation.channel) channels.push_back(channel_json(o));
   Json exposures = Json::array();
   for (const ShotExposure& e : shot.exposures) {
-    // A departure may be no number; packed, its bits are kept.
+    // A departure may be NaN; packing preserves its bits.
     exposures.push_back(
         {{"file", e.file},
          {"numbers", packed(std::vector<double>{e.stated_s, e.true_s, e.relative_std,
@@ -191,7 +191,7 @@ std::optional<DecodedShot> decoded_shot(std::span<const std::uint8_t> bytes) {
   } catch (const NoShot&) {
     return std::nullopt;
   } catch (const Json::exception&) {
-    // A list that claims more than can be; the parser throws, told not to or not.
+    // For a list that claims an impossible length the parser throws even when told not to.
     return std::nullopt;
   }
 }

@@ -1,4 +1,4 @@
-// Decoded shots as bytes, for a cache.
+// Serialisation of decoded shots, for a cache.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 namespace scattermeter::capture {
 
-// As CBOR (RFC 8949), numbers bit by bit.
+// The shot as CBOR (RFC 8949); the bits of all numbers are preserved.
 std::vector<std::uint8_t> to_bytes(const DecodedShot& shot);
-// Empty for bytes that are no shot: cut short, of another kind, lists of different length.
+// nullopt for bytes that are not a valid shot: truncated, of another kind, or with lists of
+// different lengths.
 std::optional<DecodedShot> decoded_shot(std::span<const std::uint8_t> bytes);
 
 }  // namespace scattermeter::capture

@@ -22,7 +22,7 @@ RawFrame open_shot(const Scene& scene, const ShotDecoding& decoding, const std::
                           frame.width_px, frame.height_px, scene.source, k.width_px, k.height_px));
   }
   if (!(frame.exposure_s > 0.0)) {
-    throw InputError(path, "the file holds no exposure time");
+    throw InputError(path, "the file states no exposure time");
   }
   return frame;
 }

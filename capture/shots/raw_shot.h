@@ -1,4 +1,4 @@
-// Opening one of a scene's shots.
+// Opening of the shots of a scene.
 #pragma once
 
 #include <string>
@@ -9,8 +9,9 @@
 
 namespace scattermeter::capture {
 
-// Decodes the file and holds it against the scene: camera model (make and model, case ignored),
-// size of the active area, an exposure time. Throws InputError naming file, field and both values.
+// Decodes the file and checks it against the scene: camera model (make and model, case ignored),
+// size of the active area, presence of an exposure time. Throws InputError naming the file, the
+// field and both values.
 RawFrame open_shot(const Scene& scene, const ShotDecoding& decoding, const std::string& path);
 
 }  // namespace scattermeter::capture

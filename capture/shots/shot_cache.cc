@@ -35,7 +35,7 @@ void ShotCache::forget() {
   const std::lock_guard lock(mutex_);
   std::error_code ignored;
   for (const std::string& name : kept_) std::filesystem::remove(folder_ + "/" + name, ignored);
-  // Not those that hold anything else by now.
+  // Folders that contain anything else by now are not removed.
   for (const std::string& name : new_folders_) std::filesystem::remove(name, ignored);
 }
 

@@ -1,4 +1,5 @@
-// Decoded shots kept beside a result, so that measuring again decodes nothing twice.
+// Cache of decoded shots beside a result, so that a repeated measurement need not decode them
+// again.
 #pragma once
 
 #include <atomic>
@@ -13,23 +14,24 @@
 
 namespace scattermeter::capture {
 
-// One file a shot in a folder, named by a key that stands for all that the shot was made from. A
-// file appears whole or not at all, and one whose digest does not hold is as good as none. For
-// several threads, and for several programs, at once.
+// A folder with one file per shot, named by a key that identifies everything the shot was made
+// from. A file appears complete or not at all, and a file with a wrong digest is ignored. Safe to
+// use from several threads and several programs at once.
 class ShotCache {
  public:
   explicit ShotCache(std::string folder);
 
   std::optional<DecodedShot> find(const std::string& key);
-  // Where the folder takes no file the shot is not kept; nothing else is lost.
+  // If the file cannot be written the shot is not kept, which has no other effect than problem().
   void keep(const std::string& key, const DecodedShot& shot);
-  // As if this object had never been: removes what it kept, and the folders that were made for it.
+  // Undoes all changes by this object: removes the files that it wrote and the folders that it
+  // made.
   void forget();
   // Removes the files that were neither found nor kept since this object was made.
   void remove_others();
 
   std::size_t found() const { return found_; }
-  // Why the first shot that could not be kept was not; empty: all were.
+  // Why the first shot that could not be kept failed; empty if all were kept.
   std::string problem() const;
 
  private:
@@ -39,8 +41,8 @@ class ShotCache {
   std::atomic<std::size_t> found_ = 0;
   mutable std::mutex mutex_;
   std::set<std::string> used_;            // file names
-  std::set<std::string> kept_;            // of these, those that are new
-  std::vector<std::string> new_folders_;  // the innermost first
+  std::set<std::string> kept_;            // those of `used_` that are new
+  std::vector<std::string> new_folders_;  // innermost first
   std::string problem_;
 };
 

@@ -1,4 +1,4 @@
-// What decoding the shots of a scene rests on, besides the scene.
+// Inputs for decoding the shots of a scene, besides the scene.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,10 @@ namespace scattermeter::capture {
 struct RadianceCalibration;  // capture/sensor/radiance_calibration.h
 
 struct ShotDecoding {
-  // Null: raws are taken as they are, with the noise of the scene's sensor.
+  // Null: no correction, and the noise of the scene's sensor.
   std::shared_ptr<const RadianceCalibration> radiance;
-  std::string radiance_path;    // of its file; "": made in code
-  double max_megapixels = 400;  // a raw that claims more is refused
+  std::string radiance_path;    // path of its file; "": made in code
+  double max_megapixels = 400;  // a raw file that claims more is refused
 };
 
 }  // namespace scattermeter::capture

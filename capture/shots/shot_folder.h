@@ -1,4 +1,4 @@
-// The folder of raw shots against the scene's list.
+// Matching of a folder of raw shots to the shots that the scene lists.
 #pragma once
 
 #include <set>
@@ -10,14 +10,14 @@
 namespace scattermeter::capture {
 
 struct ShotFolder {
-  // Of the scene's shots, in the scene's order, each with the files of its bracket.
+  // For each shot of the scene, in the order of the scene, the files of its bracket.
   std::vector<std::vector<std::string>> paths;
-  std::vector<std::string> unlisted;  // file names in the folder that nothing lists, sorted
+  std::vector<std::string> unlisted;  // names of files in the folder that are not listed, sorted
 };
 
-// also_listed: files that the folder may hold besides the shots. Throws InputError when the folder
-// is missing, no folder, or empty, or when shots that the rig
-// lists are not in it (all of them named, with the rig's line of the first).
+// also_listed: files that the folder may contain besides the shots. Throws InputError when the
+// folder is missing, empty or not a folder, or when listed shots are not in it (naming all of them
+// and the line in the rig of the first).
 ShotFolder match_shots(const Scene& scene, const std::set<std::string>& also_listed,
                        const std::string& folder);
 

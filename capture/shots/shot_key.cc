@@ -5,7 +5,7 @@
 namespace scattermeter::capture {
 namespace {
 
-// To be raised where the same inputs decode to something else than before.
+// To be incremented whenever the same inputs are decoded to something else than before.
 constexpr int kFormat = 1;
 
 void add_camera(const SceneCamera& camera, const ShotDecoding& decoding, FileDigests& digests,
@@ -30,7 +30,7 @@ std::string shot_key(const Scene& scene, const ShotDecoding& decoding, const Obs
   Digest key;
   key.text(kVersion).number(kFormat).number(decoding.max_megapixels);
   for (std::size_t k = 0; k < names.size(); ++k) {
-    // The name in the rig is kept with the shot.
+    // The file's name in the rig is stored with the shot.
     key.text(shot.stated->files().at(k)).text(digests.of(names[k]));
   }
   add_camera(scene.camera, decoding, digests, key);

@@ -1,4 +1,4 @@
-// What a decoded shot was made from, as a name.
+// Key of a decoded shot: a name for everything that it was made from.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace scattermeter::capture {
 
-// The same for two shots if and only if decoding them gives the same
-// (capture/shots/decoded_shot.h): the contents of their files, what the rig says of the camera, and
-// which samples fall on which patch, by all that decides it (pose, lens, mesh, patch size, eta).
-// What the rig says of lights and materials has no part in it. names: of the shot's files, paths.
-// Precondition: the pose does not come from the shot itself. Throws InputError naming a file that
-// cannot be read.
+// Two shots have the same key if and only if everything that their decoding
+// (capture/shots/decoded_shot.h) depends on is the same: the contents of their files, the rig's
+// data on the camera, and all that determines which samples fall on which patch (pose, lens, mesh,
+// patch size, eta). The rig's lights and materials do not matter. names: the paths of the shot's
+// files. Precondition: the pose is not estimated from the shot itself. Throws InputError naming a
+// file that cannot be read.
 std::string shot_key(const Scene& scene, const ShotDecoding& decoding, const ObservedShot& shot,
                      const std::vector<std::string>& names, FileDigests& digests);
 

@@ -17,7 +17,7 @@
 namespace scattermeter::capture {
 namespace {
 
-// Why two frames are no bracket, with both values; empty: they are.
+// Why two frames do not form a bracket, with both values; empty if they do.
 std::string bracket_problem(const RawFrame& first, const RawFrame& other) {
   if (other.width_px != first.width_px || other.height_px != first.height_px) {
     return fmt::format("{} x {} samples, that one has {} x {}", other.width_px, other.height_px,

@@ -1,4 +1,4 @@
-// Where a measurement gets its shots from.
+// The source of the shots of a measurement.
 #pragma once
 
 #include <cstddef>
@@ -18,33 +18,34 @@ namespace scattermeter::capture {
 class FileDigests;
 class ShotCache;
 
-// Both are called from several threads at once. `shot_idx`: place in the scene's list of shots;
-// `exposure_idx`: in SceneShot::files(), 0 but in a bracket.
+// Both functions are called from several threads at once. `shot_idx` is an index into the scene's
+// list of shots, `exposure_idx` into SceneShot::files(), 0 except in a bracket.
 using FrameSource = std::function<RawFrame(std::size_t shot_idx, std::size_t exposure_idx)>;
-// The samples of the map's rectangle, past any raw frame: only for a pose from points.
+// The samples of the map's rectangle without any raw frame; only for a pose from points.
 using SampleSource = std::function<CfaSamples(std::size_t shot_idx, const SampleMap& where)>;
 
 struct ShotSource {
   std::vector<std::size_t> shot_idxs;  // which of the scene's shots
-  // Of the same and each one's exposures, for messages: a path, or the scene's file name.
+  // For each of these shots and each of its exposures a name for messages: a path, or the file name
+  // in the scene.
   std::vector<std::vector<std::string>> names;
   std::variant<FrameSource, SampleSource> open;
-  // Where what was decoded is kept, and the digests of files; both or none. The names are paths,
-  // then.
+  // The cache of decoded shots and the digests of files: both or neither. With them the names are
+  // paths.
   ShotCache* cache = nullptr;
   FileDigests* digests = nullptr;
 };
 
-// All shots of the scene from raw files. Scene and decoding must outlive it. paths: of each shot,
-// in its order, one for each of its exposures.
+// All shots of the scene from raw files. Scene and decoding must outlive the source. paths: for
+// each shot of the scene, in order, one path per exposure.
 ShotSource shots_in_files(const Scene& scene, const ShotDecoding& decoding,
                           const std::vector<std::vector<std::string>>& paths);
 
-// Some shots of the scene, each named as there.
+// Some shots of the scene, with their file names in the scene.
 ShotSource shots_from(const Scene& scene, std::vector<std::size_t> shot_idxs,
                       std::variant<FrameSource, SampleSource> open);
 
-// 0, 1 ... : every shot of the scene.
+// The indices 0, 1, ... of all shots of the scene.
 std::vector<std::size_t> all_shots(const Scene& scene);
 
 // All frames of a shot, in the order of SceneShot::files().

@@ -103,7 +103,7 @@ TEST(LedAmbient, ItIsFoundAndSaid) {
                 0.01 + 4.0 * fit.ambient[0].relative_std[c] / fit.ambient[0].relative[c]);
   }
   ASSERT_FALSE(fit.warnings.empty());
-  EXPECT_THAT(fit.warnings.back(), HasSubstr("light beside the LED"));
+  EXPECT_THAT(fit.warnings.back(), HasSubstr("ambient light of up to"));
   const LedFit none = fit_with(scene, AmbientModel::kNone);
   EXPECT_TRUE(none.ambient.empty());
   EXPECT_GT(none.plane_inflation, 4.0);

@@ -36,7 +36,7 @@ TEST(LayoutFault, PairsOfTheSamePlaceCountOnce) {
   const auto fault = fault_of({{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {10, 0, 0}, {0, 0, 0}});
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->status, PoseStatus::kTooFewPoints);
-  EXPECT_THAT(fault->message, HasSubstr("only 3 different places"));
+  EXPECT_THAT(fault->message, HasSubstr("only 3 different positions"));
 }
 
 TEST(LayoutFault, OnlyThePairsInUseCount) {
@@ -54,7 +54,7 @@ TEST(LayoutFault, OnePlace) {
   const auto fault = fault_of(std::vector<Eigen::Vector3d>(5, {1e6, 2, 3}));
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->status, PoseStatus::kCollinear);
-  EXPECT_THAT(fault->message, HasSubstr("at one place"));
+  EXPECT_THAT(fault->message, HasSubstr("at one position"));
 }
 
 TEST(LayoutFault, ALine) {

@@ -141,7 +141,7 @@ TEST(EstimatePose, TooFewPoints) {
   expect_no_pose(three);
   const PoseResult twice = estimate({{0, 0, 0}, {9, 0, 0}, {0, 9, 0}, {9, 0, 0}}, 180, 0.5);
   EXPECT_EQ(twice.status, PoseStatus::kTooFewPoints);
-  EXPECT_THAT(twice.message, HasSubstr("3 different places"));
+  EXPECT_THAT(twice.message, HasSubstr("3 different positions"));
 }
 
 TEST(EstimatePose, AWrongPairAmongFourIsNoticed) {
@@ -171,7 +171,7 @@ TEST(EstimatePose, LinesAreRefused) {
 TEST(EstimatePose, ADotIsRefused) {
   const PoseResult result = estimate(cube_points(0.005), 180, 0.5);  // 0.5 px across
   EXPECT_EQ(result.status, PoseStatus::kCollinear);
-  EXPECT_THAT(result.message, HasSubstr("all at one place"));
+  EXPECT_THAT(result.message, HasSubstr("all at one position"));
 }
 
 TEST(EstimatePose, EdgeOnIsRefused) {

@@ -160,8 +160,8 @@ TEST_F(ObjReader, NamesTheFileItCannotUse) {
   const std::string missing = folder_ / "nowhere.obj";
   EXPECT_THROW(read_obj(missing), InputError);
   EXPECT_THROW(read_obj(folder_.path()), InputError);
-  EXPECT_EQ(refusal(""), path_ + ": holds no faces");
-  EXPECT_EQ(refusal(kCubeVertices), path_ + ": holds no faces");
+  EXPECT_EQ(refusal(""), path_ + ": contains no faces");
+  EXPECT_EQ(refusal(kCubeVertices), path_ + ": contains no faces");
   EXPECT_THAT(refusal("v 0 0 nan\n"), StartsWith(path_ + ":1: coordinate 'nan'"));
   EXPECT_THAT(refusal("v 0 0 0\nf 1 1 7\n"), StartsWith(path_ + ":2: vertex index 7"));
   write_file(path_, kCubeVertices + kCubeFaces);

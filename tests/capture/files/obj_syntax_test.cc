@@ -64,8 +64,8 @@ TEST(ObjSyntax, NamesLineAndValueOfABadFace) {
   };
   EXPECT_EQ(face("1 2 3"), "accepted");
   EXPECT_EQ(face("1 2"), "a.obj:4: a face takes three or more corners, got 2");
-  EXPECT_EQ(face("1 2 0"), "a.obj:4: vertex index 0 is out of range, 3 vertices stand before it");
-  EXPECT_EQ(face("1 2 -4"), "a.obj:4: vertex index -4 is out of range, 3 vertices stand before it");
+  EXPECT_EQ(face("1 2 0"), "a.obj:4: vertex index 0 is out of range, 3 vertices precede it");
+  EXPECT_EQ(face("1 2 -4"), "a.obj:4: vertex index -4 is out of range, 3 vertices precede it");
   EXPECT_EQ(face("1 2 4"), "a.obj:4: vertex index 4 is out of range, the file has 3 vertices");
   EXPECT_EQ(face("1 2 4294967297"),
             "a.obj:4: vertex index 4294967297 is out of range, the file has 3 vertices");
@@ -78,13 +78,13 @@ TEST(ObjSyntax, NamesLineAndValueOfABadFace) {
 TEST(ObjSyntax, FacesMayNameLaterVertices) {
   EXPECT_EQ(refusal("f 1 2 3\n" + kThreeVertices), "accepted");
   EXPECT_EQ(refusal("f -1 -2 -3\n" + kThreeVertices),
-            "a.obj:1: vertex index -1 is out of range, 0 vertices stand before it");
+            "a.obj:1: vertex index -1 is out of range, 0 vertices precede it");
 }
 
 TEST(ObjSyntax, RefusesUnknownKeywordsAndContinuedLines) {
-  EXPECT_EQ(refusal("Dear diary,\n"), "a.obj:1: 'Dear' is no keyword of an OBJ file");
-  EXPECT_EQ(refusal("V 0 0 0\n"), "a.obj:1: 'V' is no keyword of an OBJ file");
-  EXPECT_EQ(refusal(std::string("\0a\xff\n", 4)), "a.obj:1: '?a?' is no keyword of an OBJ file");
+  EXPECT_EQ(refusal("Dear diary,\n"), "a.obj:1: 'Dear' is not a keyword of an OBJ file");
+  EXPECT_EQ(refusal("V 0 0 0\n"), "a.obj:1: 'V' is not a keyword of an OBJ file");
+  EXPECT_EQ(refusal(std::string("\0a\xff\n", 4)), "a.obj:1: '?a?' is not a keyword of an OBJ file");
   EXPECT_EQ(refusal("f 1 2 \\\n3\n"),
             "a.obj:1: lines continued with a backslash are not supported");
 }
