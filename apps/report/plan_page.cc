@@ -229,7 +229,9 @@ std::string plan_page(const Plan& plan, const std::string& command_line) {
           : advised == 0 ? "Nothing clips, nothing is too dark."
                          : fmt::format("{} of {} need another exposure time.", advised,
                                        plan.exposures.size())),
-      !plan.brightness_known ? "dim" : advised == 0 ? "pass" : "fail");
+      !plan.brightness_known ? "dim"
+      : advised == 0         ? "pass"
+                             : "fail");
   body += html_details("counts above black of every shot", exposure_table(plan));
   for (std::size_t i = 0; i < plan.channels.size();) {
     std::vector<const PlannedChannel*> channels;

@@ -70,8 +70,8 @@ void read_residuals(const std::string& path, const cv::FileNode& top, CameraCali
   for (int r = 0; r < m.rows; ++r) {
     const double view = m(r, 0);
     if (!(view >= 0 && view < static_cast<double>(out->views.size())) || view != std::floor(view)) {
-      throw InputError(where,
-                       "row " + std::to_string(r + 1) + " refers to an unknown view: " + std::to_string(view));
+      throw InputError(where, "row " + std::to_string(r + 1) +
+                                  " refers to an unknown view: " + std::to_string(view));
     }
     out->residuals.push_back(
         {static_cast<std::size_t>(view), {m(r, 1), m(r, 2)}, {m(r, 3), m(r, 4)}});

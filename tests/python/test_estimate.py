@@ -12,7 +12,7 @@ LED_AXIS = np.array([-30.0, 60.0, -70.0]) / np.linalg.norm([-30, 60, -70])
 INTENSITY = 0.5  # W/sr on the axis; falls with the cosine
 FOCAL_PX, SIZE_PX = 700.0, (240, 180)
 RESPONSIVITY, EXPOSURE_S = np.array([2.4e10, 2.9e10, 2.1e10]), 0.05
-TRUTH = {"R": (1.0, 0.004), "G": (1.3, 0.01), "B": (1.6, 0.03)}
+TRUTH = {"R": (1.0, 0.004), "G": (1.1, 0.01), "B": (1.2, 0.03)}
 # Faces that the LED lights and the camera sees: a point of the face, its two tangents, its normal.
 X, Y, Z = np.eye(3)
 FACES = [

@@ -22,7 +22,7 @@ TEST(BenchModels, SaysWhatDoesNotApply) {
   // 1 / 0.165 = 6.06 mm: less than 20 / 3, more than 10 / 3.
   const Medium thin{0.15, 0.015, 1.3};
   EXPECT_EQ(why_left_out(thin, cube, 0.5), "");
-  EXPECT_EQ(why_left_out(thin, slab, 0.5), "mean free path 6.06 mm, over a third of 10 mm");
+  EXPECT_EQ(why_left_out(thin, slab, 0.5), "mean free path 6.06 mm, more than a third of 10 mm");
   // 0.2 mm: rendered patches are no smaller than 20 / 125 = 0.16 mm, and 40 / 125 = 0.32 mm.
   const Medium dense{4.999, 0.001, 1.3};
   EXPECT_EQ(why_left_out(dense, cube, 0.59), "");
@@ -31,8 +31,7 @@ TEST(BenchModels, SaysWhatDoesNotApply) {
   // 1 / sqrt(3 * 1.45 * 1.48) = 0.394 mm.
   const Medium dark{0.03, 1.45, 1.3};
   EXPECT_EQ(why_left_out(dark, cube, 0.52), "");
-  EXPECT_EQ(why_left_out(dark, cube, 0.53),
-            "light dies off within 0.39 mm, patches are of 0.53 mm");
+  EXPECT_EQ(why_left_out(dark, cube, 0.53), "light dies off within 0.39 mm, patches are 0.53 mm");
 }
 
 // A cube: transport comes back to the truth within what it and the shots' own error allow; the
