@@ -125,7 +125,7 @@ TEST_F(FromScratch, CalibratesMeasuresAndNamesWhatChanged) {
   named("FAIL ISO of dark frames: dark_1.dng");
   write_file((*this)("shots/dark_1.dng"), dark);
   shoot_again("position_mm: [30.4, -60.7, 79.2]", "position_mm: [30.4, -58.7, 79.2]", "shots");
-  named("FAIL LED places, from their shots: led1[^\n]*stands (1.9|2.0|2.1)");
+  named("FAIL LED places, from their shots: led1[^\n]*is (1.9|2.0|2.1)");
 }
 
 }  // namespace

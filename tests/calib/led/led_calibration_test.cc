@@ -176,7 +176,7 @@ TEST_F(LedCalibrationTest, CheckFindsAMovedLed) {
   EXPECT_NEAR(found.displacement_length_mm, 2.0, 0.2);
   EXPECT_GT(found.displacement_stds, 5.0);
   EXPECT_GT(found.displacement_length_mm, 5.0 * found.displacement_std_mm);
-  EXPECT_THAT(found.text, HasSubstr("led1 stands"));
+  EXPECT_THAT(found.text, HasSubstr("led1 is "));
   EXPECT_GT(found.highlight_rms_px, 5.0 * same.highlight_rms_px);
   EXPECT_GT(found.plane_rms_percent, 2.0 * same.plane_rms_percent);
   ASSERT_EQ(found.maps.size(), 2U);
