@@ -5,8 +5,7 @@
 #include "core/sums/dipole_kernels.h"
 #include "core/sums/kernel_bounds.h"
 
-// The file is compiled once for each instruction set (core/sums/dipole_kernels.cc).
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+// The file is compiled once for each instruction set (core/sums/CMakeLists.txt).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/sums/cluster_verdicts.cc"
 #include <hwy/foreach_target.h>

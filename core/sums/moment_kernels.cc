@@ -2,9 +2,7 @@
 
 #include <cstddef>
 
-// The file is compiled once for each instruction set: the baseline, AVX2 and AVX-512 are worth
-// their build time.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+// The file is compiled once for each instruction set (core/sums/CMakeLists.txt).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/sums/moment_kernels.cc"
 #include <hwy/foreach_target.h>

@@ -5,9 +5,7 @@
 
 #include <hwy/cache_control.h>
 
-// The file is compiled once for each instruction set: the baseline, AVX2 and AVX-512 are worth
-// their build time.
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+// The file is compiled once for each instruction set (core/sums/CMakeLists.txt).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/sums/series_kernels.cc"
 #include <hwy/foreach_target.h>
