@@ -50,7 +50,8 @@ TEST(ViewSelection, NamesWhatIsBad) {
   EXPECT_EQ(s.fault, "");
   EXPECT_THAT(reason_of(s, "view0"), HasSubstr("only 5 corners"));
   EXPECT_EQ(reason_of(s, "view2"), "the same shot as view1");
-  EXPECT_THAT(reason_of(s, "view4"), HasSubstr("are not a perspective image of those of this board"));
+  EXPECT_THAT(reason_of(s, "view4"),
+              HasSubstr("are not a perspective image of those of this board"));
   EXPECT_THAT(reason_of(s, "view6"), HasSubstr("px (median) from where the other views"));
   EXPECT_NE(reason_of(s, "view8"), "");
   EXPECT_EQ(s.views.size(), 7U);
