@@ -52,7 +52,7 @@ TEST(CellModel, NuisancesAreInUnitsOfTheirPriors) {
 TEST(CellModel, ADiscIsItsRing) {
   LedScene scene;
   scene.intrinsics = led_camera();
-  scene.views.push_back({led_camera_pose(), {}});
+  scene.views.push_back({led_camera_pose(), Eigen::Matrix<double, 6, 6>::Zero()});
   WhitePlane plane;
   plane.width_mm = plane.height_mm = 10;
   scene.planes = {plane};
