@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "calib/radiance/frame_blocks.h"
 #include "core/base/median.h"
@@ -13,13 +14,6 @@ namespace {
 
 std::size_t phase_of(std::size_t i, std::size_t width) {
   return 2 * ((i / width) & 1U) + ((i % width) & 1U);
-}
-
-double median_of(std::vector<float>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return static_cast<double>(*middle);
 }
 
 }  // namespace
@@ -38,10 +32,11 @@ DarkFrame dark_frame(std::span<const std::uint16_t> samples, std::span<const std
     if (marks[i] == 0) values[phase_of(i, width)].push_back(static_cast<float>(samples[i]));
   }
   for (std::size_t p = 0; p < 4; ++p) {
-    std::vector<float> deviations = values[p];
-    const double median = median_of(deviations);
-    for (float& v : deviations) v = std::abs(v - static_cast<float>(median));
-    const double reach = std::max(8.0, 8.0 * kStdPerMad * median_of(deviations));
+    if (values[p].size() < 2) continue;
+    const float middle = upper_median(values[p]);
+    const double median = static_cast<double>(middle);
+    const double reach = std::max(
+        8.0, 8.0 * kStdPerMad * static_cast<double>(median_absolute_deviation(values[p], middle)));
     double sum = 0, squares = 0, n = 0;
     for (const float v : values[p]) {
       const double d = static_cast<double>(v) - median;
@@ -118,7 +113,8 @@ std::vector<std::size_t> hot_pixels(std::span<const float> sums, int n_frames, i
   for (std::size_t i = 0; i < sums.size(); ++i) values[phase_of(i, width)].push_back(sums[i]);
   std::array<double, 4> limit{};
   for (std::size_t p = 0; p < 4; ++p) {
-    limit[p] = median_of(values[p]) +
+    if (values[p].empty()) continue;
+    limit[p] = static_cast<double>(upper_median(std::move(values[p]))) +
                n_frames * std::max(min_counts, 6.0 * std_counts / std::sqrt(n_frames));
   }
   std::vector<std::size_t> out;
