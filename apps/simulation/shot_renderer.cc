@@ -9,6 +9,7 @@
 #include "calib/pose/shot_pose.h"
 #include "core/base/input_error.h"
 #include "core/material/fresnel.h"
+#include "core/scene/surroundings.h"
 #include "core/transport/volume_light.h"
 
 namespace scattermeter::apps {
@@ -123,10 +124,14 @@ SurfaceField ShotRenderer::volume_field(const SceneShot& shot, Stage& s) {
       Medium reduced = truth_of(rig_, shot)[static_cast<std::size_t>(c)];
       reduced.eta_int_over_ext = eta;
       const ScatteringMedium medium = scattering_medium(reduced);
-      const auto source = light->entry(*scene.rays, eta, c);
-      const CameraConnection camera = s.camera->with(medium);
+      std::optional<DiffusePlane> plane;
+      if (const auto& stated = rig_.scene.surroundings.plane) {
+        plane = stated->in(static_cast<std::size_t>(c));
+      }
+      const auto source = entry_above(light, *scene.rays, eta, c, plane.value_or(DiffusePlane{}));
+      const CameraConnection camera = s.camera->with(medium, plane);
       const VolumeLight l = volume_radiosity(
-          field, *s.patches, {*s.boundary, medium, *source, &camera},
+          field, *s.patches, {*s.boundary, medium, *source, &camera, plane},
           {transport_.seed * 1'000'003ULL + runs_++, transport_.paths, transport_.peers});
       monte_carlo_std_ = std::max(monte_carlo_std_, l.median_relative_std);
       for (std::size_t i = 0; i < values.size(); ++i) {
