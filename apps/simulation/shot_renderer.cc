@@ -8,6 +8,7 @@
 #include "apps/simulation/board_picture.h"
 #include "calib/pose/shot_pose.h"
 #include "core/base/input_error.h"
+#include "core/light/plane_light.h"
 #include "core/material/fresnel.h"
 #include "core/scene/surroundings.h"
 #include "core/transport/volume_light.h"
@@ -90,20 +91,27 @@ SurfaceField ShotRenderer::field(const SceneShot& shot, Stage& s) const {
   std::array<Medium, 3> media = truth_of(rig_, shot);
   for (Medium& m : media) m.eta_int_over_ext = scene.stated->eta_int_over_ext;
   SurfaceField field(*s.patches, s.needed);
-  for (const std::string& name : shot.lights) {
-    const SceneLight& light = rig_.scene.light(name);
+  const auto add = [&](const Light& light, const std::string& name) {
     const auto [it, is_new] = s.lights.try_emplace(name);
-    if (is_new) it->second = light_on(*light, scene, *s.patches);
+    if (is_new) it->second = light_on(light, scene, *s.patches);
     for (std::size_t c = 0; c < it->second.size(); ++c) {
-      Eigen::Array3d power = light->power();
-      if (light->channels() > 1) {
+      Eigen::Array3d power = light.power();
+      if (light.channels() > 1) {
         power.setZero();
-        power[static_cast<Eigen::Index>(c)] = light->power()[static_cast<Eigen::Index>(c)];
+        power[static_cast<Eigen::Index>(c)] = light.power()[static_cast<Eigen::Index>(c)];
       }
       if (it->second[c].lit.empty()) continue;
       field.add(dipole_radiosity(field.nodes_mm(), it->second[c], scene.box.center_mm(),
                                  1.001 * scene.diagonal_mm(), media, power));
     }
+  };
+  const auto& plane = rig_.scene.surroundings.plane;
+  for (const std::string& name : shot.lights) {
+    const SceneLight& light = rig_.scene.light(name);
+    add(*light, name);
+    if (light.led() == nullptr || !plane || !(plane->albedo > 0.0).any()) continue;
+    add(PlaneLight(light.led()->led, plane->z_mm, plane->albedo, plane->albedo_std),
+        name + " by way of the plane");
   }
   return field;
 }

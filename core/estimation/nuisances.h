@@ -32,14 +32,19 @@ struct NuisanceColumn {
 // The uncertain quantities of the scene: those of every light in use (Light::nuisances()); pose
 // (six independent combinations of each pose's covariance); lens (as many as its calibration has
 // parameters, common to all shots, each with the resulting change of the pose fitted with that
-// lens; its effect on calibrated LEDs and scale is not included); eta; each file's black level, the
-// glare and the exposure times (common to files of the same stated time; in a bracket each affects
-// the part of a row that comes from it). Those with a standard deviation of 0 are left out.
+// lens; its effect on calibrated LEDs and scale is not included); eta; the albedo of the plane
+// below the object; each file's black level, the glare and the exposure times (common to files of
+// the same stated time; in a bracket each affects the part of a row that comes from it). Those with
+// a standard deviation of 0 are left out.
 class SceneNuisances {
  public:
   // Of one channel. sensitivities: for every view and light of the shots passed to columns().
   SceneNuisances(const Scene& scene, std::size_t channel,
                  std::map<LightKey, ChannelSensitivity> sensitivities);
+  // The light that the plane below the object sends, at the albedo that is stated or assumed, on
+  // some rows of a shot's map: part of the observed l, but not of W r. Zero without a plane.
+  Eigen::VectorXd light_by_plane(const ObservedShot& shot,
+                                 const std::vector<Eigen::Index>& rows) const;
   // On some rows of a shot's map, ascending. Which nuisances are returned depends on the shot only.
   std::vector<NuisanceColumn> columns(const ObservedShot& shot, const ChannelObservation& observed,
                                       const std::vector<Eigen::Index>& rows) const;
@@ -49,6 +54,8 @@ class SceneNuisances {
 
   void add_light(const SceneLight& light, const ChannelSensitivity& own, Columns& columns) const;
   void add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm, Columns& columns) const;
+  Eigen::VectorXd change_by_albedo(const ObservedShot& shot,
+                                   const std::vector<Eigen::Index>& rows) const;
   void add_radiance(const ObservedShot& shot, const ChannelObservation& observed,
                     const Eigen::VectorXd& predicted, Columns& columns) const;
 

@@ -5,6 +5,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/base/progress.h"
+#include "core/estimation/surroundings_nuisance.h"
+#include "core/scene/surroundings.h"
 
 namespace scattermeter {
 namespace {
@@ -71,8 +73,15 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
                     all.by_light[key]});
   }
   const auto make = [&](const Item& item) {
-    item.out = sensitivity(*std::get<0>(item.key), e.kept.weights.at(item.key),
+    const SeenObject& seen = *std::get<0>(item.key);
+    item.out = sensitivity(seen, e.kept.weights.at(item.key),
                            images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
+    if (const LedLight* led = e.scene.light(std::get<1>(item.key)).led()) {
+      const ScenePlane plane = plane_below(e.scene, *seen.object);
+      if (plane.matters()) {
+        item.out.per_albedo = change_by_plane(seen, led->led, plane, knots, item.media);
+      }
+    }
     stage.step();
   };
   tbb::parallel_for(std::size_t{0}, alike.size(), [&](std::size_t k) { make(alike[k]); });

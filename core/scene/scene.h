@@ -86,6 +86,9 @@ struct ScenePlane {
   PlaneContact contact = PlaneContact::kAir;
   int line = 0;
 
+  // Whether it may change an image.
+  bool matters() const { return (albedo > 0.0).any() || (albedo_std > 0.0).any(); }
+  // As it is in a channel.
   DiffusePlane in(std::size_t channel) const {
     return {z_mm, albedo[static_cast<Eigen::Index>(channel)], contact};
   }
