@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Layouts, AgainstDcraw,
 TEST(RawReader, WholeFrameOfAD80EqualsDcraw) {
   const TemporaryFolder folder;
   const std::string path = folder / "d80.dng";
-  DngMetadata metadata;
+  RawMetadata metadata;
   metadata.linearization_table = nef_lossy_curve();
   TestImage image = random_image(3872, 2592, 12);
   for (std::uint16_t& code : image.codes) code = static_cast<std::uint16_t>(code % 683);
@@ -207,7 +207,7 @@ TEST(RawReader, KnownCamerasGetNoOtherLevels) {
     for (const bool full_size : {false, true}) {
       const int width = full_size ? 3872 : 90;
       const int height = full_size ? 2592 : 64;
-      DngMetadata metadata;
+      RawMetadata metadata;
       metadata.make = camera.make;
       metadata.model = camera.model;
       metadata.cfa = cfa_pattern_from_name("GBRG");
