@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/rig/rig.h"
 #include "capture/raw/raw_reader.h"
 #include "capture/raw/tiff_layout.h"
 #include "core/base/input_error.h"
