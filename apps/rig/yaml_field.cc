@@ -151,6 +151,12 @@ double YamlField::positive() const {
   return value;
 }
 
+double YamlField::number_or(const std::string& key, double otherwise, double min,
+                            double max) const {
+  const auto field = find(key);
+  return field ? field->number(min, max) : otherwise;
+}
+
 int YamlField::integer(int min, int max) const {
   const double value = number(min, max);
   if (value != std::floor(value)) fail("expected an integer");

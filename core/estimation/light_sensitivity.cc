@@ -15,13 +15,14 @@ namespace {
 
 constexpr double kEtaStep = 0.01;
 
-// R on the knots, one column a medium, times its scale.
-Eigen::MatrixXd curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
-                       double eta) {
+}  // namespace
+
+Eigen::MatrixXd reflectance_curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
+                                   double eta_int_over_ext) {
   Eigen::MatrixXd r(knots.size(), static_cast<Eigen::Index>(media.size()));
   for (std::size_t m = 0; m < media.size(); ++m) {
     Medium medium = media[m].medium;
-    medium.eta_int_over_ext = eta;
+    medium.eta_int_over_ext = eta_int_over_ext;
     const Dipole dipole(medium);
     for (Eigen::Index i = 0; i < r.rows(); ++i) {
       r(i, static_cast<Eigen::Index>(m)) =
@@ -32,8 +33,12 @@ Eigen::MatrixXd curves(const std::vector<LitMedium>& media, const DistanceKnots&
   return r;
 }
 
-// Bins between the knots: their error is the same before and after a change.
-constexpr int kFineBits = 5;
+DistanceKnots coarse_knots(const DistanceKnots& knots) {
+  constexpr int kFineBits = 5;
+  return knots.with_fine_bits(kFineBits);
+}
+
+namespace {
 
 // make(sites, sources, is_other_eta): of one change.
 template <class Each, class Make>
@@ -73,9 +78,7 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
     out.changed.push_back(make(sites[0], lit_by(*change.changed, eta), false));
     out.steps.push_back(change.step);
   }
-  if (object.stated->eta_std > 0.0) {
-    out.other_eta = make(sites[0], nominal(eta + kEtaStep), true);
-  }
+  out.other_eta = make(sites[0], nominal(eta + kEtaStep), true);
   return out;
 }
 
@@ -97,7 +100,7 @@ PairSumOptions coarse_pair_options(const DistanceKnots& knots) {
 ChangedWeights changed_weights(const SeenObject& seen, const SceneLight& light, std::size_t channel,
                                LitObjects& lit, const DistanceKnots& knots) {
   const PairSumOptions pairs = coarse_pair_options(knots);
-  const DistanceKnots few = knots.with_fine_bits(kFineBits);
+  const DistanceKnots few = coarse_knots(knots);
   return changed<WeightMatrix>(seen, light, channel, lit,
                                [&](const std::vector<ExitSite>& sites, const SourceCloud& sources,
                                    bool) { return smooth_weights(sites, sources, few, pairs); });
@@ -107,10 +110,10 @@ ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, st
                              LitObjects& lit, const DistanceKnots& knots,
                              const std::vector<LitMedium>& media) {
   const PairSumOptions pairs = coarse_pair_options(knots);
-  const DistanceKnots few = knots.with_fine_bits(kFineBits);
+  const DistanceKnots few = coarse_knots(knots);
   const double eta = seen.object->stated->eta_int_over_ext;
-  const Eigen::MatrixXd r = curves(media, knots, eta);
-  const Eigen::MatrixXd other = curves(media, knots, eta + kEtaStep);
+  const Eigen::MatrixXd r = reflectance_curves(media, knots, eta);
+  const Eigen::MatrixXd other = reflectance_curves(media, knots, eta + kEtaStep);
   return changed<Eigen::MatrixXd>(
       seen, light, channel, lit,
       [&](const std::vector<ExitSite>& sites, const SourceCloud& sources, bool is_other_eta) {
@@ -121,7 +124,7 @@ ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, st
 ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weights,
                              const DistanceKnots& knots, const std::vector<LitMedium>& media) {
   const double eta = seen.object->stated->eta_int_over_ext;
-  const Eigen::MatrixXd r = curves(media, knots, eta);
+  const Eigen::MatrixXd r = reflectance_curves(media, knots, eta);
   const auto image = [&](const WeightMatrix& w) -> Eigen::MatrixXd {
     if (w.size() == 0) return {};
     return w * r;
@@ -131,7 +134,7 @@ ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weigh
   for (const WeightMatrix& w : weights.changed) out.changed.push_back(image(w));
   out.steps = weights.steps;
   if (weights.other_eta.size() > 0) {
-    out.other_eta = weights.other_eta * curves(media, knots, eta + kEtaStep);
+    out.other_eta = weights.other_eta * reflectance_curves(media, knots, eta + kEtaStep);
   }
   for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = image(weights.shifted[t]);
   out.shift_mm = weights.shift_mm;
@@ -143,7 +146,7 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
                              const DistanceKnots& knots) {
   const double eta = seen.object->stated->eta_int_over_ext;
   LightSensitivity out;
-  out.l = nominal * curves(media, knots, eta);
+  out.l = nominal * reflectance_curves(media, knots, eta);
   const Eigen::MatrixXd& l = images.nominal;
   const auto change = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
     if (changed.size() == 0) return {};
