@@ -9,6 +9,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "core/diffusion/dipole_curve.h"
+#include "core/fit/lack_of_fit.h"
 #include "core/fit/method_errors.h"
 
 namespace scattermeter {
@@ -86,6 +87,17 @@ std::vector<bool> negligible_of(const std::vector<Effect>& all) {
   return out;
 }
 
+// The parts of a shot by the positions of its used patches: at most 32, of at least 24 rows each.
+std::vector<int> parts_of_shot(const ObservedShot& shot, const std::vector<Eigen::Index>& used) {
+  constexpr int kLevels = 5;
+  constexpr int kLeastRows = 24;
+  std::vector<Eigen::Vector3d> centers_mm;
+  for (const Eigen::Index j : used) {
+    centers_mm.push_back(shot.seen->sites[static_cast<std::size_t>(j)].center_mm);
+  }
+  return residual_cells(centers_mm, kLevels, kLeastRows);
+}
+
 Eigen::VectorXd reflectance(const LitMedium& first, const DistanceKnots& knots,
                             double eta_int_over_ext) {
   const double sigma_t = sigma_t_per_mm(first.medium);
@@ -150,13 +162,15 @@ void ChannelImage::add_errors_of_method(DenseSystem& system) const {
 
 ShotSystem ChannelImage::shot(std::size_t shot) const {
   auto system = std::make_shared<DenseSystem>(rows_of_shot(shot));
+  const std::vector<Eigen::Index> used = used_rows(rows_[shot]);
   std::vector<NuisanceColumn> own =
-      scene_nuisances_.columns(*channel_.shots[shot], rows_[shot], used_rows(rows_[shot]));
+      scene_nuisances_.columns(*channel_.shots[shot], rows_[shot], used);
   std::erase_if(own, [&](const NuisanceColumn& c) { return !index_.contains(c.nuisance.name); });
   // The rig's first, as in the image's list.
   const auto n_own = static_cast<Eigen::Index>(own.size());
   Eigen::MatrixXd columns(system->l.size(), n_own + system->nuisance_columns.cols());
   ShotSystem out;
+  if (!used.empty()) out.part_of_row = parts_of_shot(*channel_.shots[shot], used);
   std::vector<Nuisance> nuisances;
   std::map<Eigen::Index, const NuisanceColumn*> in_order;
   for (const NuisanceColumn& c : own) in_order[index_.at(c.nuisance.name)] = &c;

@@ -9,6 +9,7 @@
 #include "core/base/chi_square.h"
 #include "core/diffusion/dipole_curve.h"
 #include "core/fit/fit_uncertainty.h"
+#include "core/fit/prior_pulls.h"
 #include "core/fit/profile_interval.h"
 #include "core/fit/recovered_reflectance.h"
 #include "core/fit/residual.h"
@@ -110,10 +111,13 @@ void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOpt
       !std::isfinite(e.sigma_s_prime_per_mm.high95)) {
     e.reasons.push_back("these shots set no upper limit to a coefficient");
   }
-  if (e.reduced_chi2 > options.max_reduced_chi2 && e.rms_relative > options.max_rms_relative) {
+  const double unexplained = e.rms_relative * std::sqrt(std::max(0.0, 1.0 - 1.0 / e.reduced_chi2));
+  const auto rows = static_cast<double>(e.rows);
+  if (unexplained > options.max_unexplained_relative &&
+      chi_square_tail(rows * e.reduced_chi2, rows) < options.misfit_p_value) {
     e.reasons.push_back(sentence("the dipole does not explain the shots: residual ",
-                                 100.0 * e.rms_relative, " %, reduced chi-square ",
-                                 e.reduced_chi2));
+                                 100.0 * e.rms_relative, " %, of which noise explains all but ",
+                                 100.0 * unexplained, " %"));
   } else if (e.misfit_p_value < options.misfit_p_value &&
              e.misfit_relative > options.max_misfit_relative) {
     e.reasons.push_back(sentence(
@@ -144,43 +148,36 @@ double set_misfit(const RecoveredReflectance& recovered, double l2,
   return cost / dof;
 }
 
+// Of the fitted nuisances and the scale, where it has a prior.
+std::vector<PriorPull> pulls_of_rig(const RecoveredReflectance& recovered,
+                                    const std::vector<Nuisance>& nuisances,
+                                    const DipoleCurve& curve, const Point& p,
+                                    const ScalePrior& scale) {
+  const double s = std::exp(p.log_s);
+  const double per_noise = 1.0 / std::sqrt(recovered.noise_excess());
+  const auto n = static_cast<Eigen::Index>(nuisances.size());
+  const Eigen::MatrixXd kernel = per_noise * recovered.sqrt_information.leftCols(curve.r.size());
+  const Eigen::VectorXd nominal = kernel * (s * curve.r);
+  const bool is_free = std::isinf(scale.relative_std);
+  WhitenedModel model;
+  model.residual = per_noise * recovered.whitened - nominal;
+  model.free.resize(nominal.size(), is_free ? 3 : 2);
+  model.free.leftCols(2) << kernel * (s * curve.d_u), kernel * (s * curve.d_q);
+  model.columns.resize(nominal.size(), n + (is_free ? 0 : 1));
+  model.columns.leftCols(n) = per_noise * recovered.sqrt_information.rightCols(n);
+  (is_free ? model.free : model.columns).rightCols(1) = nominal;
+  model.nuisances = nuisances;
+  if (!is_free) model.nuisances.push_back({"scale", scale.relative_std, true, "scale"});
+  model.data_length = per_noise * recovered.whitened.norm();
+  return judge(model).pulls;
+}
+
 }  // namespace
 
 void DipoleFitOptions::Check() const {
   if (!(eta_int_over_ext > 0.0)) throw std::invalid_argument("DipoleFitOptions.eta_int_over_ext");
   if (!(scale.relative_std >= 0.0)) throw std::invalid_argument("DipoleFitOptions.scale");
   if (!(misfit_p_value > 0.0)) throw std::invalid_argument("DipoleFitOptions.misfit_p_value");
-}
-
-ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
-                             const DipoleSolver::Point& point, double eta_int_over_ext) {
-  const DipoleCurve curve = dipole_curve(knots, point.u, point.q, eta_int_over_ext);
-  const Eigen::VectorXd r = std::exp(point.log_s) * curve.r;
-  std::vector<ComparedImage> shots(rows.shots());
-  for_each_shot(rows, [&](std::size_t s, const ShotSystem& shot) {
-    ComparedImage& out = shots[s];
-    out.l = shot.system->l;
-    out.std_l = shot.system->std_l;
-    out.predicted = shot.system->weights * r;
-    for (std::size_t k = 0; k < shot.nuisances.size(); ++k) {
-      const auto v = static_cast<std::size_t>(shot.nuisances[k]);
-      if (v >= point.v.size()) continue;  // held
-      out.predicted += point.v[v] * shot.system->nuisance_columns.col(static_cast<Eigen::Index>(k));
-    }
-  });
-  const auto together = [&](Eigen::VectorXd ComparedImage::*part) {
-    Eigen::Index n = 0;
-    for (const ComparedImage& shot : shots) n += (shot.*part).size();
-    Eigen::VectorXd out(n);
-    Eigen::Index at = 0;
-    for (const ComparedImage& shot : shots) {
-      out.segment(at, (shot.*part).size()) = shot.*part;
-      at += (shot.*part).size();
-    }
-    return out;
-  };
-  return {together(&ComparedImage::predicted), together(&ComparedImage::l),
-          together(&ComparedImage::std_l)};
 }
 
 DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
@@ -263,6 +260,17 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
                                  options.scale, inflation),
                   solver, p, inflation, estimate);
   add_refusals(knots, p, options, estimate);
+  estimate.pulls = pulls_of_rig(recovered, rows.nuisances(), curve, p, options.scale);
+  if (const PriorPull* worst =
+          contradiction(estimate.pulls, options.max_pull, options.min_pull_relative)) {
+    estimate.reasons.push_back(contradiction_sentence(*worst));
+  }
+  const LackOfFit parts = misfit_of_parts(fit.image.parts, rows.nuisances(), options.scale);
+  if (parts.p_value < options.misfit_p_value && parts.rms > options.max_parts_relative) {
+    estimate.reasons.push_back(
+        sentence("the dipole does not explain the shots: parts of the image are ",
+                 100.0 * parts.rms, " % off"));
+  }
   return fit;
 }
 

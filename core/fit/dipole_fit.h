@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "core/diffusion/distance_weights.h"
+#include "core/fit/compared_image.h"
 #include "core/fit/dipole_solver.h"
 #include "core/fit/estimate.h"
 #include "core/fit/image_information.h"
@@ -19,9 +20,16 @@ struct DipoleFitOptions {
   // Verdict limits.
   std::size_t min_rows = 20;
   double max_relative_std_sigma_s = 0.5;
-  // The dipole is refused when its residual is significant and large: both limits exceeded.
-  double max_reduced_chi2 = 4.0;
-  double max_rms_relative = 0.01;
+  // The dipole is refused when its residual exceeds the noise significantly (misfit_p_value) and by
+  // more than this, relative to the image. Below, the excess widens the errors.
+  double max_unexplained_relative = 0.01;
+  // The same for the light of the parts into which the image is divided.
+  double max_parts_relative = 3e-3;
+  // The result is refused where the image contradicts what the rig states about an uncertain
+  // quantity: by more than max_pull standard deviations, which happens to one quantity in 1.7
+  // million by chance, and by more than min_pull_relative of the image.
+  double max_pull = 5.0;
+  double min_pull_relative = 1e-3;
   // A misfit is significant if it is less probable than misfit_p_value under the dipole. A
   // significant misfit counts `misfit_margin` times as an error of the method (nuisances that are
   // not fitted), and the dipole is refused if it exceeds max_misfit_relative.
@@ -37,13 +45,6 @@ struct DipoleFitOptions {
   // increased by one per degree of freedom).
   bool without_noise = false;
   void Check() const;  // std::invalid_argument naming the field
-};
-
-// Predicted and observed l of an image's rows, shot by shot.
-struct ComparedImage {
-  Eigen::VectorXd predicted;
-  Eigen::VectorXd l;
-  Eigen::VectorXd std_l;
 };
 
 struct DipoleFit {
@@ -69,9 +70,5 @@ DipoleFit fit_dipole(const DenseSystem& system, const DistanceKnots& knots,
 // once more.
 DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
                      const DistanceKnots& knots, const DipoleFitOptions& options);
-
-// Predictions include the fitted nuisances.
-ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
-                             const DipoleSolver::Point& point, double eta_int_over_ext);
 
 }  // namespace scattermeter

@@ -30,6 +30,15 @@ struct BudgetLine {
   double std_sigma_a_per_mm = 0;
 };
 
+// The pull of one uncertain quantity of the rig (core/fit/prior_pulls.h).
+struct PriorPull {
+  std::string name;           // of the nuisance, or "scale"
+  std::string group;          // its line in the budget
+  double pull = 0;            // standard normal if everything is as the rig states
+  double offset = 0;          // most probable value minus the stated one, in the nuisance's unit
+  double image_relative = 0;  // change of the image by the offset, relative to the image
+};
+
 struct Estimate {
   Quantity sigma_s_prime_per_mm;
   Quantity sigma_a_per_mm;
@@ -43,7 +52,8 @@ struct Estimate {
   // size relative to the image, and the probability of at least as much if the model holds.
   double misfit_relative = 0;
   double misfit_p_value = 1;
-  std::size_t rows = 0;  // number of rows used: patches times shots
+  std::vector<PriorPull> pulls;  // of the rig's uncertain quantities
+  std::size_t rows = 0;          // number of rows used: patches times shots
   bool converged = false;
   // Why the numbers must not be trusted, as whole sentences; empty: they may be trusted.
   std::vector<std::string> reasons;

@@ -17,6 +17,8 @@ namespace scattermeter {
 struct ShotSystem {
   std::shared_ptr<const DenseSystem> system;
   std::vector<Eigen::Index> nuisances;
+  // The part of the shot in which each row lies, from 0 without gaps; empty: not divided.
+  std::vector<int> part_of_row = {};
 };
 
 class ImageRows {

@@ -1,0 +1,169 @@
+#include "core/fit/prior_pulls.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/core.h>
+
+#include "core/base/chi_square.h"
+#include "core/base/dense_solve.h"
+
+namespace scattermeter {
+namespace {
+
+// What remains of the model's rows when the free unknowns are projected out.
+struct Projected {
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd moving;  // columns times their deviations
+  Eigen::MatrixXd exact;   // columns of unit size
+};
+
+Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& columns, const std::vector<Eigen::Index>& which,
+                             const std::vector<double>& size) {
+  Eigen::MatrixXd out(columns.rows(), static_cast<Eigen::Index>(which.size()));
+  for (Eigen::Index k = 0; k < out.cols(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    out.col(k) = size[i] * columns.col(which[i]);
+  }
+  return out;
+}
+
+double over_root(double value, double variance) {
+  return variance > 0.0 && std::isfinite(value) ? value / std::sqrt(variance) : 0.0;
+}
+
+// The next step for a contradiction, by the group of the quantity.
+const char* advice(const std::string& group) {
+  constexpr std::array<std::pair<const char*, const char*>, 17> kAdvice = {{
+      {"pose", "check the pose points, and that neither camera nor object has moved"},
+      {"lens", "calibrate the camera at this focus"},
+      {"mesh position", "check where the object stands and that its mesh is the right one"},
+      {"mesh scale", "measure the object and scale its mesh"},
+      {"edges", "round the mesh's edges as those of the object are"},
+      {"LED position", "measure the LED's position, and check which LED is on"},
+      {"LED axis", "measure where the LED points"},
+      {"LED exponent", "calibrate the LED's lobe"},
+      {"LED power", "measure the LED's intensity, and check which LED is on"},
+      {"LED calibration", "calibrate the LED again"},
+      {"scale", "check the LED's intensity and the camera's responsivity"},
+      {"eta", "measure the refractive index, or state a larger eta_std"},
+      {"even light", "switch off other lamps, or list an ambient light"},
+      {"surroundings", "state the surroundings, or put the object on a black stand"},
+      {"pedestal", "check the black level, and look for stray light and glare in the lens"},
+      {"exposure time", "calibrate the camera's radiance"},
+      {"radiance", "measure the radiance of the environment again"},
+  }};
+  const auto* it = std::find_if(kAdvice.begin(), kAdvice.end(),
+                                [&](const auto& known) { return group == known.first; });
+  return it == kAdvice.end() ? "check it, or state a larger uncertainty" : it->second;
+}
+
+}  // namespace
+
+ModelJudgement judge(const WhitenedModel& model) {
+  const Eigen::Index rows = model.residual.size();
+  const auto n = static_cast<Eigen::Index>(model.nuisances.size());
+  if (model.free.rows() != rows || (n > 0 && model.columns.rows() != rows) ||
+      model.columns.cols() != n) {
+    throw std::invalid_argument("judge: sizes differ");
+  }
+  std::vector<Eigen::Index> moving, exact, unbound;
+  std::vector<double> std, ones;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double own = model.nuisances[static_cast<std::size_t>(i)].std;
+    if (std::isinf(own)) {
+      unbound.push_back(i);
+    } else if (own > 0.0) {
+      moving.push_back(i);
+      std.push_back(own);
+    } else {
+      exact.push_back(i);
+      ones.push_back(1.0);
+    }
+  }
+  Eigen::MatrixXd free(rows, model.free.cols() + static_cast<Eigen::Index>(unbound.size()));
+  free.leftCols(model.free.cols()) = model.free;
+  for (std::size_t k = 0; k < unbound.size(); ++k) {
+    free.col(model.free.cols() + static_cast<Eigen::Index>(k)) = model.columns.col(unbound[k]);
+  }
+  for (Eigen::Index k = 0; k < free.cols(); ++k) {
+    const double length = free.col(k).norm();
+    if (length > 0.0) free.col(k) /= length;
+  }
+  // Eigen does not decompose matrices without columns.
+  if (free.cols() == 0) free = Eigen::MatrixXd::Zero(rows, 1);
+  const PivotedSolver qr(free);
+  const Eigen::Index left = rows - qr.rank();
+  ModelJudgement out;
+  out.dof = static_cast<double>(left);
+  if (left <= 0) return out;
+  const auto projected = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
+    if (columns.cols() == 0) return Eigen::MatrixXd(left, 0);
+    return qr.rotate_columns(columns).bottomRows(left);
+  };
+  const Projected rest{qr.rotate(model.residual).tail(left),
+                       projected(side_by_side(model.columns, moving, std)),
+                       projected(side_by_side(model.columns, exact, ones))};
+  const Eigen::MatrixXd& b = rest.moving;
+  const Eigen::MatrixXd information = b.transpose() * b;
+  const Eigen::MatrixXd posterior =
+      b.cols() > 0
+          ? SymmetricSolver(Eigen::MatrixXd::Identity(b.cols(), b.cols()) + information).inverse()
+          : Eigen::MatrixXd(0, 0);
+  const Eigen::VectorXd v = posterior * (b.transpose() * rest.residual);
+  const Eigen::VectorXd settled = rest.residual - b * v;
+  out.chi2 = std::max(0.0, rest.residual.dot(settled));
+  out.p_value = chi_square_tail(out.chi2, out.dof);
+  const Eigen::MatrixXd told = information * posterior;
+  constexpr double kRounding = 1e-12;
+  std::vector<PriorPull> pulls(model.nuisances.size());
+  std::vector<bool> has_pull(model.nuisances.size());
+  const double length = std::max(model.data_length, 1e-300);
+  const auto report = [&](Eigen::Index i, double offset, double pull) {
+    const Nuisance& nuisance = model.nuisances[static_cast<std::size_t>(i)];
+    has_pull[static_cast<std::size_t>(i)] = true;
+    pulls[static_cast<std::size_t>(i)] = {nuisance.name, nuisance.group, pull, offset,
+                                          std::abs(offset) * model.columns.col(i).norm() / length};
+  };
+  for (std::size_t k = 0; k < moving.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    if (!model.nuisances[static_cast<std::size_t>(moving[k])].fitted) continue;
+    const double variance = told(at, at) > kRounding ? told(at, at) : 0.0;
+    report(moving[k], std[k] * v[at], over_root(v[at], variance));
+  }
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    const Eigen::VectorXd e = rest.exact.col(static_cast<Eigen::Index>(k));
+    const Eigen::VectorXd shared = b.transpose() * e;
+    const double score = e.dot(settled);
+    const double e2 = e.squaredNorm();
+    double variance = e2 - shared.dot(posterior * shared);
+    if (!(variance > kRounding * model.columns.col(exact[k]).squaredNorm())) variance = 0.0;
+    report(exact[k], variance > 0.0 ? score / variance : 0.0, over_root(score, variance));
+  }
+  for (std::size_t i = 0; i < pulls.size(); ++i) {
+    if (has_pull[i]) out.pulls.push_back(std::move(pulls[i]));
+  }
+  return out;
+}
+
+const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_pull,
+                               double least_image) {
+  const PriorPull* worst = nullptr;
+  for (const PriorPull& p : pulls) {
+    if (!(std::abs(p.pull) > most_pull) || !(p.image_relative > least_image)) continue;
+    if (worst == nullptr || std::abs(p.pull) > std::abs(worst->pull)) worst = &p;
+  }
+  return worst;
+}
+
+std::string contradiction_sentence(const PriorPull& pull) {
+  const std::string which =
+      pull.name.empty() || pull.name == pull.group ? "" : fmt::format(" ({})", pull.name);
+  return fmt::format(
+      "the shots contradict the {}{} that the rig states, by {:.3g} standard deviations: {}",
+      pull.group, which, std::abs(pull.pull), advice(pull.group));
+}
+
+}  // namespace scattermeter

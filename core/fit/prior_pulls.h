@@ -1,0 +1,48 @@
+// Whether an image contradicts what the rig states about its uncertain quantities.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/fit/estimate.h"
+#include "core/fit/linear_shot.h"
+
+namespace scattermeter {
+
+// A linear model of whitened data: residual = free x + columns diag(std) v + noise, with the
+// unknowns x free, v standard normal and the noise of unit variance.
+struct WhitenedModel {
+  Eigen::VectorXd residual;  // data minus the model with all nuisances at their nominal values
+  Eigen::MatrixXd free;      // rows x unknowns
+  Eigen::MatrixXd columns;   // rows x nuisances, per unit of each
+  std::vector<Nuisance> nuisances;  // infinite std: free; 0: stated as exact, to be tested
+  double data_length = 0;           // |data|, to which changes of the image are compared
+};
+
+struct ModelJudgement {
+  double chi2 = 0;  // of the residual with nuisances and unknowns at their most probable values
+  double dof = 0;   // rows minus free unknowns
+  double p_value = 1;
+  std::vector<PriorPull> pulls;  // of the nuisances that are fitted or exact, in their order
+};
+
+// The pull of a nuisance is its most probable value over the standard deviation that this value has
+// if all statements hold, sqrt(std^2 - posterior variance): then a standard normal variable,
+// however little the image tells about the nuisance. For a quantity stated as exact it is the root
+// of the score statistic.
+
+// Nuisances that are not fitted but have std > 0 (errors of the method) vary as well and have no
+// pull. Those that the unknowns imitate to rounding have pull 0.
+ModelJudgement judge(const WhitenedModel& model);
+
+// The largest contradiction that is both significant (|pull| > most_pull) and visible
+// (image_relative > least_image); null if there is none.
+const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_pull,
+                               double least_image);
+
+// A sentence for the user that names the quantity, the size of the contradiction and the next step.
+std::string contradiction_sentence(const PriorPull& pull);
+
+}  // namespace scattermeter
