@@ -115,7 +115,9 @@ std::string deviation_table(const std::vector<DeviationResult>& results) {
     bool is_first = true;
     for (std::size_t s = 0; s < k.by_size.size(); ++s) {
       if (k.by_size[s].runs == 0) continue;
-      const DeviationRun run{.kind = k.kind, .size_idx = s};
+      DeviationRun run;
+      run.kind = k.kind;
+      run.size_idx = s;
       const char* mark = !k.kind->counted ? "not counted" : run.within() ? "within" : "";
       add_row(table, is_first ? k.kind->name : "", size_text(run), mark, k.by_size[s]);
       is_first = false;

@@ -16,14 +16,14 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kDoubt = 1e-4;
-constexpr double kCloseScore = 6.0;
+constexpr double kOutlineDoubt = 1e-4;
+constexpr double kOutlineCloseScore = 6.0;
 constexpr double kGrowth = 0.5;     // cells
 constexpr double kShotShift = 0.3;  // cells
 // An object is put down in another place far more often than its mesh is turned or of another size:
 // by this much the latter must be more likely, as a score.
 constexpr double kRare = 5.0;
-constexpr Eigen::Index kPose = OutlineModel::kPose;
+constexpr Eigen::Index kOutlinePose = OutlineModel::kPose;
 
 // Length of a vector and its standard deviation along itself.
 std::pair<double, double> length_of(const Eigen::Vector3d& v, const Eigen::Matrix3d& c) {
@@ -39,8 +39,9 @@ std::string displaced(const Eigen::Vector3d& v, const Eigen::Matrix3d& c) {
 
 std::string turned(const Eigen::Vector3d& v, const Eigen::Matrix3d& c) {
   const auto [rad, std_rad] = length_of(v, c);
-  constexpr double kDegree = 180 / std::numbers::pi;
-  return fmt::format("by {:.2f} ± {:.2f} deg", kDegree * rad, std::max(0.01, kDegree * std_rad));
+  constexpr double kOutlineDegree = 180 / std::numbers::pi;
+  return fmt::format("by {:.2f} ± {:.2f} deg", kOutlineDegree * rad,
+                     std::max(0.01, kOutlineDegree * std_rad));
 }
 
 std::string text_of(const OutlineExplanation& e, const std::vector<std::string>& names,
@@ -195,9 +196,9 @@ OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
   std::sort(others.begin(), others.end(),
             [&](const auto& a, const auto& b) { return score(a) < score(b); });
   for (const OutlineExplanation& e : others) {
-    out.agrees =
-        out.agrees && chi_square_tail(std::max(0.0, none.chi2 - e.chi2), e.parameters) >= kDoubt;
-    out.likely += score(e) <= score(others.front()) + kCloseScore ? 1 : 0;
+    out.agrees = out.agrees &&
+                 chi_square_tail(std::max(0.0, none.chi2 - e.chi2), e.parameters) >= kOutlineDoubt;
+    out.likely += score(e) <= score(others.front()) + kOutlineCloseScore ? 1 : 0;
   }
   out.explanations = {none};
   out.explanations.insert(out.explanations.end(), others.begin(), others.end());
@@ -207,7 +208,7 @@ OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
   }
   // One shift of all shots, with pose and place exact.
   Eigen::VectorXd errors = causes.known();
-  errors.head<kPose>().setZero();
+  errors.head<kOutlinePose>().setZero();
   std::size_t body = 0;
   for (std::size_t b = 0; b < centers_mm.size(); ++b) errors.segment<3>(model.place(b)).setZero();
   for (const OutlineShot& shot : shots) body = static_cast<std::size_t>(shot.body_idx);
@@ -224,7 +225,7 @@ OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
   out.shift_px /= std::max(1.0, n);
   out.shift_std_px = kShotShift * model.cell_px() / std::sqrt(std::max(1.0, n));
   out.improves_pose =
-      out.agrees && chi_square_tail(std::max(0.0, exact.chi2 - known.chi2), 6) < kDoubt;
+      out.agrees && chi_square_tail(std::max(0.0, exact.chi2 - known.chi2), 6) < kOutlineDoubt;
   out.pose = out.improves_pose ? pose_of(model, known, pose, body) : pose;
   return out;
 }

@@ -11,9 +11,9 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr int kReach = 12;    // cells to each side
-constexpr int kBeside = 4;    // cells beside the reach
-constexpr double kFar = 4.0;  // cells
+constexpr int kOutlineReach = 12;  // cells to each side
+constexpr int kBeside = 4;         // cells beside the reach
+constexpr double kFar = 4.0;       // cells
 constexpr double kLeastFound = 0.85;
 constexpr double kNoises = 8.0;
 constexpr double kLeastStep = 0.003;  // of the brightest cell
@@ -146,9 +146,9 @@ class OutlineFinder {
   // in_frame: whether the search lies within the picture.
   std::optional<double> step_at(const ContourPoint& p, const Eigen::Vector2d& shift_px,
                                 bool& in_frame) const {
-    constexpr int kSamples = 4 * (kReach + kBeside) + 1;  // half a cell apart
+    constexpr int kSamples = 4 * (kOutlineReach + kBeside) + 1;  // half a cell apart
     std::array<double, kSamples> profile;
-    const auto cell_of = [](int k) { return kReach + kBeside - 0.5 * k; };
+    const auto cell_of = [](int k) { return kOutlineReach + kBeside - 0.5 * k; };
     for (int k = 0; k < kSamples; ++k) {
       const auto at = static_cast<std::size_t>(k);
       profile[at] = cells_.at(p.at_px + shift_px + cell_of(k) * cells_.cell_px * p.outward);
@@ -198,7 +198,7 @@ OutlineLook look_at_outline(const std::vector<ContourPoint>& contour,
   OutlineLook near;
   near.cell_px = cell_px;
   if (contour.empty()) return near;
-  const double margin_px = (kReach + kBeside + 2) * cell_px;
+  const double margin_px = (kOutlineReach + kBeside + 2) * cell_px;
   {
     const CellPicture cells = cells_around(contour, frame, noise, cell_px, margin_px);
     near = OutlineFinder(contour, cells).look(Eigen::Vector2d::Zero());

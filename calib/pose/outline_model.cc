@@ -13,9 +13,9 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kCorrelated = 4.0;     // neighbouring points that share an error
-constexpr double kLeastScatter = 0.15;  // cells
-constexpr double kOutlier = 4.0;        // robust standard deviations
+constexpr double kCorrelated = 4.0;      // neighbouring points that share an error
+constexpr double kLeastScatter = 0.15;   // cells
+constexpr double kOutlineOutlier = 4.0;  // robust standard deviations
 // Standard deviations in the fit that finds outliers, cells.
 constexpr double kFreeGrowth = 0.5;
 constexpr double kFreeShift = 5.0;
@@ -158,7 +158,7 @@ void OutlineModel::weigh() {
                kStdPerMad * median_absolute_deviation(
                                 std::vector<double>(residual.begin(), residual.end()), 0.0));
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    const bool far = std::abs(residual[i]) > kOutlier * scatter_px;
+    const bool far = std::abs(residual[i]) > kOutlineOutlier * scatter_px;
     weight_[i] = far ? 0.0 : 1 / (kCorrelated * scatter_px * scatter_px);
   }
   accumulate();
