@@ -46,8 +46,10 @@ struct RowMean {
 
 // The variation of the channel's values across a row and its neighbours: a least-squares cubic, or
 // a quadratic or a plane where samples are few. Where light decays within a few samples, terms that
-// are missing bias whole lines of rows along an edge: on a patch of 8 px and a mean free path of
-// 5.6 px a plane was wrong by up to 2.5 %, a quadratic by 0.5 %, the cubic is by 0.1 %.
+// are missing bias whole lines of rows along an edge. Measured on noise-free shots, patches of 8 px
+// and a mean free path of 5.6 px: a quadratic with neighbours as their means, a plane where samples
+// were few, was wrong by up to 2.6 %; the squares of its errors, in deviations of the rows, added
+// up to 41 (red, one shot), those of the cubic to 5.
 class RowFit {
  public:
   // Precondition: row.n() > 0.
