@@ -2,6 +2,7 @@
 
 #include "capture/files/obj_reader.h"
 #include "core/base/input_error.h"
+#include "core/scene/surroundings.h"
 
 namespace scattermeter::apps {
 
@@ -26,6 +27,7 @@ ObjectScenes open_objects(const Rig& rig,
     objects.emplace(object.name, object_scene(rig.scene, object, mesh));
   }
   require_lights_outside(rig.scene, objects);
+  require_above_plane(rig.scene, objects);
   return objects;
 }
 

@@ -15,6 +15,7 @@
 #include "core/base/input_error.h"
 #include "core/estimation/estimate.h"
 #include "core/scene/seen_object.h"
+#include "core/scene/surroundings.h"
 #include "core/view/observation.h"
 
 namespace py = pybind11;
@@ -229,6 +230,7 @@ std::string estimate_arrays(const py::dict& camera, const py::dict& objects, con
       geometry.emplace(scene.objects[i].name, object_scene(scene, scene.objects[i], meshes[i]));
     }
     require_lights_outside(scene, geometry);
+    require_above_plane(scene, geometry);
     LitObjects lit(scene, geometry, patch_size_mm, farthest_mm(scene, geometry, given));
     std::vector<ObservedShot> observed(given.size());
     const auto responsivity =

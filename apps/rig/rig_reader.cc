@@ -9,6 +9,7 @@
 #include "apps/rig/rig_light_reader.h"
 #include "apps/rig/rig_pose_reader.h"
 #include "apps/rig/rig_sensor_truth.h"
+#include "apps/rig/rig_surroundings.h"
 #include "apps/rig/yaml_field.h"
 
 namespace scattermeter::apps {
@@ -153,7 +154,7 @@ void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
 Rig read_rig(const std::string& path, bool with_radiance) {
   const YamlField top = YamlField::load(path);
   top.only({"scattermeter_rig", "limits", "camera", "pose", "objects", "lights",
-            "even_light_share_std", "shots", "calibration", "truth"});
+            "even_light_share_std", "shots", "surroundings", "calibration", "truth"});
   require_version(top, "scattermeter_rig", "rigs");
   Rig rig;
   rig.path = path;
@@ -185,6 +186,7 @@ Rig read_rig(const std::string& path, bool with_radiance) {
     }
   }
   if (rig.scene.shots.empty()) shots.fail("expected at least one shot");
+  if (const auto f = top.find("surroundings")) rig.scene.surroundings = read_surroundings(*f);
   if (const auto f = top.find("calibration")) rig.calibration = read_calibration(*f, path);
   if (rig.calibration.radiance && rig.calibration.radiance->white) {
     std::vector<std::string> leds;

@@ -8,7 +8,9 @@
 #include "apps/simulation/board_picture.h"
 #include "calib/pose/shot_pose.h"
 #include "core/base/input_error.h"
+#include "core/light/plane_light.h"
 #include "core/material/fresnel.h"
+#include "core/scene/surroundings.h"
 #include "core/transport/volume_light.h"
 
 namespace scattermeter::apps {
@@ -89,20 +91,27 @@ SurfaceField ShotRenderer::field(const SceneShot& shot, Stage& s) const {
   std::array<Medium, 3> media = truth_of(rig_, shot);
   for (Medium& m : media) m.eta_int_over_ext = scene.stated->eta_int_over_ext;
   SurfaceField field(*s.patches, s.needed);
-  for (const std::string& name : shot.lights) {
-    const SceneLight& light = rig_.scene.light(name);
+  const auto add = [&](const Light& light, const std::string& name) {
     const auto [it, is_new] = s.lights.try_emplace(name);
-    if (is_new) it->second = light_on(*light, scene, *s.patches);
+    if (is_new) it->second = light_on(light, scene, *s.patches);
     for (std::size_t c = 0; c < it->second.size(); ++c) {
-      Eigen::Array3d power = light->power();
-      if (light->channels() > 1) {
+      Eigen::Array3d power = light.power();
+      if (light.channels() > 1) {
         power.setZero();
-        power[static_cast<Eigen::Index>(c)] = light->power()[static_cast<Eigen::Index>(c)];
+        power[static_cast<Eigen::Index>(c)] = light.power()[static_cast<Eigen::Index>(c)];
       }
       if (it->second[c].lit.empty()) continue;
       field.add(dipole_radiosity(field.nodes_mm(), it->second[c], scene.box.center_mm(),
                                  1.001 * scene.diagonal_mm(), media, power));
     }
+  };
+  const auto& plane = rig_.scene.surroundings.plane;
+  for (const std::string& name : shot.lights) {
+    const SceneLight& light = rig_.scene.light(name);
+    add(*light, name);
+    if (light.led() == nullptr || !plane || !(plane->albedo > 0.0).any()) continue;
+    add(PlaneLight(light.led()->led, plane->z_mm, plane->albedo, plane->albedo_std),
+        name + " by way of the plane");
   }
   return field;
 }
@@ -122,11 +131,15 @@ SurfaceField ShotRenderer::volume_field(const SceneShot& shot, Stage& s) {
       if (!(light->power()[c] > 0.0)) continue;
       Medium reduced = truth_of(rig_, shot)[static_cast<std::size_t>(c)];
       reduced.eta_int_over_ext = eta;
-      const ScatteringMedium medium = scattering_medium(reduced);
-      const auto source = light->entry(*scene.rays, eta, c);
-      const CameraConnection camera = s.camera->with(medium);
+      const ScatteringMedium medium = scattering_medium(reduced, transport_.phase_mean_cosine);
+      std::optional<DiffusePlane> plane;
+      if (const auto& stated = rig_.scene.surroundings.plane) {
+        plane = stated->in(static_cast<std::size_t>(c));
+      }
+      const auto source = entry_above(light, *scene.rays, eta, c, plane.value_or(DiffusePlane{}));
+      const CameraConnection camera = s.camera->with(medium, plane);
       const VolumeLight l = volume_radiosity(
-          field, *s.patches, {*s.boundary, medium, *source, &camera},
+          field, *s.patches, {*s.boundary, medium, *source, &camera, plane},
           {transport_.seed * 1'000'003ULL + runs_++, transport_.paths, transport_.peers});
       monte_carlo_std_ = std::max(monte_carlo_std_, l.median_relative_std);
       for (std::size_t i = 0; i < values.size(); ++i) {

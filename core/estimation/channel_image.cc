@@ -153,8 +153,20 @@ ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& channel,
 DenseSystem ChannelImage::rows_of_shot(std::size_t shot) const {
   DenseSystem system = channel_system(scene_, channel_, shot, rows_[shot], weights_,
                                       1.0 / sigma_t_per_mm(first_.medium), patch_mm_);
+  system.l -= scene_nuisances_.light_by_plane(*channel_.shots[shot], used_rows(rows_[shot]));
   add_errors_of_method(system);
   return system;
+}
+
+Eigen::VectorXd ChannelImage::light_by_plane() const {
+  Eigen::VectorXd all;
+  for (std::size_t s = 0; s < shots(); ++s) {
+    const Eigen::VectorXd own =
+        scene_nuisances_.light_by_plane(*channel_.shots[s], used_rows(rows_[s]));
+    all.conservativeResize(all.size() + own.size());
+    all.tail(own.size()) = own;
+  }
+  return all;
 }
 
 void ChannelImage::add_errors_of_method(DenseSystem& system) const {

@@ -33,6 +33,8 @@ class ChannelImage final : public ImageRows {
   const std::vector<Nuisance>& nuisances() const override { return nuisances_; }
   ShotSystem shot(std::size_t shot) const override;
   std::size_t negligible_nuisances() const { return negligible_; }
+  // Of all shots: the light by way of the plane below the objects that has been subtracted from l.
+  Eigen::VectorXd light_by_plane() const;
 
  private:
   // With the errors of the method only.

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <string>
 
+#include "core/scene/surroundings.h"
+
 namespace scattermeter {
 
 ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& channel)
@@ -16,6 +18,7 @@ ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& 
       view->second.boundary = std::make_unique<PathBoundary>(*seen.object->rays);
       view->second.camera.emplace(*view->second.boundary, seen.camera_center_mm,
                                   ScatteringMedium{1.0, 0.0, 0.0, channel.eta_int_over_ext});
+      view->second.plane = plane_below(scene, *seen.object).in(channel.channel);
       view->second.rows = scattering_view(*seen.patches, seen.map.patch_of_row);
     }
     for (const std::string& name : shot.stated->lights) {
@@ -29,8 +32,8 @@ ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& 
         lit_.push_back({&seen,
                         &light,
                         &view->second,
-                        light->entry(*seen.object->rays, channel.eta_int_over_ext,
-                                     static_cast<int>(channel.channel)),
+                        entry_above(light, *seen.object->rays, channel.eta_int_over_ext,
+                                    static_cast<int>(channel.channel), view->second.plane),
                         power,
                         {},
                         {}});
@@ -85,10 +88,11 @@ void ChannelSimulation::trace(Draw& draw, const ScatteringPoint& at, int blocks)
                                 channel_.eta_int_over_ext};
   for (std::size_t i = 0; i < lit_.size(); ++i) {
     const LitView& v = lit_[i];
-    const CameraConnection camera = v.view->camera->with(medium);
+    const CameraConnection camera = v.view->camera->with(medium, v.view->plane);
     PathOptions options;
     options.seed = draw.seed + i;
-    draw.of_light[i].trace({*v.view->boundary, medium, *v.source, &camera}, options, blocks);
+    draw.of_light[i].trace({*v.view->boundary, medium, *v.source, &camera, v.view->plane}, options,
+                           blocks);
   }
 }
 

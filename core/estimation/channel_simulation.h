@@ -12,6 +12,7 @@
 
 #include "core/estimation/channel_rows.h"
 #include "core/fit/scattering_equation.h"
+#include "core/light/diffuse_plane.h"
 #include "core/light/entry_source.h"
 #include "core/transport/camera_connection.h"
 #include "core/transport/path_boundary.h"
@@ -54,6 +55,7 @@ class ChannelSimulation {
     std::unique_ptr<PathBoundary> boundary;
     std::optional<CameraConnection> camera;  // of some medium
     ScatteringView rows;
+    DiffusePlane plane;  // below the object
   };
   // One light on one object, as the camera sees it.
   struct LitView {

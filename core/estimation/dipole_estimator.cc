@@ -156,12 +156,13 @@ class DipoleEstimator {
     const auto of_lights = sensitivities_;
     const Estimation& e = e_;
     const DistanceKnots knots = knots_;
+    const auto image = [&e, i, rows, of_lights, knots, first] {
+      return ChannelImage(e.scene, e.channels[i], *rows, e.kept.weights, knots, first,
+                          of_lights->of_channel[i]);
+    };
     (*systems_)[i] =
-        DipoleSystem{[&e, i, rows, of_lights, knots, first] {
-                       return stacked(ChannelImage(e.scene, e.channels[i], *rows, e.kept.weights,
-                                                   knots, first, of_lights->of_channel[i]));
-                     },
-                     knots_, rows, image_in_std};
+        DipoleSystem{[image] { return stacked(image()); },
+                     [image] { return image().light_by_plane(); }, knots_, rows, image_in_std};
   }
 
   void final_fit(std::size_t i) {
@@ -188,7 +189,8 @@ class DipoleEstimator {
     result.estimate = fit.estimate;
     if (!fit.estimate.converged) return;
     if (e_.options.keep_rows) {
-      result.rows = shot_rows(channel, work_[i].rows, fit.image.predicted, fit.image.std_l);
+      result.rows = shot_rows(channel, work_[i].rows, fit.image.predicted + image.light_by_plane(),
+                              fit.image.std_l);
     }
     SmoothReflectanceOptions smooth;
     smooth.scale = options.scale;

@@ -17,22 +17,6 @@ constexpr double kEtaStep = 0.01;
 
 }  // namespace
 
-Eigen::MatrixXd reflectance_curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
-                                   double eta_int_over_ext) {
-  Eigen::MatrixXd r(knots.size(), static_cast<Eigen::Index>(media.size()));
-  for (std::size_t m = 0; m < media.size(); ++m) {
-    Medium medium = media[m].medium;
-    medium.eta_int_over_ext = eta_int_over_ext;
-    const Dipole dipole(medium);
-    for (Eigen::Index i = 0; i < r.rows(); ++i) {
-      r(i, static_cast<Eigen::Index>(m)) =
-          media[m].scale *
-          dipole.reflectance_per_mm2(knots.knots_mm()[static_cast<std::size_t>(i)]);
-    }
-  }
-  return r;
-}
-
 DistanceKnots coarse_knots(const DistanceKnots& knots) {
   constexpr int kFineBits = 5;
   return knots.with_fine_bits(kFineBits);
@@ -89,6 +73,22 @@ std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
   return {first, normal.cross(first)};
 }
 
+Eigen::MatrixXd scaled_curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
+                              double eta) {
+  Eigen::MatrixXd r(knots.size(), static_cast<Eigen::Index>(media.size()));
+  for (std::size_t m = 0; m < media.size(); ++m) {
+    Medium medium = media[m].medium;
+    medium.eta_int_over_ext = eta;
+    const Dipole dipole(medium);
+    for (Eigen::Index i = 0; i < r.rows(); ++i) {
+      r(i, static_cast<Eigen::Index>(m)) =
+          media[m].scale *
+          dipole.reflectance_per_mm2(knots.knots_mm()[static_cast<std::size_t>(i)]);
+    }
+  }
+  return r;
+}
+
 PairSumOptions coarse_pair_options(const DistanceKnots& knots) {
   PairSumOptions pairs;
   pairs.floor_mm = 4.0 * knots.resolution_mm();
@@ -112,8 +112,8 @@ ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, st
   const PairSumOptions pairs = coarse_pair_options(knots);
   const DistanceKnots few = coarse_knots(knots);
   const double eta = seen.object->stated->eta_int_over_ext;
-  const Eigen::MatrixXd r = reflectance_curves(media, knots, eta);
-  const Eigen::MatrixXd other = reflectance_curves(media, knots, eta + kEtaStep);
+  const Eigen::MatrixXd r = scaled_curves(media, knots, eta);
+  const Eigen::MatrixXd other = scaled_curves(media, knots, eta + kEtaStep);
   return changed<Eigen::MatrixXd>(
       seen, light, channel, lit,
       [&](const std::vector<ExitSite>& sites, const SourceCloud& sources, bool is_other_eta) {
@@ -124,7 +124,7 @@ ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, st
 ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weights,
                              const DistanceKnots& knots, const std::vector<LitMedium>& media) {
   const double eta = seen.object->stated->eta_int_over_ext;
-  const Eigen::MatrixXd r = reflectance_curves(media, knots, eta);
+  const Eigen::MatrixXd r = scaled_curves(media, knots, eta);
   const auto image = [&](const WeightMatrix& w) -> Eigen::MatrixXd {
     if (w.size() == 0) return {};
     return w * r;
@@ -134,7 +134,7 @@ ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weigh
   for (const WeightMatrix& w : weights.changed) out.changed.push_back(image(w));
   out.steps = weights.steps;
   if (weights.other_eta.size() > 0) {
-    out.other_eta = weights.other_eta * reflectance_curves(media, knots, eta + kEtaStep);
+    out.other_eta = weights.other_eta * scaled_curves(media, knots, eta + kEtaStep);
   }
   for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = image(weights.shifted[t]);
   out.shift_mm = weights.shift_mm;
@@ -146,7 +146,7 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
                              const DistanceKnots& knots) {
   const double eta = seen.object->stated->eta_int_over_ext;
   LightSensitivity out;
-  out.l = nominal * reflectance_curves(media, knots, eta);
+  out.l = nominal * scaled_curves(media, knots, eta);
   const Eigen::MatrixXd& l = images.nominal;
   const auto change = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
     if (changed.size() == 0) return {};

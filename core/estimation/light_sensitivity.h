@@ -27,17 +27,18 @@ struct LightSensitivity {
   std::vector<Eigen::MatrixXd> per_change;  // by each quantity of Light::changes()
   Eigen::MatrixXd per_eta;                  // by eta, of predicted - observed l: both depend on it
   std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by a shift of the sites along two tangents
+  Eigen::MatrixXd per_albedo;                     // by the albedo of the plane below; of LEDs only
 };
+
+// R on the knots times the medium's scale, one column for each medium.
+Eigen::MatrixXd scaled_curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
+                              double eta_int_over_ext);
 
 // For weights to about 1e-3, which is sufficient for standard deviations.
 PairSumOptions coarse_pair_options(const DistanceKnots& knots);
 
 // The same knots with wider bins between them: their error is the same before and after a change.
 DistanceKnots coarse_knots(const DistanceKnots& knots);
-
-// scale * R of each medium's coefficients at this eta, 1/mm^2: knots x media.
-Eigen::MatrixXd reflectance_curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
-                                   double eta_int_over_ext);
 
 // A view under a light, nominal and with one quantity changed at a time, at the centres of the
 // sites, with light on patches of twice the size: discretisation errors cancel in relative changes,

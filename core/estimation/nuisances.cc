@@ -10,6 +10,7 @@
 #include "core/camera/lens_parameters.h"
 #include "core/camera/pose_shift.h"
 #include "core/estimation/even_light.h"
+#include "core/scene/surroundings.h"
 
 namespace scattermeter {
 
@@ -57,6 +58,27 @@ void SceneNuisances::add_light(const SceneLight& light, const ChannelSensitivity
     if (v.of_change.size() > 0) change += power * (by * v.of_change);
     columns.add(v.name, v.group, v.std, change);
   }
+}
+
+// dl / d albedo, of all LEDs.
+Eigen::VectorXd SceneNuisances::change_by_albedo(const ObservedShot& shot,
+                                                 const std::vector<Eigen::Index>& rows) const {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+  for (const std::string& name : shot.stated->lights) {
+    const SceneLight& light = scene_.light(name);
+    const auto own = sensitivities_.find({shot.seen.get(), name, light.channel_of(channel_)});
+    if (own == sensitivities_.end()) continue;
+    const Eigen::MatrixXd& per_albedo = own->second.sensitivity->per_albedo;
+    if (per_albedo.size() == 0) continue;
+    change +=
+        light->power()[static_cast<Eigen::Index>(channel_)] * per_albedo(rows, own->second.medium);
+  }
+  return change;
+}
+
+Eigen::VectorXd SceneNuisances::light_by_plane(const ObservedShot& shot,
+                                               const std::vector<Eigen::Index>& rows) const {
+  return plane_below(scene_, *shot.seen->object).in(channel_).albedo * change_by_albedo(shot, rows);
 }
 
 // The uncertainties of the radiance calibration: each shot's black, the glare, the shutter.
@@ -221,6 +243,11 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
     add_place(shot, per_mm, columns);
     add_even_light(shot, columns);
     columns.add("eta", "eta", eta_std, per_eta);
+  }
+  const double albedo_std =
+      plane_below(scene_, *shot.seen->object).albedo_std[static_cast<Eigen::Index>(channel_)];
+  if (albedo_std > 0.0) {
+    columns.add("plane albedo", "surroundings", albedo_std, change_by_albedo(shot, rows));
   }
   add_radiance(shot, observed, predicted, columns);
   return columns.take();

@@ -34,15 +34,20 @@ struct NuisanceColumn {
 // each shot; pose
 // (six independent combinations of each pose's covariance); lens (as many as its calibration has
 // parameters, common to all shots, each with the resulting change of the pose fitted with that
-// lens; its effect on calibrated LEDs and scale is not included); eta; each file's black level, the
-// pedestal, glare and the exposure times (common to files of the same stated time; in a bracket
-// each affects the part of a row that comes from it). Those with a standard deviation of 0 are left
-// out, but for eta, which is then tested against the image.
+// lens; its effect on calibrated LEDs and scale is not included); eta; the albedo of the plane
+// below the object; each file's black level, the pedestal, glare and the exposure times (common to
+// files of the same stated time; in a bracket each affects the part of a row that comes from it).
+// Those with a standard deviation of 0 are left out, but for eta, which is then tested against the
+// image.
 class SceneNuisances {
  public:
   // Of one channel. sensitivities: for every view and light of the shots passed to columns().
   SceneNuisances(const Scene& scene, std::size_t channel,
                  std::map<LightKey, ChannelSensitivity> sensitivities);
+  // The light that the plane below the object sends, at the albedo that is stated or assumed, on
+  // some rows of a shot's map: part of the observed l, but not of W r. Zero without a plane.
+  Eigen::VectorXd light_by_plane(const ObservedShot& shot,
+                                 const std::vector<Eigen::Index>& rows) const;
   // On some rows of a shot's map, ascending. Which nuisances are returned depends on the shot only.
   std::vector<NuisanceColumn> columns(const ObservedShot& shot, const ChannelObservation& observed,
                                       const std::vector<Eigen::Index>& rows) const;
@@ -54,6 +59,8 @@ class SceneNuisances {
   void add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm, Columns& columns) const;
   void add_place(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm, Columns& columns) const;
   void add_even_light(const ObservedShot& shot, Columns& columns) const;
+  Eigen::VectorXd change_by_albedo(const ObservedShot& shot,
+                                   const std::vector<Eigen::Index>& rows) const;
   void add_radiance(const ObservedShot& shot, const ChannelObservation& observed,
                     const Eigen::VectorXd& predicted, Columns& columns) const;
 

@@ -6,6 +6,8 @@
 
 #include "core/base/progress.h"
 #include "core/estimation/even_light.h"
+#include "core/estimation/surroundings_nuisance.h"
+#include "core/scene/surroundings.h"
 
 namespace scattermeter {
 namespace {
@@ -75,12 +77,19 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
                     all.by_light[key]});
   }
   const auto make = [&](const Item& item) {
+    const SeenObject& seen = *std::get<0>(item.key);
     if (std::get<1>(item.key).empty()) {
-      item.out.l = even_light_images(*std::get<0>(item.key), knots, item.media);
+      item.out.l = even_light_images(seen, knots, item.media);
       return stage.step();
     }
-    item.out = sensitivity(*std::get<0>(item.key), e.kept.weights.at(item.key),
+    item.out = sensitivity(seen, e.kept.weights.at(item.key),
                            images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
+    if (const LedLight* led = e.scene.light(std::get<1>(item.key)).led()) {
+      const ScenePlane plane = plane_below(e.scene, *seen.object);
+      if (plane.matters()) {
+        item.out.per_albedo = change_by_plane(seen, led->led, plane, knots, item.media);
+      }
+    }
     stage.step();
   };
   tbb::parallel_for(std::size_t{0}, alike.size(), [&](std::size_t k) { make(alike[k]); });

@@ -36,7 +36,7 @@ class TransportSearch {
                   const EstimateOptions& options, const ProgressStage& stage)
       : channel_(channel),
         knots_(dipole.knots),
-        system_(dipole.system()),
+        system_(whole(dipole)),
         rows_(*dipole.rows),
         scale_(scale_prior(scene)),
         options_(options),
@@ -94,6 +94,13 @@ class TransportSearch {
   }
 
  private:
+  // With the light by way of the plane, which paths simulate.
+  static DenseSystem whole(const DipoleSystem& dipole) {
+    DenseSystem system = dipole.system();
+    system.l += dipole.light_by_plane();
+    return system;
+  }
+
   // The errors to be expected, as predicted from paths drawn at other points.
   struct Look {
     ScatteringImage image;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/light/choice.h"
 #include "core/light/disc_light.h"
 #include "core/material/fresnel.h"
 #include "core/material/smooth_boundary.h"
@@ -17,32 +18,6 @@ namespace {
 // Patches across the object over which an LED's light is taken as uniform when positions are
 // sampled; the power of a sample compensates for the difference.
 constexpr double kPatches = 32.0;
-
-// Draws an index in proportion to weights.
-class Choice {
- public:
-  explicit Choice(const std::vector<double>& weights) {
-    double sum = 0.0;
-    for (double w : weights) cumulated_.push_back(sum += w);
-  }
-  double sum() const { return cumulated_.empty() ? 0.0 : cumulated_.back(); }
-  std::size_t at(double share) const {
-    const auto it = std::upper_bound(cumulated_.begin(), cumulated_.end(), share * sum());
-    return std::min(static_cast<std::size_t>(it - cumulated_.begin()), cumulated_.size() - 1);
-  }
-  double probability(std::size_t i) const {
-    return (cumulated_[i] - (i == 0 ? 0.0 : cumulated_[i - 1])) / sum();
-  }
-
- private:
-  std::vector<double> cumulated_;
-};
-
-Eigen::Vector3d even_point(const std::array<Eigen::Vector3d, 3>& t, RandomStream& random) {
-  const double root = std::sqrt(random.uniform());
-  const double v = random.uniform();
-  return t[0] + root * ((1.0 - v) * (t[1] - t[0]) + v * (t[2] - t[0]));
-}
 
 class LedEntry : public EntrySource {
  public:

@@ -44,6 +44,11 @@ void require_in_view(const Scene& scene, const ObjectScenes& objects, const Came
   if (object.rays->contains(view.center_in_world_mm())) {
     throw InputError(where, camera + " lies inside the object");
   }
+  const auto& plane = scene.surroundings.plane;
+  if (plane && !(view.center_in_world_mm().z() > plane->z_mm)) {
+    throw InputError(scene.at(plane->line) + ": surroundings.plane.z_mm",
+                     camera + " is not above the plane");
+  }
   const ViewCheck check = check_view(view, object.mesh());
   if (!check.in_front) throw InputError(where, "the object lies behind " + camera);
   if (!check.in_frame) throw InputError(where, "the object lies outside the frame of " + camera);

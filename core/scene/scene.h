@@ -16,6 +16,7 @@
 #include "core/camera/lens_parameters.h"
 #include "core/camera/sensor_noise.h"
 #include "core/light/ambient_light.h"
+#include "core/light/diffuse_plane.h"
 #include "core/light/distant_light.h"
 #include "core/light/led_light.h"
 
@@ -80,6 +81,27 @@ struct SceneLight {
   }
 };
 
+// The matt plane (table, stand) below the objects. Light that leaves an object and light of an LED
+// that meet the plane are reflected towards the objects.
+struct ScenePlane {
+  double z_mm = 0;
+  Eigen::Array3d albedo = Eigen::Array3d::Zero();      // R, G, B, 0 .. 1
+  Eigen::Array3d albedo_std = Eigen::Array3d::Zero();  // >= 0; errors of the channels are separate
+  PlaneContact contact = PlaneContact::kAir;
+  int line = 0;
+
+  // Whether it may change an image.
+  bool matters() const { return (albedo > 0.0).any() || (albedo_std > 0.0).any(); }
+  // As it is in a channel.
+  DiffusePlane in(std::size_t channel) const {
+    return {z_mm, albedo[static_cast<Eigen::Index>(channel)], contact};
+  }
+};
+
+struct SceneSurroundings {
+  std::optional<ScenePlane> plane;
+};
+
 struct SceneShot {
   std::string file;  // its name identifies the shot
   std::string object;
@@ -105,6 +127,7 @@ struct Scene {
   std::vector<SceneObject> objects;
   std::vector<SceneLight> lights;
   std::vector<SceneShot> shots;
+  SceneSurroundings surroundings;
 
   const SceneObject& object(const std::string& name) const;  // std::out_of_range
   const SceneLight& light(const std::string& name) const;    // std::out_of_range

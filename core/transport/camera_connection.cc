@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "core/material/fresnel.h"
+#include "core/transport/path_plane.h"
 
 namespace scattermeter {
 namespace {
@@ -80,9 +81,9 @@ CameraConnection::CameraConnection(const PathBoundary& boundary,
       phase_(medium.g) {
   medium.check();
   const std::vector<BodyPlane>& planes = boundary.body().planes;
+  cone_ = std::make_shared<EscapeCone>(eta_);
   if (planes.empty()) {
     beams_ = std::make_shared<FacetBeams>(boundary.scene().mesh(), camera_mm_, eta_);
-    cone_ = std::make_shared<EscapeCone>(eta_);
   }
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const double height_mm = -planes[k].depth_mm(camera_mm_);
@@ -91,7 +92,8 @@ CameraConnection::CameraConnection(const PathBoundary& boundary,
   }
 }
 
-CameraConnection CameraConnection::with(const ScatteringMedium& medium) const {
+CameraConnection CameraConnection::with(const ScatteringMedium& medium,
+                                        const std::optional<DiffusePlane>& plane) const {
   medium.check();
   if (medium.eta_int_over_ext != eta_) {
     throw std::invalid_argument(
@@ -101,6 +103,17 @@ CameraConnection CameraConnection::with(const ScatteringMedium& medium) const {
   CameraConnection other = *this;
   other.sigma_t_ = medium.sigma_t_per_mm();
   other.phase_ = HenyeyGreenstein(medium.g);
+  other.no_mirror_ = -1;
+  if (plane && plane->contact == PlaneContact::kOptical) {
+    const std::vector<BodyPlane>& planes = boundary_.body().planes;
+    const PathPlane below(*plane, boundary_.size_mm());
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+      Crossing at;
+      at.normal = planes[k].normal;
+      at.point_mm = planes[k].offset_mm * planes[k].normal;
+      if (below.touches(at)) other.no_mirror_ = static_cast<int>(k);
+    }
+  }
   return other;
 }
 
@@ -131,12 +144,13 @@ void CameraConnection::connect(const Vertex& vertex, RandomStream& random,
   all_windows({vertex.x, vertex.x, {-1, -1}, 0}, 0.0);
   for (int i = 0; most_walls_ > 0 && i < n_near; ++i) {
     const int a = near[static_cast<std::size_t>(i)];
+    if (a == no_mirror_) continue;
     const BodyPlane& wall = planes[static_cast<std::size_t>(a)];
     const double to_wall_mm = wall.depth_mm(vertex.x);
     const Eigen::Vector3d once = vertex.x + 2.0 * to_wall_mm * wall.normal;
     all_windows({once, vertex.x, {a, -1}, 1}, to_wall_mm);
     for (std::size_t b = 0; most_walls_ > 1 && b < planes.size(); ++b) {
-      if (static_cast<int>(b) == a) continue;
+      if (static_cast<int>(b) == a || static_cast<int>(b) == no_mirror_) continue;
       const double to_second_mm = planes[b].depth_mm(once);
       if (!(to_second_mm > 0.0 && to_second_mm < deepest_mm)) continue;
       all_windows({once + 2.0 * to_second_mm * planes[b].normal, once, {a, static_cast<int>(b)}, 2},
@@ -217,7 +231,8 @@ void CameraConnection::through_facets(const Vertex& vertex, double deepest_mm,
 }
 
 std::optional<PathScore> CameraConnection::not_connected(const PathScore& escape) const {
-  if (!cone_ || escape.straight || escape.scatterings == 0) return std::nullopt;
+  const bool connected = beams_ ? escape.straight : !escape.by_plane;
+  if (connected || escape.scatterings == 0) return std::nullopt;
   const Eigen::Vector3d to_camera = (camera_mm_ - escape.point_mm).normalized();
   const Eigen::Vector3d& normal = boundary_.facet_normal(escape.facet_idx);
   const double cosine = to_camera.dot(normal);

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/base/random_stream.h"
+#include "core/light/diffuse_plane.h"
 #include "core/material/henyey_greenstein.h"
 #include "core/material/scattering_medium.h"
 #include "core/transport/escape_cone.h"
@@ -75,9 +76,11 @@ class CameraConnection {
   // bodies of few planes only.
   CameraConnection(const PathBoundary& boundary, const Eigen::Vector3d& camera_in_world_mm,
                    const ScatteringMedium& medium, int most_walls = 2);
-  // The same camera and body for another medium; shares the data that are expensive to build.
-  // std::invalid_argument if eta differs.
-  CameraConnection with(const ScatteringMedium& medium) const;
+  // The same camera and body for another medium, above a plane (a face without a gap of air to the
+  // plane is no mirror); shares the data that are expensive to build. std::invalid_argument if eta
+  // differs.
+  CameraConnection with(const ScatteringMedium& medium,
+                        const std::optional<DiffusePlane>& plane = std::nullopt) const;
 
   // A scattering event: position, direction of flight before it, the path's weight after it, number
   // of scatterings (this one included) and length so far.
@@ -92,8 +95,9 @@ class CameraConnection {
   void connect(const Vertex& vertex, RandomStream& random, std::vector<PathScore>& scores) const;
 
   // The score of an escape that did not come directly from a scattering and hence was not
-  // connected: l toward the camera, averaged over a cone (EscapeCone). Empty for other escapes,
-  // bodies of few planes, and light that was never scattered.
+  // connected: l toward the camera, averaged over a cone (EscapeCone). Empty for other escapes and
+  // for light that was never scattered; from bodies of few planes, only light that has come from
+  // the plane below since it was scattered is scored.
   std::optional<PathScore> not_connected(const PathScore& escape) const;
 
  private:
@@ -126,6 +130,7 @@ class CameraConnection {
   int most_walls_;
   HenyeyGreenstein phase_;
   std::vector<Window> windows_;
+  int no_mirror_ = -1;  // plane that does not reflect inside
   // For a body of many planes.
   std::shared_ptr<const FacetBeams> beams_;
   std::shared_ptr<const EscapeCone> cone_;

@@ -62,8 +62,8 @@ PatchScores patch_scores(const PatchMesh& patches, const PathWorld& world,
   for (Eigen::Matrix3d& c : out.covariance) {
     c = (0.5 * (c + c.transpose()) / (static_cast<double>(out.blocks) * (out.blocks - 1))).eval();
   }
-  for (double* power : {&out.audit.entered, &out.audit.absorbed, &out.audit.escaped,
-                        &out.audit.roulette, &out.audit.lost}) {
+  for (double* power : {&out.audit.entered, &out.audit.absorbed, &out.audit.in_plane,
+                        &out.audit.escaped, &out.audit.roulette, &out.audit.lost}) {
     *power /= out.blocks;
   }
   return out;

@@ -17,7 +17,8 @@ constexpr std::size_t kFewFacets = 8;
 
 PathBoundary::PathBoundary(const RayScene& scene, Method method)
     : scene_(scene),
-      size_mm_(bounds(scene.mesh()).size_mm().maxCoeff()),
+      box_(bounds(scene.mesh())),
+      size_mm_(box_.size_mm().maxCoeff()),
       grain_mm_(kGrain * size_mm_),
       body_(body_planes(scene.mesh(), kFewPlanes)),
       convex_(body_.planes.empty() ? scene.convex() : body_.convex),
@@ -146,6 +147,47 @@ std::optional<Crossing> PathBoundary::entering(const Eigen::Vector3d& x,
   if (convex_) return std::nullopt;
   bool lost = false;  // then the direction grazes the facet that was left
   return passed(x, direction, 4.0 * size_mm_, -1.0, lost);
+}
+
+std::optional<Crossing> PathBoundary::met(const Eigen::Vector3d& x,
+                                          const Eigen::Vector3d& direction) const {
+  // From the sphere around the body: rays keep their digits near it only.
+  const Eigen::Vector3d to_center = box_.center_mm() - x;
+  const double along_mm = to_center.dot(direction);
+  const double radius_mm = 0.5 * box_.size_mm().norm() + grain_mm_;
+  const double half2_mm2 = radius_mm * radius_mm - to_center.squaredNorm() + along_mm * along_mm;
+  if (!(half2_mm2 > 0.0)) return std::nullopt;
+  const double half_mm = std::sqrt(half2_mm2);
+  if (along_mm + half_mm < 0.0) return std::nullopt;
+  const Eigen::Vector3d start = x + std::max(0.0, along_mm - half_mm) * direction;
+  if (!by_planes_) {
+    bool lost = false;
+    return passed(start, direction, 2.0 * half_mm, -1.0, lost);
+  }
+  double enters_mm = -std::numeric_limits<double>::infinity();
+  double leaves_mm = -enters_mm;
+  Crossing at;
+  for (std::size_t k = 0; k < body_.planes.size(); ++k) {
+    const BodyPlane& p = body_.planes[k];
+    const double cosine = p.normal.dot(direction);
+    const double depth_mm = p.depth_mm(start);
+    if (cosine == 0.0) {
+      if (depth_mm < 0.0) return std::nullopt;
+      continue;
+    }
+    const double t = depth_mm / cosine;
+    if (cosine > 0.0) {
+      leaves_mm = std::min(leaves_mm, t);
+    } else if (t > enters_mm) {
+      enters_mm = t;
+      at.plane_idx = static_cast<int>(k);
+    }
+  }
+  if (!(enters_mm < leaves_mm && enters_mm >= 0.0)) return std::nullopt;
+  at.distance_mm = enters_mm;
+  at.point_mm = start + enters_mm * direction;
+  at.normal = body_.planes[static_cast<std::size_t>(at.plane_idx)].normal;
+  return at;
 }
 
 bool PathBoundary::clear_inside(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {

@@ -72,6 +72,9 @@ class PathBoundary {
   std::optional<Crossing> entering(const Eigen::Vector3d& x,
                                    const Eigen::Vector3d& direction) const;
 
+  // Where light from a point outside, not on the surface, meets the body.
+  std::optional<Crossing> met(const Eigen::Vector3d& x, const Eigen::Vector3d& direction) const;
+
   // Whether the straight line between two points inside or on the surface stays inside.
   bool clear_inside(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
@@ -99,6 +102,7 @@ class PathBoundary {
   Eigen::Vector3d off_the_edges(int facet, const Eigen::Vector3d& x) const;
 
   const RayScene& scene_;
+  Box3d box_;
   double size_mm_;
   double grain_mm_;
   BodyPlanes body_;

@@ -7,24 +7,27 @@
 
 namespace scattermeter {
 
-// A share of light at a point of the surface. Weighted by (sigma_s/sigma_s0)^scatterings
-// exp(-(sigma_t - sigma_t0) length_mm) it becomes that of a material with sigma_s and sigma_t, if
-// the path was drawn for sigma_s0 and sigma_t0 (same g and eta).
+// A share of light at a point of the surface, or of the plane below the body. Weighted by
+// (sigma_s/sigma_s0)^scatterings exp(-(sigma_t - sigma_t0) length_mm) it becomes that of a material
+// with sigma_s and sigma_t, if the path was drawn for sigma_s0 and sigma_t0 (same g and eta).
 struct PathScore {
-  Eigen::Vector3d point_mm;   // on the surface
+  Eigen::Vector3d point_mm;   // on the surface; of an escape by way of the plane: on the plane
   Eigen::Vector3d direction;  // unit, outside, away from the surface
-  int facet_idx = -1;
+  int facet_idx = -1;         // -1: on the plane
   double weight = 0;
   int scatterings = 0;   // before it
   double length_mm = 0;  // inside the body
   // Since its last scattering it has neither been reflected nor left the body and entered again.
   bool straight = false;
+  bool by_plane = false;  // since its last scattering it has come from the plane
 };
 
-// Power by fate, in the source's unit. entered = absorbed + escaped + roulette + lost to rounding.
+// Power by fate, in the source's unit. entered = absorbed + in_plane + escaped + roulette + lost to
+// rounding.
 struct PathAudit {
   double entered = 0;
   double absorbed = 0;
+  double in_plane = 0;  // absorbed by the plane below the body
   double escaped = 0;
   double roulette = 0;  // ended by roulette minus the gain of its survivors; 0 in the mean
   double lost = 0;      // of paths found outside the body, or cut at max_scatterings
@@ -35,13 +38,14 @@ struct PathAudit {
   // Calls f for each of the above. Counts below 2^53 are exact as double.
   template <class F>
   void numbers(const F& f) {
-    for (double* power : {&entered, &absorbed, &escaped, &roulette, &lost}) f(*power);
+    for (double* power : {&entered, &absorbed, &in_plane, &escaped, &roulette, &lost}) f(*power);
     for (std::int64_t* count : {&paths, &lost_paths, &scatterings}) f(*count);
   }
 
   PathAudit& operator+=(const PathAudit& o) {
     entered += o.entered;
     absorbed += o.absorbed;
+    in_plane += o.in_plane;
     escaped += o.escaped;
     roulette += o.roulette;
     lost += o.lost;

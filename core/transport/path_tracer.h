@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/base/random_stream.h"
+#include "core/light/diffuse_plane.h"
 #include "core/light/entry_source.h"
 #include "core/material/fresnel.h"
 #include "core/material/henyey_greenstein.h"
@@ -17,6 +18,7 @@
 #include "core/transport/camera_connection.h"
 #include "core/transport/path_boundary.h"
 #include "core/transport/path_peers.h"
+#include "core/transport/path_plane.h"
 #include "core/transport/path_score.h"
 
 namespace scattermeter {
@@ -30,12 +32,16 @@ struct PathOptions {
   PathPeers* peers = nullptr;
 };
 
-// The body, medium, source and camera of the paths. Pointers and references must outlive it.
+// The body, medium, source, camera and surroundings of the paths. Pointers and references must
+// outlive it.
 struct PathWorld {
   const PathBoundary& boundary;
   ScatteringMedium medium;
   const EntrySource& source;
   const CameraConnection* camera = nullptr;  // null: no connections
+  // Below the body (precondition). Light of the source that meets the plane first belongs to the
+  // source (plane_entry()).
+  std::optional<DiffusePlane> plane = std::nullopt;
 };
 
 // Traces one block of paths, with the same digits wherever and whenever. Weights are such that the
@@ -44,10 +50,12 @@ struct PathWorld {
 // A path enters refracted, flies exponential lengths, is scattered after Henyey and Greenstein and
 // reflected or let out at the surface by a draw with Fresnel's reflectance. Absorption lowers its
 // weight (albedo at each scattering) and ends it by roulette only. Light that leaves a non-convex
-// body may enter it again; otherwise it is an escape.
+// body may enter it again, and light that meets the plane is reflected diffusely, with its albedo
+// as a factor; otherwise it is an escape.
 //
 // Sink has escape(const PathScore&): power that leaves for good; and camera(const PathScore&): see
-// CameraConnection.
+// CameraConnection. With a plane, the camera sees what leaves the body towards it, whether or not
+// it then meets the plane; a plane of albedo 0 does not change the camera's scores in any digit.
 template <class Sink>
 class PathTracer {
  public:
@@ -60,6 +68,7 @@ class PathTracer {
         albedo_(world.medium.albedo()),
         mean_free_path_mm_(1.0 / world.medium.sigma_t_per_mm()) {
     world.medium.check();
+    if (world.plane) plane_.emplace(*world.plane, world.boundary.size_mm());
   }
 
   PathAudit trace_block(std::uint64_t block) {
@@ -76,8 +85,13 @@ class PathTracer {
 
  private:
   void trace(const Entry& entry, RandomStream& random) {
-    Path path{
-        entry.position_mm, entry.direction, entry.power / options_.paths_per_block, 0, 0.0, false};
+    Path path{entry.position_mm,
+              entry.direction,
+              entry.power / options_.paths_per_block,
+              0,
+              0.0,
+              false,
+              false};
     audit_.entered += path.weight;
     const double roulette_below = options_.roulette_weight * path.weight;
     double clearance_mm = 0.0;
@@ -92,11 +106,7 @@ class PathTracer {
         if (flight == PathBoundary::Flight::kLost) return lose(path);
         if (leaves(crossing, random, path)) {
           path.length_mm -= step_mm;
-          const Eigen::Vector3d left_at = path.x;
-          if (!enters_again(random, path)) {
-            escape(crossing, left_at, path);
-            return;
-          }
+          if (!enters_again(crossing, random, path)) return;
           clearance_mm = 0.0;
           path.length_mm += step_mm;
         }
@@ -113,6 +123,7 @@ class PathTracer {
       }
       path.direction = phase_.sample(path.direction, random);
       path.straight = true;
+      path.by_plane = false;
       if (path.weight < roulette_below) {
         constexpr double kSurvives = 0.1;
         if (random.uniform() >= kSurvives) {
@@ -132,10 +143,12 @@ class PathTracer {
     int scatterings;
     double length_mm;  // up to the end of the current step
     bool straight;     // as in PathScore
+    bool by_plane;
   };
 
   // At the surface from inside: reflects (false) or refracts out (true).
   bool leaves(const Crossing& at, RandomStream& random, Path& path) const {
+    if (plane_ && plane_->without_gap(at)) return true;
     const double cosine = path.direction.dot(at.normal);
     if (random.uniform() < fresnel_transmittance(1.0 / eta_, cosine)) {
       path.direction = refracted(path.direction, -at.normal, 1.0 / eta_);
@@ -146,37 +159,89 @@ class PathTracer {
     return false;
   }
 
-  // Outside: continues, with any number of external reflections, until it enters the body (true) or
-  // leaves for good.
-  bool enters_again(RandomStream& random, Path& path) const {
-    Eigen::Vector3d x = path.x;
-    while (const std::optional<Crossing> at = world_.boundary.entering(x, path.direction)) {
-      x = at->point_mm;
-      path.straight = false;
-      const double cosine = -path.direction.dot(at->normal);
-      if (random.uniform() < fresnel_transmittance(eta_, cosine)) {
-        path.direction = refracted(path.direction, at->normal, eta_);
-        path.x = x;
-        return true;
-      }
-      path.direction = reflected(path.direction, at->normal);
+  // At the surface from outside: refracts in (true) or reflects.
+  bool enters(const Crossing& at, RandomStream& random, Path& path) const {
+    path.straight = false;
+    const double cosine = -path.direction.dot(at.normal);
+    if (random.uniform() < fresnel_transmittance(eta_, cosine)) {
+      path.direction = refracted(path.direction, at.normal, eta_);
+      path.x = at.point_mm;
+      return true;
     }
+    path.direction = reflected(path.direction, at.normal);
     return false;
   }
 
-  // `at`, `x`: where it left; path.direction is the final one.
-  void escape(const Crossing& at, const Eigen::Vector3d& x, const Path& path) {
-    audit_.escaped += path.weight;
-    const PathScore score{x,
-                          path.direction,
-                          world_.boundary.facet_at(at, x),
-                          path.weight,
-                          path.scatterings,
-                          path.length_mm,
-                          path.straight};
-    sink_.escape(score);
-    if (world_.camera == nullptr) return;
-    if (const auto seen = world_.camera->not_connected(score)) sink_.camera(*seen);
+  // Outside, where it left the body: continues, with any number of reflections by the body and the
+  // plane, until it enters the body (true) or its power is gone.
+  bool enters_again(const Crossing& left, RandomStream& random, Path& path) {
+    if (plane_ && plane_->touches(left)) return returns_at_contact(left, random, path);
+    const Eigen::Vector3d left_at = path.x;
+    Eigen::Vector3d x = path.x;
+    int facet = -1;
+    bool by_plane = false;  // by now
+    bool on_plane = false;
+    for (;;) {
+      const std::optional<Crossing> at = on_plane ? world_.boundary.met(x, path.direction)
+                                                  : world_.boundary.entering(x, path.direction);
+      if (at) {
+        if (enters(*at, random, path)) return true;
+        x = at->point_mm;
+        on_plane = false;
+        continue;
+      }
+      if (!by_plane) {
+        facet = world_.boundary.facet_at(left, left_at);
+        if (world_.camera != nullptr) {
+          const auto seen = world_.camera->not_connected(score_of(path, left_at, facet));
+          if (seen) sink_.camera(*seen);
+        }
+      }
+      if (!plane_ || !plane_->below(path.direction)) {
+        audit_.escaped += path.weight;
+        sink_.escape(by_plane ? score_of(path, x, -1) : score_of(path, left_at, facet));
+        return false;
+      }
+      x = plane_->point_from(x, path.direction);
+      if (!reflects(random, path)) return false;
+      by_plane = on_plane = true;
+    }
+  }
+
+  // In the gap between a face and the plane, which is too thin to move sideways.
+  bool returns_at_contact(const Crossing& left, RandomStream& random, Path& path) {
+    const Crossing here{0.0, path.x, left.normal, left.plane_idx, left.facet_idx};
+    if (world_.plane->contact == PlaneContact::kBlack) {
+      audit_.in_plane += path.weight;
+      return false;
+    }
+    for (;;) {
+      if (!reflects(random, path)) return false;
+      if (plane_->without_gap(left) || enters(here, random, path)) return true;
+    }
+  }
+
+  // On the plane: takes a new direction upwards (true), or all power is absorbed.
+  bool reflects(RandomStream& random, Path& path) {
+    const double albedo = world_.plane->albedo;
+    audit_.in_plane += (1.0 - albedo) * path.weight;
+    path.weight *= albedo;
+    if (!(path.weight > 0.0)) return false;
+    path.direction = diffuse_upwards(random);
+    path.straight = false;
+    path.by_plane = true;
+    return true;
+  }
+
+  PathScore score_of(const Path& path, const Eigen::Vector3d& x, int facet) const {
+    return {x,
+            path.direction,
+            facet,
+            path.weight,
+            path.scatterings,
+            path.length_mm,
+            path.straight,
+            path.by_plane};
   }
 
   void lose(const Path& path) {
@@ -191,6 +256,7 @@ class PathTracer {
   double eta_;
   double albedo_;
   double mean_free_path_mm_;
+  std::optional<PathPlane> plane_;
   PathAudit audit_;
   std::vector<PathScore> scores_;
 };

@@ -1,0 +1,84 @@
+#include "core/estimation/surroundings_nuisance.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/estimation/channel_weights.h"
+#include "core/light/plane_entry.h"
+#include "core/transport/scattering_rows.h"
+#include "tests/fixtures/core/dipole_cube.h"
+
+namespace scattermeter {
+namespace {
+
+constexpr int kGroups = 4;
+
+// The lit front of the cube in three heights, from below, and its top.
+int group_of(const SeenObject& seen, std::size_t row) {
+  const int patch = seen.map.patch_of_row[row];
+  if (seen.patches->normal(patch).z() > 0.5) return 3;
+  return std::min(2, static_cast<int>(seen.patches->center_mm(patch).z() / 20.0 * 3.0));
+}
+
+std::array<double, kGroups> means(const SeenObject& seen, const Eigen::VectorXd& l) {
+  std::array<double, kGroups> sum{};
+  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
+    sum[static_cast<std::size_t>(group_of(seen, j))] +=
+        l[static_cast<Eigen::Index>(j)] * seen.patches->area_mm2(seen.map.patch_of_row[j]);
+  }
+  return sum;
+}
+
+// l by paths, a mean over the groups' rows.
+std::array<double, kGroups> traced(const SeenObject& seen, const Led& led, const Medium& medium,
+                                   const std::optional<DiffusePlane>& plane, int blocks) {
+  const PathBoundary boundary(*seen.object->rays);
+  const ScatteringMedium scattering = scattering_medium(medium);
+  const CameraConnection camera =
+      CameraConnection(boundary, seen.camera_center_mm, scattering).with(scattering, plane);
+  const ScatteringView view = scattering_view(*seen.patches, seen.map.patch_of_row);
+  ScatteringSum sum(view, Eigen::MatrixXd(0, view.n_rows));
+  const auto source = led_entry_above(*seen.object->rays, led, plane.value_or(DiffusePlane{}),
+                                      medium.eta_int_over_ext);
+  sum.trace({boundary, scattering, *source, &camera, plane}, {}, blocks);
+  return means(seen, sum.image().l);
+}
+
+// Change per unit of albedo, relative to the image without the plane, in each group: paths in the
+// plane's presence against the column. On the plane, and hanging above it.
+TEST(SurroundingsNuisance, MeetsPathsAboveAPlane) {
+  test_support::DipoleCube cube;
+  cube.scene.objects[0].eta_int_over_ext = 1.4;
+  const SeenObject& seen = *cube.shots[0].seen;
+  const Led& led = cube.scene.lights[0].led()->led;
+  add_smooth_weights(cube.scene, cube.shots, cube.lit, nullptr, cube.weights);
+  const DistanceKnots knots = smooth_knots(cube.lit);
+  for (const Medium& medium : {Medium{0.8, 0.003, 1.4}, Medium{2.0, 0.03, 1.4}}) {
+    const std::vector<LitMedium> media = {{medium, 1.0}, {medium, 2.0}};
+    const auto dipole =
+        means(seen, cube.weights.at({&seen, "led", 0}) * scaled_curves(media, knots, 1.4).col(0));
+    const auto none = traced(seen, led, medium, std::nullopt, 100);
+    for (const double z_mm : {0.0, -8.0}) {
+      ScenePlane plane;
+      plane.z_mm = z_mm;
+      plane.albedo.setConstant(0.25);
+      const Eigen::MatrixXd change = change_by_plane(seen, led, plane, knots, media);
+      EXPECT_LT((change.col(1) - 2.0 * change.col(0)).norm(), 1e-9 * change.norm());
+      const auto column = means(seen, change.col(0));
+      const auto with_plane = traced(seen, led, medium, plane.in(0), 100);
+      for (std::size_t g = 0; g < kGroups; ++g) {
+        const double expected = (with_plane[g] / none[g] - 1.0) / 0.25;
+        std::printf("sigma_s' %g z %g group %zu: %.3f paths %.3f\n", medium.sigma_s_prime_per_mm, z_mm, g, column[g] / dipole[g], expected);
+        EXPECT_NEAR(column[g] / dipole[g], expected, 0.1 * expected + 0.02)
+            << medium.sigma_s_prime_per_mm << ", " << z_mm << ", group " << g;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace scattermeter
