@@ -13,6 +13,7 @@
 #include "apps/rig/yaml_field.h"
 #include "capture/files/probe_reader.h"
 #include "core/base/input_error.h"
+#include "core/base/nearest_name.h"
 #include "core/light/environment.h"
 #include "core/scene/default_uncertainty.h"
 
@@ -63,6 +64,8 @@ void read_led(const LightEntry& entry, SceneLight& light) {
       field.number_or("exponent_std", default_uncertainty::kLedExponent, 0.0, 1000.0);
   led_light.intensity_relative_std =
       field.number_or("intensity_relative_std", default_uncertainty::kLedIntensity, 0.0, 10.0);
+  // An LED in the very origin of the world may be, but not one a millimetre beside it.
+  require_mm(field.at("position_mm"), led.position_mm.norm(), 2.0);
 }
 
 ProbeProjection read_projection(const YamlField& field) {
@@ -141,15 +144,17 @@ SceneLight read_light(const std::string& name, const YamlField& field, const std
   const LightEntry entry{field, rig_path, limits,
                          rig_path + ":" + std::to_string(light.line) + ": lights." + name};
   std::string known;
+  std::vector<std::string> names;
   for (const LightReader& reader : kLightReaders) {
     if (text == reader.type) {
       reader.read(entry, light);
       return light;
     }
+    names.emplace_back(reader.type);
     const bool is_last = &reader == std::end(kLightReaders) - 1;
     known += (known.empty() ? "" : is_last ? " or " : ", ") + std::string(reader.type);
   }
-  type.fail("expected " + known);
+  type.fail("expected " + known + did_you_mean(text, names));
 }
 
 }  // namespace scattermeter::apps

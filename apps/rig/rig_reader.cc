@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <utility>
 
 #include "apps/rig/rig.h"
@@ -67,6 +67,13 @@ void read_shot_files(const YamlField& field, SceneShot& shot) {
   for (std::size_t i = 1; i < n; ++i) shot.more_exposures_s.push_back(times[i].positive());
 }
 
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
 SceneShot read_shot(const YamlField& field, const Rig& rig) {
   field.only({"file", "object", "material", "lights", "exposure_s"});
   SceneShot shot;
@@ -76,17 +83,11 @@ SceneShot read_shot(const YamlField& field, const Rig& rig) {
   shot.object = object.text();
   const YamlField material = field.at("material");
   shot.material = material.text();
-  const auto known = [](const auto& all, const std::string& name) {
-    for (const auto& one : all) {
-      if (one.name == name) return true;
-    }
-    return false;
-  };
-  if (!known(rig.scene.objects, shot.object)) object.fail("no such object in objects");
+  require_name(object, names_of(rig.scene.objects), "no such object in objects");
   const YamlField lights = field.at("lights");
   for (const YamlField& light : lights.items()) {
     const std::string name = light.text();
-    if (!known(rig.scene.lights, name)) light.fail("no such light in lights");
+    require_name(light, names_of(rig.scene.lights), "no such light in lights");
     for (const std::string& other : shot.lights) {
       if (other == name) light.fail("the light is listed twice");
     }
@@ -176,13 +177,15 @@ Rig read_rig(const std::string& path, bool with_radiance) {
     rig.scene.lights.push_back(read_light(name, field, path, rig.limits));
   }
   take_responsivity_of_leds(lights, rig);
-  std::set<std::string> files;
+  std::map<std::string, int> line_of_file;
   const YamlField shots = top.at("shots");
   for (const YamlField& field : shots.items()) {
     rig.scene.shots.push_back(read_shot(field, rig));
     for (const std::string& file : rig.scene.shots.back().files()) {
-      if (!files.insert(file).second) {
-        field.at("file").fail("two shots of the same name: " + file);
+      const auto [first, is_new] = line_of_file.emplace(file, field.line());
+      if (!is_new) {
+        field.at("file").fail("two shots of the same name: " + file + " is also that of line " +
+                              std::to_string(first->second));
       }
     }
   }
@@ -190,13 +193,12 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   if (const auto f = top.find("surroundings")) rig.scene.surroundings = read_surroundings(*f);
   if (const auto f = top.find("calibration")) rig.calibration = read_calibration(*f, path);
   if (rig.calibration.radiance && rig.calibration.radiance->white) {
-    const std::string& name = rig.calibration.radiance->white->light;
-    const bool is_led =
-        std::any_of(rig.scene.lights.begin(), rig.scene.lights.end(),
-                    [&](const SceneLight& l) { return l.name == name && l.led() != nullptr; });
-    if (!is_led) {
-      top.at("calibration").at("radiance").at("white").at("light").fail("no such LED in lights");
+    std::vector<std::string> leds;
+    for (const SceneLight& light : rig.scene.lights) {
+      if (light.led() != nullptr) leds.push_back(light.name);
     }
+    require_name(top.at("calibration").at("radiance").at("white").at("light"), leds,
+                 "no such LED in lights");
   }
   if (const auto truth = top.find("truth")) read_truth(*truth, rig);
   return rig;
