@@ -57,7 +57,7 @@ TEST(SurroundingsNuisance, MeetsPathsAboveAPlane) {
   const Led& led = cube.scene.lights[0].led()->led;
   add_smooth_weights(cube.scene, cube.shots, cube.lit, nullptr, cube.weights);
   const DistanceKnots knots = smooth_knots(cube.lit);
-  for (const Medium& medium : {Medium{0.8, 0.003, 1.4}, Medium{2.0, 0.03, 1.4}}) {
+  for (const Medium& medium : {Medium{1.0, 0.01, 1.4}, Medium{4.0, 0.06, 1.4}}) {
     const std::vector<LitMedium> media = {{medium, 1.0}, {medium, 2.0}};
     const auto dipole =
         means(seen, cube.weights.at({&seen, "led", 0}) * scaled_curves(media, knots, 1.4).col(0));
@@ -72,7 +72,8 @@ TEST(SurroundingsNuisance, MeetsPathsAboveAPlane) {
       const auto with_plane = traced(seen, led, medium, plane.in(0), 100);
       for (std::size_t g = 0; g < kGroups; ++g) {
         const double expected = (with_plane[g] / none[g] - 1.0) / 0.25;
-        std::printf("sigma_s' %g z %g group %zu: %.3f paths %.3f\n", medium.sigma_s_prime_per_mm, z_mm, g, column[g] / dipole[g], expected);
+        std::printf("sigma_s' %g z %g group %zu: %.3f paths %.3f\n", medium.sigma_s_prime_per_mm,
+                    z_mm, g, column[g] / dipole[g], expected);
         EXPECT_NEAR(column[g] / dipole[g], expected, 0.1 * expected + 0.02)
             << medium.sigma_s_prime_per_mm << ", " << z_mm << ", group " << g;
       }
