@@ -51,6 +51,7 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   add_models_bench(*bench, context, common);
   add_transport_bench(*bench, context, common);
   add_shots_bench(*bench, context, common);
+  add_deviations_bench(*bench, context, common);
   add_sums_bench(*bench, context, common);
 }
 

@@ -54,6 +54,8 @@ void add_models_bench(CLI::App& bench, CommandContext& context, const SharedBenc
 void add_materials_bench(CLI::App& bench, CommandContext& context,
                          const SharedBenchOptions& common);
 void add_shots_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
+void add_deviations_bench(CLI::App& bench, CommandContext& context,
+                          const SharedBenchOptions& common);
 void add_sums_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 
 }  // namespace scattermeter::apps

@@ -11,13 +11,13 @@ namespace scattermeter::apps {
 
 void add_simulate_command(CLI::App& app, CommandContext& context) {
   struct Options {
-    std::string rig, out, transport = "dipole", noise = "on", what = "all";
+    std::string rig, out, transport = "dipole", noise = "on", what = "all", format = "dng";
     SimulateOptions simulate;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "simulate",
-      "Make the raw shots that a rig would have taken of its truth materials (12-bit DNG).\n"
+      "Make the raw shots that a rig would have taken of its truth materials.\n"
       "The rig needs truth.materials; the exposure time is chosen if the rig has none.\n"
       "Started as `mpirun -n N scattermeter simulate ... --transport volume` (if built with Open "
       "MPI), N processes share the light paths; the digits are the same for any N.");
@@ -44,10 +44,18 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
                    "scene: the shots of the objects; calibration: those of the rig's calibration")
       ->check(CLI::IsMember({"all", "scene", "calibration"}))
       ->capture_default_str();
+  command
+      ->add_option("--raw-format", options->format,
+                   "dng: 12-bit DNG; nef: compressed NEF as of a Nikon D80, with its lossy tone "
+                   "curve. The files have the names in the rig")
+      ->check(CLI::IsMember({"dng", "nef"}))
+      ->capture_default_str();
   run_if_named(
       *command, context,
       [options, &context] {
         options->simulate.noise = options->noise == "on";
+        options->simulate.format =
+            options->format == "nef" ? capture::RawFormat::kNef : capture::RawFormat::kDng;
         options->simulate.scene = options->what != "calibration";
         options->simulate.calibration = options->what != "scene";
         options->simulate.transport.peers = context.peers;

@@ -6,8 +6,12 @@
 
 #include <oneapi/tbb/parallel_invoke.h>
 
+#include "apps/instrument/first_look.h"
+#include "apps/instrument/light_look.h"
 #include "apps/instrument/open_shots.h"
+#include "apps/instrument/outline_watch.h"
 #include "calib/pose/shot_pose.h"
+#include "capture/shots/shot_cache.h"
 #include "core/base/progress.h"
 
 namespace scattermeter::apps {
@@ -98,6 +102,21 @@ std::vector<ObservedShot> open_and_light(const Rig& rig, const capture::ShotSour
   return shots;
 }
 
+// The estimate of all channels but those that the findings refuse.
+std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
+                                           const std::vector<ObservedShot>& shots,
+                                           const std::vector<Finding>& findings,
+                                           const EstimateOptions& options, KeptLight& kept,
+                                           Stopwatch& watch, Progress* progress) {
+  Estimation estimation(scene, lit, shots, material_channels(scene, shots, options.channels),
+                        options, kept, watch, progress);
+  refuse(scene, findings, estimation);
+  const bool any = std::any_of(estimation.results.begin(), estimation.results.end(),
+                               [](const ChannelResult& r) { return !r.refused(); });
+  if (any || findings.empty()) estimator(options.model).estimate(estimation);
+  return std::move(estimation.results);
+}
+
 }  // namespace
 
 Instrument::Instrument(const Rig& rig, const ObjectScenes& objects, const MeasureOptions& options,
@@ -148,12 +167,39 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     view = see_all(rig_.scene, objects_, lit_,
                    calib::pose_from_silhouettes(rig_.scene, rig_.pose, objects_, *pose_, source));
   }
-  shots = view && estimator(options.model).on_smooth_knots
-              ? open_and_light(rig_, source, objects_, lit_, *view, progress_, kept_.weights)
-              : open_shots(rig_, source, objects_, lit_, view, progress_);
+  const bool smooth = estimator(options.model).on_smooth_knots;
+  KeptLight of_improved_pose;
+  KeptLight* kept = &kept_;
+  const auto open = [&](const capture::ShotSource& from) {
+    return view && smooth
+               ? open_and_light(rig_, from, objects_, lit_, *view, progress_, kept->weights)
+               : open_shots(rig_, from, objects_, lit_, view, progress_);
+  };
+  OutlineFindings outlines;
+  if (view_ && !without_noise) {
+    OutlineWatch looks(rig_, objects_, *pose_);
+    shots = open(looks.watched(source));
+    outlines = looks.findings(source);
+    // Shots of a wrong rig are looked at again next time.
+    if (!outlines.findings.empty() && source.cache != nullptr) source.cache->forget();
+    if (outlines.pose) {
+      kept = &of_improved_pose;
+      view = see_all(rig_.scene, objects_, lit_, *outlines.pose);
+      shots = open(source);
+    }
+  } else {
+    shots = open(source);
+  }
   watch.lap("shots");
+  std::vector<Finding> of_light;
+  if (smooth && !without_noise) {
+    of_light = LightLook(rig_.scene, lit_, shots, kept->weights).findings();
+    watch.lap("first look");
+  }
+  out.notes = outlines.notes;
   out.brackets = brackets_of(shots);
-  out.results = estimate(rig_.scene, lit_, shots, options, kept_, watch, progress_);
+  out.results = estimate_others(rig_.scene, lit_, shots, in_order(outlines.findings, of_light),
+                                options, *kept, watch, progress_);
   out.skipped = skipped_of(shots, lit_);
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;
   out.skipped.channels_not_asked = material_channels(rig_.scene, shots).size() - out.results.size();

@@ -29,9 +29,12 @@ class Instrument {
 
   // Measures the materials in these shots, jointly over the shots of each. The weights W of each
   // view and light are computed when first needed; they are kept if the pose comes from the rig's
-  // points alone, but not with a board or silhouettes. The digits are the same either way. Fills in
-  // results, patch sizes and timing; notes and inputs are left to the caller. Throws InputError as
-  // measure() does. Must not be called from several threads at once (it uses all of them).
+  // points alone, but not with a board or silhouettes. The digits are the same either way. Before
+  // any fit, outlines and light of the shots are looked at (outline_watch.h, light_look.h):
+  // channels whose shots contradict the rig are refused at once, and a pose that the outlines show
+  // to be off within its uncertainty is corrected by them. Fills in results, patch sizes, timing
+  // and the notes of these looks; inputs are left to the caller. Throws InputError as measure()
+  // does. Must not be called from several threads at once (it uses all of them).
   Measurement measure(const capture::ShotSource& source);
   Measurement measure(const capture::ShotSource& source,
                       Stopwatch& watch);  // records the timing there only

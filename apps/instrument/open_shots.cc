@@ -17,6 +17,22 @@
 namespace scattermeter::apps {
 namespace {
 
+// What the files' pedestals add to l (core/scene/observed_shot.h).
+void subtract_pedestal(ObservedShot& shot) {
+  for (std::size_t c = 0; c < kRgb; ++c) {
+    ChannelObservation& o = shot.observation.channel[c];
+    for (std::size_t k = 0; k < shot.exposures.size(); ++k) {
+      const ShotExposure& e = shot.exposures[k];
+      const double counts = e.pedestal_counts[c] * shot.exposure_s / e.true_s;
+      if (counts == 0.0) continue;
+      for (std::size_t j = 0; j < o.l.size(); ++j) {
+        const double part = o.exposures.empty() ? 1.0 : o.exposures[k].of_row[j];
+        o.l[j] -= counts * part * o.l_per_count[j];
+      }
+    }
+  }
+}
+
 class ShotOpener {
  public:
   ShotOpener(const Rig& rig, const capture::ShotSource& source, const ObjectScenes& objects,
@@ -52,6 +68,7 @@ class ShotOpener {
     const CfaSamples samples = frames_ != nullptr ? decoded(i, shot) : given(i, shot);
     shot.exposure_s = samples.exposure_s;
     shot.observation = observe(samples, shot.seen->map, responsivity_);
+    subtract_pedestal(shot);
     if (may_be_kept) source_.cache->keep(key, shot);
     return shot;
   }

@@ -76,7 +76,9 @@ std::string agreement(const Measurement& m) {
         fmt::format("note: {} {}: the shots do not agree (p = {:.1g}); uncertainties increased\n",
                     r.material, r.channel, r.agreement.p_value);
   }
-  if (compared > 0 && out.empty()) out = "each single shot agrees with the joint estimate\n";
+  if (compared > 0 && out.empty() && !m.any_refused()) {
+    out = "each single shot agrees with the joint estimate\n";
+  }
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -30,7 +31,8 @@ void read_led(const LightEntry& entry, SceneLight& light) {
   LedLight& led_light = light.kind.emplace<LedLight>();
   Led& led = led_light.led;
   field.only({"type", "calibration", "position_mm", "axis", "exponent", "radius_mm",
-              "intensity_W_per_sr", "position_std_mm", "exponent_std", "intensity_relative_std"});
+              "intensity_W_per_sr", "position_std_mm", "axis_std_deg", "exponent_std",
+              "intensity_relative_std"});
   if (const auto calibration = field.find("calibration")) {
     for (const auto& [key, value] : field.entries()) {
       if (key == "type" || key == "calibration") continue;
@@ -51,13 +53,11 @@ void read_led(const LightEntry& entry, SceneLight& light) {
   if (const auto f = field.find("exponent")) led.exponent = f->number(0.0, 1000.0);
   if (const auto f = field.find("radius_mm")) led.radius_mm = f->number(0.0, 1000.0);
   led.intensity_W_per_sr = some_light(field.at("intensity_W_per_sr"));
-  if (const auto f = field.find("position_std_mm")) {
-    led_light.position_std_mm = f->number(0.0, 1000.0);
-  }
-  if (const auto f = field.find("exponent_std")) led_light.exponent_std = f->number(0.0, 1000.0);
-  if (const auto f = field.find("intensity_relative_std")) {
-    led_light.intensity_relative_std = f->number(0.0, 10.0);
-  }
+  led_light.position_std_mm = field.number_or("position_std_mm", 0.3, 0.0, 1000.0);
+  led_light.axis_std_rad =
+      field.number_or("axis_std_deg", 1.0, 0.0, 180.0) * std::numbers::pi / 180.0;
+  led_light.exponent_std = field.number_or("exponent_std", 0.05, 0.0, 1000.0);
+  led_light.intensity_relative_std = field.number_or("intensity_relative_std", 0.01, 0.0, 10.0);
 }
 
 ProbeProjection read_projection(const YamlField& field) {

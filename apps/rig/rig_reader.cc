@@ -17,13 +17,15 @@ namespace {
 
 SceneObject read_object(const std::string& name, const YamlField& field,
                         const std::string& rig_path) {
-  field.only({"mesh", "eta", "eta_std", "patch_size_mm"});
+  field.only({"mesh", "eta", "eta_std", "position_std_mm", "scale_relative_std", "patch_size_mm"});
   SceneObject object;
   object.name = name;
   object.line = field.line();
   object.mesh_path = beside(rig_path, field.at("mesh").text());
   object.eta_int_over_ext = field.at("eta").number(1.0, 4.0);
-  if (const auto f = field.find("eta_std")) object.eta_std = f->number(0.0, 1.0);
+  object.eta_std = field.number_or("eta_std", 0.01, 0.0, 1.0);
+  object.position_std_mm = field.number_or("position_std_mm", 0.1, 0.0, 1000.0);
+  object.scale_relative_std = field.number_or("scale_relative_std", 0.002, 0.0, 1.0);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   return object;
 }
@@ -150,8 +152,8 @@ void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
 
 Rig read_rig(const std::string& path, bool with_radiance) {
   const YamlField top = YamlField::load(path);
-  top.only({"scattermeter_rig", "limits", "camera", "pose", "objects", "lights", "shots",
-            "surroundings", "calibration", "truth"});
+  top.only({"scattermeter_rig", "limits", "camera", "pose", "objects", "lights",
+            "even_light_share_std", "shots", "surroundings", "calibration", "truth"});
   require_version(top, "scattermeter_rig", "rigs");
   Rig rig;
   rig.path = path;
@@ -165,6 +167,7 @@ Rig read_rig(const std::string& path, bool with_radiance) {
     rig.scene.objects.push_back(read_object(name, field, path));
   }
   const YamlField lights = top.at("lights");
+  rig.scene.even_light_share_std = top.number_or("even_light_share_std", 0.003, 0.0, 1.0);
   for (const auto& [name, field] : lights.entries()) {
     rig.scene.lights.push_back(read_light(name, field, path, rig.limits));
   }

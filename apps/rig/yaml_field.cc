@@ -1,16 +1,19 @@
 #include "apps/rig/yaml_field.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <utility>
 
 #include "capture/files/file_kind.h"
 #include "core/base/input_error.h"
+#include "core/base/nearest_name.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -33,6 +36,31 @@ std::string joined(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
+// What ", got 1,4" is to be told: a comma where YAML has a point.
+const char* const kDecimalComma = "; write decimals with a point, not with a comma";
+
+bool is_digits(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(),
+                                      [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// "1,4", "-0,05", "1,4e-3".
+bool has_decimal_comma(const std::string& text) {
+  static const std::regex pattern("[-+]?[0-9]+,[0-9]+([eE][-+]?[0-9]+)?");
+  return std::regex_match(text, pattern);
+}
+
+// The number of the first line that is indented by a tab, up to `last`; 0: none.
+int line_with_tab(const std::string& text, int last) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; number <= last && std::getline(lines, line); ++number) {
+    const std::size_t tab = line.find('\t');
+    if (tab != std::string::npos && tab < line.find_first_not_of(" \t")) return number;
+  }
+  return 0;
+}
+
 }  // namespace
 
 YamlField::YamlField(const YAML::Node& node, std::string file, std::string path)
@@ -49,7 +77,13 @@ YamlField YamlField::load(const std::string& file) {
     if (!node.IsMap()) throw InputError(file, "is not a rig: expected a YAML map at the top");
     return {node, file, ""};
   } catch (const YAML::Exception& e) {
-    throw InputError(file + ":" + std::to_string(e.mark.line + 1), "is not valid YAML: " + e.msg);
+    const int line = e.mark.line + 1;
+    // The parser notices a wrong indentation only in the line after it.
+    if (const int tab = line_with_tab(text.str(), line + 1); tab > 0) {
+      throw InputError(file + ":" + std::to_string(tab),
+                       "the line is indented by a tab, which YAML does not allow; use spaces");
+    }
+    throw InputError(file + ":" + std::to_string(line), "is not valid YAML: " + e.msg);
   }
 }
 
@@ -67,9 +101,13 @@ void YamlField::only(std::initializer_list<const char*> keys) const {
     const std::string where = file_ + ":" + std::to_string(entry.first.Mark().line + 1);
     if (!seen.insert(key).second) throw InputError(where, joined(path_, key) + ": given twice");
     if (std::none_of(keys.begin(), keys.end(), [&](const char* k) { return key == k; })) {
+      const std::vector<std::string> names(keys.begin(), keys.end());
       std::string known;
-      for (const char* k : keys) known += (known.empty() ? "" : ", ") + std::string(k);
-      throw InputError(where, joined(path_, key) + ": unknown key (known here: " + known + ")");
+      for (const std::string& k : names) known += (known.empty() ? "" : ", ") + k;
+      // {eta: 1,4} is a map with the keys eta and 4.
+      throw InputError(where, joined(path_, key) + ": unknown key" +
+                                  (is_digits(key) ? kDecimalComma : did_you_mean(key, names)) +
+                                  " (known here: " + known + ")");
     }
   }
 }
@@ -126,7 +164,8 @@ double YamlField::number(double min, double max) const {
     if (!node_.IsScalar()) fail("expected a number");
     value = node_.as<double>();
   } catch (const YAML::Exception&) {
-    fail("expected a number");
+    const bool comma = node_.IsScalar() && has_decimal_comma(node_.Scalar());
+    fail(std::string("expected a number") + (comma ? kDecimalComma : ""));
   }
   if (!std::isfinite(value)) fail("expected a finite number");
   if (value < min || value > max) {
@@ -151,6 +190,12 @@ double YamlField::positive() const {
   return value;
 }
 
+double YamlField::number_or(const std::string& key, double otherwise, double min,
+                            double max) const {
+  const auto field = find(key);
+  return field ? field->number(min, max) : otherwise;
+}
+
 int YamlField::integer(int min, int max) const {
   const double value = number(min, max);
   if (value != std::floor(value)) fail("expected an integer");
@@ -159,7 +204,10 @@ int YamlField::integer(int min, int max) const {
 
 std::vector<double> YamlField::numbers(std::size_t count) const {
   if (!node_.IsSequence() || node_.size() != count) {
-    fail("expected a list of " + std::to_string(count) + " numbers");
+    // [1,5, 2, 3] has four numbers.
+    const bool commas = node_.IsSequence() && node_.size() > count && node_.size() <= 2 * count;
+    fail("expected a list of " + std::to_string(count) + " numbers" +
+         (commas ? kDecimalComma : ""));
   }
   std::vector<double> out;
   for (const YamlField& item : items()) out.push_back(item.number());

@@ -39,6 +39,8 @@ class YamlField {
   double number(double min = -std::numeric_limits<double>::max(),
                 double max = std::numeric_limits<double>::max()) const;
   double positive() const;
+  // Of a key of a map, which may be absent.
+  double number_or(const std::string& key, double otherwise, double min, double max) const;
   int integer(int min, int max) const;
   std::vector<double> numbers(std::size_t count) const;
   Eigen::Vector3d vector3() const;

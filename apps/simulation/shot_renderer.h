@@ -48,7 +48,8 @@ struct RenderTransport {
   bool volume = false;
   std::int64_t paths = 1'000'000;  // for each light of a shot and channel
   std::uint64_t seed = 1;
-  PathPeers* peers = nullptr;  // processes that share the paths
+  PathPeers* peers = nullptr;    // processes that share the paths
+  double phase_mean_cosine = 0;  // g of the phase function (Henyey and Greenstein), volume only
 };
 
 // The camera of simulated shots: at truth.pose, otherwise at the pose from the pose points. Throws

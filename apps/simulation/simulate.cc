@@ -40,6 +40,28 @@ std::string write_board_shot(const Rig& rig, const std::string& out_folder,
   return path;
 }
 
+// The rig whose camera writes files of that format.
+Rig with_format(Rig rig, capture::RawFormat format) {
+  rig.truth.sensor.format = format;
+  if (format != capture::RawFormat::kNef) return rig;
+  SceneCamera& camera = rig.scene.camera;
+  const std::string file = rig.scene.source;
+  if (const std::string d80 = capture::RawMetadata{}.model;
+      !camera.model.empty() && camera.model != d80) {
+    throw InputError(file + ": camera.model", "is " + camera.model +
+                                                  ", but NEF files are made as a " + d80 +
+                                                  " makes them; write DNG files, or " + d80);
+  }
+  if (camera.sensor.white_counts != capture::RawMetadata{}.white_counts) {
+    throw InputError(
+        file + ": camera.sensor.white_counts",
+        "is " + std::to_string(camera.sensor.white_counts) +
+            ", but the white level of a NEF is 4095; leave it out, or write DNG files");
+  }
+  camera.sensor.nef_lossy_curve = true;
+  return rig;
+}
+
 }  // namespace
 
 capture::RawFrame board_frame(const Rig& rig) {
@@ -47,8 +69,9 @@ capture::RawFrame board_frame(const Rig& rig) {
       .frame(board_signal_counts(rig), board_exposure_s(rig), 0);
 }
 
-SimulatedShots simulate(const Rig& given, const std::string& out_folder,
+SimulatedShots simulate(const Rig& given_rig, const std::string& out_folder,
                         const SimulateOptions& options, Progress* progress) {
+  const Rig given = with_format(given_rig, options.format);
   // A board with a shot of its own is in no other shot.
   Rig rig = given;
   if (!rig.pose.board_shot.empty()) {

@@ -8,6 +8,7 @@
 #include "apps/rig/rig.h"
 #include "apps/simulation/shot_renderer.h"
 #include "capture/raw/raw_frame.h"
+#include "capture/raw/raw_metadata.h"
 #include "core/base/progress.h"
 
 namespace scattermeter::apps {
@@ -15,8 +16,9 @@ namespace scattermeter::apps {
 struct SimulateOptions {
   std::uint64_t seed = 1;
   bool noise = true;
-  bool scene = true;               // the shots of the objects
-  bool calibration = true;         // the shots of the rig's calibration
+  bool scene = true;        // the shots of the objects
+  bool calibration = true;  // the shots of the rig's calibration
+  capture::RawFormat format = capture::RawFormat::kDng;
   RenderTransport transport = {};  // its seed is the one above
 };
 
@@ -29,8 +31,10 @@ struct SimulatedShots {
 // Precondition: the rig names one. Throws InputError if the rig has no pose of the camera.
 capture::RawFrame board_frame(const Rig& rig);
 
-// Writes every shot of the rig (VirtualShots) as a 12-bit DNG into `out_folder`, which is created
-// if it is missing. Throws InputError for bad input; each file appears complete or not at all. With
+// Writes every shot of the rig (VirtualShots) as a 12-bit raw file into `out_folder`, which is
+// created if it is missing. A NEF is that of a D80, whatever camera.sensor.tone_curve says: with
+// the lossy tone curve; the rig's model must be a D80 or open, its white level 4095. Files have the
+// names in the rig. Throws InputError for bad input; each file appears complete or not at all. With
 // peers (transport.peers), only the first writes.
 SimulatedShots simulate(const Rig& rig, const std::string& out_folder,
                         const SimulateOptions& options = {}, Progress* progress = nullptr);

@@ -9,12 +9,12 @@
 namespace scattermeter::capture {
 namespace {
 
-constexpr int kBits = 12;  // of a stored code, as write_dng() packs them
+constexpr int kBits = 12;  // of a stored code, as the writers store it
 
 }  // namespace
 
 RawFrame decoded_frame(int width_px, int height_px, const std::vector<std::uint16_t>& codes,
-                       const DngMetadata& metadata) {
+                       const RawMetadata& metadata) {
   if (width_px <= 0 || height_px <= 0 ||
       codes.size() != static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px)) {
     throw std::invalid_argument("decoded_frame: " + std::to_string(width_px) + " x " +

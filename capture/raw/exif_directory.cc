@@ -10,19 +10,6 @@ namespace {
 
 constexpr double kTwoTo32 = 4294967296.0;
 
-enum TiffType : unsigned { kShort = 3, kRational = 5 };
-
-void put(std::vector<std::uint8_t>& out, std::uint32_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::uint8_t>(value >> 8 * i));
-}
-
-void put_entry(std::vector<std::uint8_t>& out, unsigned tag, TiffType type, std::uint32_t value) {
-  put(out, tag, 2);
-  put(out, type, 2);
-  put(out, 1, 4);
-  put(out, value, 4);
-}
-
 }  // namespace
 
 Rational nearest_rational(double value) {
@@ -51,21 +38,14 @@ Rational nearest_rational(double value) {
 }
 
 std::vector<std::uint8_t> exif_directory(std::uint32_t offset, double exposure_s, double f_number,
-                                         int iso) {
-  constexpr std::uint32_t kEntries = 3;
-  const std::uint32_t values_at = offset + 2 + 12 * kEntries + 4;
-  std::vector<std::uint8_t> out;
-  put(out, kEntries, 2);
-  put_entry(out, 33434, kRational, values_at);      // ExposureTime
-  put_entry(out, 33437, kRational, values_at + 8);  // FNumber
-  put_entry(out, 34855, kShort, static_cast<std::uint32_t>(iso));
-  put(out, 0, 4);
-  for (const double value : {exposure_s, f_number}) {
-    const Rational rational = nearest_rational(value);
-    put(out, rational.numerator, 4);
-    put(out, rational.denominator, 4);
-  }
-  return out;
+                                         int iso, ByteOrder order,
+                                         const std::vector<std::uint8_t>& maker_note) {
+  IfdBytes directory(order);
+  directory.rationals(33434, {nearest_rational(exposure_s)});       // ExposureTime
+  directory.rationals(33437, {nearest_rational(f_number)});         // FNumber
+  directory.shorts(34855, {static_cast<std::uint16_t>(iso)});       // ISOSpeedRatings
+  if (!maker_note.empty()) directory.undefined(37500, maker_note);  // MakerNote
+  return directory.at(offset);
 }
 
 }  // namespace scattermeter::capture

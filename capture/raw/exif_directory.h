@@ -4,21 +4,20 @@
 #include <cstdint>
 #include <vector>
 
-namespace scattermeter::capture {
+#include "capture/raw/ifd_bytes.h"
 
-struct Rational {
-  std::uint32_t numerator;
-  std::uint32_t denominator;
-};
+namespace scattermeter::capture {
 
 // The first convergent of the continued fraction of `value` within 1e-15 of it, relatively (1/10
 // for 0.1, 1/3 for 1.0 / 3), else the last one that fits in 32-bit numbers. Domain: 2^-32 < value <
 // 2^32; throws std::invalid_argument outside.
 Rational nearest_rational(double value);
 
-// A little-endian directory with ExposureTime, FNumber and ISOSpeedRatings, to be written at byte
-// `offset` (even) of the file. (libtiff would convert the times to float: 0.100000001 s.)
+// A directory with ExposureTime, FNumber, ISOSpeedRatings and, unless it is empty, MakerNote, to be
+// written at byte `offset` (even) of the file. (libtiff would convert the times to float:
+// 0.100000001 s.)
 std::vector<std::uint8_t> exif_directory(std::uint32_t offset, double exposure_s, double f_number,
-                                         int iso);
+                                         int iso, ByteOrder order = ByteOrder::kLittleEndian,
+                                         const std::vector<std::uint8_t>& maker_note = {});
 
 }  // namespace scattermeter::capture

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace scattermeter::capture {
@@ -28,29 +29,51 @@ std::size_t largest_value(const Histogram& histogram) {
   return value;
 }
 
-// The histogram of a frame with noise of more than about one value falls off towards its upper end,
-// however the scene is lit. The largest value m then occurs no more often than the most frequent of
-// the few values just below it, apart from the Poisson scatter of both numbers: with n samples at m
-// and b at that value, n - b has a standard deviation of at most sqrt(n + b). The rule requires six
-// of them: with four phases per frame, one false alarm in 10^8 frames (and n > 36 whatever b).
+// A pile-up at m with n samples has few samples above it (a, outliers such as a defect pixel) and
+// exceeds the most frequent of the few values just below it (b samples). The rule requires
+//  - n - b > 6 sqrt(n + b), the standard deviation of the difference being at most sqrt(n + b), so
+//    that n > 36 whatever b, and
+//  - a <= (n - b) / 16.
+// Noise alone does not satisfy the second one. Of normally distributed samples with a standard
+// deviation of 0.53 values or more (see shows_noise) at least 0.27 (n - b) lie above m, wherever
+// the mean is; numbers of samples add, so that this holds for every mixture of such distributions,
+// which the histogram of any noisy scene is. Where it holds, the two conditions together require
+// that n - b exceeds its expectation by more than six standard deviations, once in 10^9 cases. A
+// candidate has 16 times as many samples as all of those above it, so that a phase of 10 megapixels
+// has five at most: with four phases, one false alarm in 10^7 frames.
 // Values that do not occur are skipped (gaps of a curve, a 12-bit camera in a 14-bit file). A
 // pile-up far below the white level is due to the scene, so m must reach half of the white level.
+// Not found is a pile-up that spreads over several values.
 constexpr std::size_t kValuesBeneath = 8;
 constexpr double kSigmas = 6.0;
+constexpr double kMaxOutliersOfPile = 1.0 / 16;
 constexpr double kMinFractionOfWhite = 0.5;
 
-bool piles_up(const Histogram& histogram, std::size_t largest, double white_counts) {
-  const std::size_t pile = histogram[largest];
-  if (static_cast<double>(largest) < kMinFractionOfWhite * white_counts) return false;
+std::size_t fullest_beneath(const Histogram& histogram, std::size_t value) {
   std::size_t fullest = 0;
-  std::size_t met = 0;
-  for (std::size_t value = largest; value-- > 0 && met < kValuesBeneath;) {
+  for (std::size_t met = 0; value-- > 0 && met < kValuesBeneath;) {
     fullest = std::max(fullest, histogram[value]);
     met += histogram[value] > 0 ? 1 : 0;
   }
-  const auto n = static_cast<double>(pile);
-  const auto b = static_cast<double>(fullest);
-  return n - b > kSigmas * std::sqrt(n + b);
+  return fullest;
+}
+
+// The highest value below `nominal` at which samples pile up.
+std::optional<std::size_t> pile_up(const Histogram& histogram, double nominal,
+                                   double white_counts) {
+  double above = 0;  // samples
+  for (std::size_t value = kValues - 1;
+       static_cast<double>(value) >= kMinFractionOfWhite * white_counts && value > 0; --value) {
+    const auto n = static_cast<double>(histogram[value]);
+    if (static_cast<double>(value) < nominal && above <= kMaxOutliersOfPile * n) {
+      const auto b = static_cast<double>(fullest_beneath(histogram, value));
+      if (n - b > kSigmas * std::sqrt(n + b) && above <= kMaxOutliersOfPile * (n - b)) {
+        return value;
+      }
+    }
+    above += n;
+  }
+  return std::nullopt;
 }
 
 // The rank of each value among the values that occur in the phase.
@@ -78,7 +101,7 @@ constexpr double kMaxEvenFraction = 1.0 / 3;
 constexpr double kMinFractionOfPile = 0.125;  // "not dark" is above this share of the pile-up
 
 bool shows_noise(const RawFrame& frame, const std::array<Histogram, 4>& counts,
-                 const std::array<std::size_t, 4>& largest) {
+                 const std::array<std::size_t, 4>& top_values) {
   std::array<std::vector<int>, 4> rank;
   std::transform(counts.begin(), counts.end(), rank.begin(), ranks);
   std::size_t triples = 0;
@@ -89,7 +112,7 @@ bool shows_noise(const RawFrame& frame, const std::array<Histogram, 4>& counts,
     const std::uint16_t* row = &frame.samples[y * width];
     for (std::size_t x = 0; x + 4 < width; ++x) {
       const std::size_t phase = 2 * (y % 2) + x % 2;
-      const std::size_t top = largest[phase];
+      const std::size_t top = top_values[phase];
       const std::array<std::size_t, 3> v = {row[x], row[x + 2], row[x + 4]};
       if (v[0] >= top || v[1] >= top || v[2] >= top) continue;
       const double black = frame.black_counts[phase];
@@ -118,17 +141,17 @@ std::array<double, 4> clip_levels(const RawFrame& frame) {
   if (frame.samples.empty()) return clip;
 
   const std::array<Histogram, 4> counts = histograms(frame);
-  std::array<std::size_t, 4> largest{};
-  std::transform(counts.begin(), counts.end(), largest.begin(), largest_value);
+  std::array<std::size_t, 4> top{};
   std::array<bool, 4> pile{};
   for (std::size_t phase = 0; phase < 4; ++phase) {
-    pile[phase] = static_cast<double>(largest[phase]) < nominal &&
-                  piles_up(counts[phase], largest[phase], frame.white_counts);
+    const std::optional<std::size_t> found = pile_up(counts[phase], nominal, frame.white_counts);
+    pile[phase] = found.has_value();
+    top[phase] = found.value_or(largest_value(counts[phase]));
   }
   if (std::none_of(pile.begin(), pile.end(), [](bool p) { return p; })) return clip;
-  if (!shows_noise(frame, counts, largest)) return clip;
+  if (!shows_noise(frame, counts, top)) return clip;
   for (std::size_t phase = 0; phase < 4; ++phase) {
-    if (pile[phase]) clip[phase] = static_cast<double>(largest[phase]);
+    if (pile[phase]) clip[phase] = static_cast<double>(top[phase]);
   }
   return clip;
 }

@@ -9,6 +9,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "capture/raw/decoded_frame.h"
+#include "capture/raw/dng_writer.h"
+#include "capture/raw/nef_writer.h"
 #include "capture/raw/tone_curve.h"
 #include "core/base/input_error.h"
 #include "core/base/random_stream.h"
@@ -158,7 +160,8 @@ RawFrame VirtualSensor::frame(const std::vector<float>& signal_counts, double st
 void VirtualSensor::write(const std::string& path, const std::vector<float>& signal_counts,
                           double stated_s, std::uint64_t stream) const {
   const CameraIntrinsics& k = camera_.intrinsics;
-  write_dng(path, k.width_px, k.height_px, codes(signal_counts, stated_s, stream),
+  const auto write_raw = truth_.format == RawFormat::kNef ? write_nef : write_dng;
+  write_raw(path, k.width_px, k.height_px, codes(signal_counts, stated_s, stream),
             metadata(stated_s));
 }
 
@@ -182,11 +185,11 @@ SensorModel VirtualSensor::model() const {
   return sensor;
 }
 
-DngMetadata VirtualSensor::metadata(double stated_s) const {
+RawMetadata VirtualSensor::metadata(double stated_s) const {
   const SceneCamera& camera = camera_;
-  DngMetadata metadata;
+  RawMetadata metadata;
   // Cameras repeat the name of the make in the tag of the model: "NIKON D80" is the D80 by NIKON.
-  if (!camera.model.empty()) {
+  if (!camera.model.empty() && truth_.format == RawFormat::kDng) {
     metadata.model = camera.model;
     metadata.make = camera.model.substr(0, camera.model.find(' '));
   }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "capture/raw/dng_writer.h"
 #include "capture/raw/raw_frame.h"
+#include "capture/raw/raw_metadata.h"
 #include "capture/sensor/sensor.h"
 #include "capture/sensor/sensor_truth.h"
 #include "core/scene/scene.h"
@@ -44,7 +44,8 @@ class VirtualSensor {
   // capture/raw/decoded_frame.h.
   RawFrame frame(const std::vector<float>& signal_counts, double stated_s,
                  std::uint64_t stream) const;
-  // Writes the 12-bit DNG, complete or not at all. Throws InputError naming the file.
+  // Writes the raw file in the format of the truth, complete or not at all. Throws InputError
+  // naming the file. Precondition: the camera is as its writer requires.
   void write(const std::string& path, const std::vector<float>& signal_counts, double stated_s,
              std::uint64_t stream) const;
 
@@ -52,7 +53,7 @@ class VirtualSensor {
   double range_counts() const;
 
   SensorModel model() const;
-  DngMetadata metadata(double stated_s) const;
+  RawMetadata metadata(double stated_s) const;
 
  private:
   std::vector<float> on_sensor(std::vector<float> signal_counts, double stated_s) const;

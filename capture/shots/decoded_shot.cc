@@ -139,11 +139,16 @@ std::vector<std::uint8_t> to_bytes(const DecodedShot& shot) {
   Json exposures = Json::array();
   for (const ShotExposure& e : shot.exposures) {
     // A departure may be NaN; packing preserves its bits.
-    exposures.push_back(
-        {{"file", e.file},
-         {"numbers", packed(std::vector<double>{e.stated_s, e.true_s, e.relative_std,
-                                                e.black_std_counts, e.departure.log_ratio,
-                                                e.departure.noise_std, e.departure.mean_counts})}});
+    std::vector<double> numbers{e.stated_s,
+                                e.true_s,
+                                e.relative_std,
+                                e.black_std_counts,
+                                e.departure.log_ratio,
+                                e.departure.noise_std,
+                                e.departure.mean_counts};
+    numbers.insert(numbers.end(), e.pedestal_counts.begin(), e.pedestal_counts.end());
+    numbers.insert(numbers.end(), e.pedestal_std_counts.begin(), e.pedestal_std_counts.end());
+    exposures.push_back({{"file", e.file}, {"numbers", packed(numbers)}});
   }
   const auto& mean = shot.frame_mean_counts;
   return Json::to_cbor(
@@ -177,9 +182,15 @@ std::optional<DecodedShot> decoded_shot(std::span<const std::uint8_t> bytes) {
     for (const Json& e : list(at(j, "exposures"))) {
       const Json& file = at(e, "file");
       const std::vector<double> n = unpacked<double>(at(e, "numbers"));
-      if (!file.is_string() || n.size() != 7) throw NoShot{};
-      shot.exposures.push_back(
-          {file.get<std::string>(), n[0], n[1], n[2], n[3], {n[4], n[5], n[6]}});
+      if (!file.is_string() || n.size() != 13) throw NoShot{};
+      shot.exposures.push_back({file.get<std::string>(),
+                                n[0],
+                                n[1],
+                                n[2],
+                                n[3],
+                                {n[4], n[5], n[6]},
+                                {n[7], n[8], n[9]},
+                                {n[10], n[11], n[12]}});
     }
     for (const ChannelObservation& o : shot.observation.channel) {
       if (!o.exposures.empty() && o.exposures.size() != shot.exposures.size()) throw NoShot{};

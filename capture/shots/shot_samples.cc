@@ -12,6 +12,7 @@
 #include "capture/sensor/frame_samples.h"
 #include "capture/sensor/merged_samples.h"
 #include "capture/sensor/radiance_calibration.h"
+#include "capture/shots/pedestal.h"
 #include "core/base/input_error.h"
 
 namespace scattermeter::capture {
@@ -90,6 +91,11 @@ ShotSamples shot_samples(const Scene& scene, const ShotDecoding& decoding, const
                              of_frame.exposure_relative_std,
                              of_frame.black_std_counts,
                              {}});
+    if (!decoding.radiance) {
+      const Pedestal pedestal = pedestal_of(frames[k], {x0, y0, width, height});
+      out.exposures[k].pedestal_counts = pedestal.counts;
+      out.exposures[k].pedestal_std_counts = pedestal.std_counts;
+    }
     bracket.push_back(std::move(of_frame.samples));
   }
   if (bracket.size() == 1) {

@@ -130,13 +130,17 @@ ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& channel,
   });
   const std::vector<Effect> all = summed(of_shot);
   const std::vector<bool> negligible = negligible_of(all);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (negligible[k]) {
-      ++negligible_;
-      continue;
+  // Those that are stated as exact, and only tested, follow the fitted ones.
+  for (const bool fitted : {true, false}) {
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (all[k].nuisance.fitted != fitted) continue;
+      if (fitted && negligible[k]) {
+        ++negligible_;
+        continue;
+      }
+      index_[all[k].nuisance.name] = static_cast<Eigen::Index>(nuisances_.size());
+      nuisances_.push_back(all[k].nuisance);
     }
-    index_[all[k].nuisance.name] = static_cast<Eigen::Index>(nuisances_.size());
-    nuisances_.push_back(all[k].nuisance);
   }
   // The errors of the method, as for a shot without rows: those of the octaves, and its own.
   DenseSystem none{WeightMatrix(0, knots.size()), Eigen::VectorXd(0), Eigen::VectorXd(0)};

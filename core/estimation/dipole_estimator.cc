@@ -9,6 +9,7 @@
 
 #include "core/estimation/channel_image.h"
 #include "core/estimation/estimation.h"
+#include "core/estimation/mesh_scale.h"
 #include "core/estimation/nuisances.h"
 #include "core/estimation/sensitivities.h"
 #include "core/fit/dipole_fit.h"
@@ -199,6 +200,7 @@ class DipoleEstimator {
                                   {fit.optimum.sigma_s_prime_per_mm(), fit.optimum.sigma_a_per_mm(),
                                    channel.eta_int_over_ext},
                                   std::exp(fit.optimum.log_s), misfit);
+    widen_by_mesh_scale(channel, result.estimate);
     if (channel.shots.size() < 2) return;
     result.singles.clear();
     for (std::size_t s = 0; s < channel.shots.size(); ++s) {

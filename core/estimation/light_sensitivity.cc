@@ -15,8 +15,14 @@ namespace {
 
 constexpr double kEtaStep = 0.01;
 
-// Bins between the knots: their error is the same before and after a change.
-constexpr int kFineBits = 5;
+}  // namespace
+
+DistanceKnots coarse_knots(const DistanceKnots& knots) {
+  constexpr int kFineBits = 5;
+  return knots.with_fine_bits(kFineBits);
+}
+
+namespace {
 
 // make(sites, sources, is_other_eta): of one change.
 template <class Each, class Make>
@@ -56,9 +62,7 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
     out.changed.push_back(make(sites[0], lit_by(*change.changed, eta), false));
     out.steps.push_back(change.step);
   }
-  if (object.stated->eta_std > 0.0) {
-    out.other_eta = make(sites[0], nominal(eta + kEtaStep), true);
-  }
+  out.other_eta = make(sites[0], nominal(eta + kEtaStep), true);
   return out;
 }
 
@@ -96,7 +100,7 @@ PairSumOptions coarse_pair_options(const DistanceKnots& knots) {
 ChangedWeights changed_weights(const SeenObject& seen, const SceneLight& light, std::size_t channel,
                                LitObjects& lit, const DistanceKnots& knots) {
   const PairSumOptions pairs = coarse_pair_options(knots);
-  const DistanceKnots few = knots.with_fine_bits(kFineBits);
+  const DistanceKnots few = coarse_knots(knots);
   return changed<WeightMatrix>(seen, light, channel, lit,
                                [&](const std::vector<ExitSite>& sites, const SourceCloud& sources,
                                    bool) { return smooth_weights(sites, sources, few, pairs); });
@@ -106,7 +110,7 @@ ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, st
                              LitObjects& lit, const DistanceKnots& knots,
                              const std::vector<LitMedium>& media) {
   const PairSumOptions pairs = coarse_pair_options(knots);
-  const DistanceKnots few = knots.with_fine_bits(kFineBits);
+  const DistanceKnots few = coarse_knots(knots);
   const double eta = seen.object->stated->eta_int_over_ext;
   const Eigen::MatrixXd r = scaled_curves(media, knots, eta);
   const Eigen::MatrixXd other = scaled_curves(media, knots, eta + kEtaStep);

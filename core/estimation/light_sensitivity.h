@@ -21,7 +21,7 @@ struct LitMedium {
 };
 
 // Change of l (per unit of the light's power) on the rows of a view for each medium: rows x media.
-// Empty if the quantity is stated as exact.
+// Those by the light's quantities that are stated as exact are left out.
 struct LightSensitivity {
   Eigen::MatrixXd l;                        // nominal
   std::vector<Eigen::MatrixXd> per_change;  // by each quantity of Light::changes()
@@ -36,6 +36,9 @@ Eigen::MatrixXd scaled_curves(const std::vector<LitMedium>& media, const Distanc
 
 // For weights to about 1e-3, which is sufficient for standard deviations.
 PairSumOptions coarse_pair_options(const DistanceKnots& knots);
+
+// The same knots with wider bins between them: their error is the same before and after a change.
+DistanceKnots coarse_knots(const DistanceKnots& knots);
 
 // A view under a light, nominal and with one quantity changed at a time, at the centres of the
 // sites, with light on patches of twice the size: discretisation errors cancel in relative changes,

@@ -1,12 +1,15 @@
 #include "core/estimation/nuisances.h"
 
+#include <numbers>
 #include <utility>
 
 #include <fmt/core.h>
 
 #include "core/base/covariance_root.h"
+#include "core/base/cross_matrix.h"
 #include "core/camera/lens_parameters.h"
 #include "core/camera/pose_shift.h"
+#include "core/estimation/even_light.h"
 #include "core/scene/surroundings.h"
 
 namespace scattermeter {
@@ -23,7 +26,7 @@ class SceneNuisances::Columns {
       column.change += change;
       return;
     }
-    list_.push_back({{group, std, true, name}, change});
+    list_.push_back({{group, std, std > 0.0, name}, change});
   }
   // Of a quantity on all rows of the view.
   Eigen::VectorXd of(const Eigen::MatrixXd& on_view, Eigen::Index medium) const {
@@ -100,6 +103,10 @@ void SceneNuisances::add_radiance(const ObservedShot& shot, const ChannelObserva
       columns.add("black " + e.file, "black level", e.black_std_counts,
                   (shot.exposure_s / e.true_s) * part.cwiseProduct(l_per_count));
     }
+    if (e.pedestal_std_counts[channel_] > 0.0) {
+      columns.add("pedestal " + e.file, "pedestal", e.pedestal_std_counts[channel_],
+                  (shot.exposure_s / e.true_s) * part.cwiseProduct(l_per_count));
+    }
     if (e.relative_std > 0.0) {
       columns.add(fmt::format("exposure {:.4g}", e.stated_s), "exposure time", e.relative_std,
                   part.cwiseProduct(predicted));
@@ -148,6 +155,62 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
   }
 }
 
+// The effect of the object's position and orientation: what the samples see shifts along the
+// surface as if the camera moved, and every LED moves the other way.
+void SceneNuisances::add_place(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
+                               Columns& columns) const {
+  const SeenObject& seen = *shot.seen;
+  const double std_mm = seen.object->stated->position_std_mm;
+  if (!(std_mm > 0.0)) return;
+  const Rigid3d& pose = shot.pose.camera_from_world;
+  const Eigen::Vector3d& center_mm = seen.object->box.center_mm();
+  const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
+  const auto n = static_cast<Eigen::Index>(columns.rows().size());
+  // Columns: translation, mm, and rotation about the centre, rad, in the world frame.
+  Eigen::Matrix<double, 6, 6> pose_by_place = Eigen::Matrix<double, 6, 6>::Zero();
+  pose_by_place.topRightCorner<3, 3>() = rotation;
+  pose_by_place.bottomLeftCorner<3, 3>() = rotation;
+  pose_by_place.bottomRightCorner<3, 3>() = rotation * cross_matrix(center_mm);
+  Eigen::Matrix<double, Eigen::Dynamic, 6> change(n, 6);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto row = static_cast<std::size_t>(columns.rows()[static_cast<std::size_t>(i)]);
+    change.row(i) = per_mm.col(i).transpose() *
+                    surface_shift_by_pose(pose, seen.sites[row].center_mm,
+                                          seen.patches->normal(seen.map.patch_of_row[row])) *
+                    pose_by_place;
+  }
+  for (const std::string& name : shot.stated->lights) {
+    const SceneLight& light = scene_.light(name);
+    const LedLight* led = light.led();
+    if (led == nullptr || !led->moves()) continue;
+    const ChannelSensitivity& own = sensitivities_.at({shot.seen.get(), name, 0});
+    Eigen::Matrix<double, Eigen::Dynamic, 3> by_position(n, 3);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      by_position.col(k) =
+          columns.of(own.sensitivity->per_change[static_cast<std::size_t>(k)], own.medium);
+    }
+    by_position *= light->power()[static_cast<Eigen::Index>(channel_)];
+    change.leftCols<3>() -= by_position;
+    // The LED moves by -(w x (p - c)).
+    change.rightCols<3>() += by_position * cross_matrix(led->led.position_mm - center_mm);
+  }
+  const double std_rad = std_mm / seen.object->size_mm();
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    columns.add(seen.object->stated->name + ".position" + std::to_string(k), "mesh position",
+                k < 3 ? std_mm : std_rad, change.col(k));
+  }
+}
+
+void SceneNuisances::add_even_light(const ObservedShot& shot, Columns& columns) const {
+  const auto own = sensitivities_.find(even_light_key(shot));
+  if (own == sensitivities_.end()) return;
+  const double std = scene_.even_light_share_std *
+                     facing_irradiance_W_per_mm2(scene_, shot, channel_) / std::numbers::pi;
+  if (!(std > 0.0)) return;
+  columns.add("even light " + shot.stated->file, "even light", std,
+              columns.of(own->second.sensitivity->l, own->second.medium));
+}
+
 std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
                                                     const ChannelObservation& observed,
                                                     const std::vector<Eigen::Index>& rows) const {
@@ -176,11 +239,13 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
         per_mm.col(i) += intensity * s.per_tangent_mm[t](row, own.medium) * along[t];
       }
     }
-    if (eta_std > 0.0) per_eta += intensity * columns.of(s.per_eta, own.medium);
+    per_eta += intensity * columns.of(s.per_eta, own.medium);
   }
   if (has_view) {
     add_view(shot, per_mm, columns);
-    if (eta_std > 0.0) columns.add("eta", "eta", eta_std, per_eta);
+    add_place(shot, per_mm, columns);
+    add_even_light(shot, columns);
+    columns.add("eta", "eta", eta_std, per_eta);
   }
   const Eigen::VectorXd by_albedo = change_by_albedo(shot, rows);
   if (by_albedo.size() > 0) {

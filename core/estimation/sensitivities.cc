@@ -5,6 +5,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/base/progress.h"
+#include "core/estimation/even_light.h"
 #include "core/estimation/surroundings_nuisance.h"
 #include "core/scene/surroundings.h"
 
@@ -43,17 +44,19 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
     if (!estimated[i]) continue;
     const Estimate& first = e.results[i].estimate;
+    const auto add = [&](const LightKey& key) {
+      const auto [it, is_new] =
+          column[i].try_emplace(key, static_cast<Eigen::Index>(media[key].size()));
+      if (is_new) {
+        media[key].push_back({{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
+                              first.scale.value});
+      }
+    };
     for (const ObservedShot* shot : e.channels[i].shots) {
       for (const std::string& light : shot->stated->lights) {
-        const LightKey key{shot->seen.get(), light,
-                           e.scene.light(light).channel_of(e.channels[i].channel)};
-        const auto [it, is_new] =
-            column[i].try_emplace(key, static_cast<Eigen::Index>(media[key].size()));
-        if (is_new) {
-          media[key].push_back({{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
-                                first.scale.value});
-        }
+        add({shot->seen.get(), light, e.scene.light(light).channel_of(e.channels[i].channel)});
       }
+      if (may_have_even_light(e.scene, *shot)) add(even_light_key(*shot));
     }
   }
   const auto made = std::make_shared<Sensitivities>();
@@ -67,13 +70,18 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
   };
   std::vector<Item> alike, apart;  // in the channels
   for (const auto& [key, list] : media) {
-    const bool is_one = e.scene.light(std::get<1>(key))->channels() == 1;
+    const bool is_even = std::get<1>(key).empty();
+    const bool is_one = is_even || e.scene.light(std::get<1>(key))->channels() == 1;
     (is_one ? alike : apart)
-        .push_back({key, list, may_be_kept(key, knots) ? &e.kept.changed[key] : nullptr,
+        .push_back({key, list, !is_even && may_be_kept(key, knots) ? &e.kept.changed[key] : nullptr,
                     all.by_light[key]});
   }
   const auto make = [&](const Item& item) {
     const SeenObject& seen = *std::get<0>(item.key);
+    if (std::get<1>(item.key).empty()) {
+      item.out.l = even_light_images(seen, knots, item.media);
+      return stage.step();
+    }
     item.out = sensitivity(seen, e.kept.weights.at(item.key),
                            images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
     if (const LedLight* led = e.scene.light(std::get<1>(item.key)).led()) {

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/base/dense_solve.h"
 #include "core/fit/excess_scatter.h"
 #include "core/fit/part_light.h"
+#include "core/fit/prior_pulls.h"
 
 namespace scattermeter {
 namespace {
@@ -16,6 +18,14 @@ constexpr double kWideningPValue = 1e-2;
 ScatteringImage part_of(const ScatteringImage& m, Eigen::Index first, Eigen::Index n) {
   return {m.l.segment(first, n), m.per_log_sigma_s.segment(first, n),
           m.per_sigma_a.segment(first, n), m.variance.segment(first, n)};
+}
+
+// The largest factor of the Monte Carlo variance by which rows may scatter without exceeding `most`
+// times their light.
+double most_scatter(double most, const Eigen::VectorXd& light, const Eigen::VectorXd& monte_carlo,
+                    const Eigen::VectorXd& weights) {
+  const double own = weights.dot(monte_carlo);
+  return own > 0.0 ? 1.0 + most * most * weights.dot(light.cwiseAbs2()) / own : 1.0;
 }
 
 // Columns that touch some of the rows.
@@ -33,6 +43,7 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
                                const ScatteringPoint& at, const ScatteringImage& pilot,
                                double expected, const Eigen::MatrixXd& cells)
     : shots_(shots),
+      scale_(scale),
       at_(at),
       pilot_(pilot),
       correlated_(correlated_rows(shots.parts, at.scale * pilot.l, cells)),
@@ -80,10 +91,16 @@ void TransportRound::take(const ChannelSimulation::Draw& draw) {
   // Smoothed images, such as renderings, scatter less from row to row than over several rows; both
   // are noise. Offsets of whole parts are not.
   const Eigen::VectorXd rest = residual();
-  scatter_within_ = std::max(
-      excess_scatter(joint_.without_nuisances(rest), shots_.system.std_l.cwiseAbs2(),
-                     at_.scale * at_.scale * image_.variance, joint_.row_variance().cwiseInverse()),
-      scatter_of_cells(rest));
+  const Eigen::VectorXd settled = joint_.without_nuisances(rest);
+  const Eigen::VectorXd noise = shots_.system.std_l.cwiseAbs2();
+  const Eigen::VectorXd paths = at_.scale * at_.scale * image_.variance;
+  const Eigen::VectorXd weights = joint_.row_variance().cwiseInverse();
+  unexplained_ = std::sqrt(std::max(0.0, (settled.cwiseAbs2() - noise - paths).mean()) /
+                           shots_.system.l.cwiseAbs2().mean());
+  scatter_within_ =
+      std::max(std::min(excess_scatter(settled, noise, paths, weights),
+                        most_scatter(kMostRowScatter, shots_.system.l, paths, weights)),
+               scatter_of_cells(rest));
   scatter_ = scatter_within_;
   misfit_ = misfit_of(rest);
   if (misfit_.p_value < kWideningPValue) scatter_ *= std::max(1.0, misfit_.chi2 / misfit_.dof);
@@ -112,7 +129,9 @@ double TransportRound::scatter_of_cells(const Eigen::VectorXd& rest) const {
   // A part that is one cell does not contribute.
   const Eigen::VectorXd weights =
       (paths.array() > 1e-9 * paths.maxCoeff()).select(paths.cwiseInverse(), 0.0);
-  return excess_scatter(light * rest, noise, paths, weights);
+  return std::min(
+      excess_scatter(light * rest, noise, paths, weights),
+      most_scatter(kMostCellScatter, Eigen::VectorXd::Ones(paths.size()), paths, weights));
 }
 
 std::vector<std::size_t> TransportRound::shots() const {
@@ -155,9 +174,7 @@ ShotAgreement TransportRound::agreement(const std::vector<ScatteringEquation::St
   return agreement_of(estimates, all);
 }
 
-LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
-  if (blocks_ < kLeastBlocks) return {};
-  const Eigen::MatrixXd light = shots_.parts.parts() * shots_.parts.cells();
+Eigen::MatrixXd TransportRound::covariance_of_parts(const Eigen::MatrixXd& light) const {
   const Eigen::Index n = light.rows();
   const Eigen::MatrixXd noise =
       light * shots_.system.std_l.cwiseAbs2().asDiagonal() * light.transpose();
@@ -166,9 +183,14 @@ LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
   const double own_parts =
       static_cast<double>(n) / static_cast<double>(shots_.system.shot_rows.size());
   const double too_large = (blocks_ - 1.0) / (blocks_ - own_parts - 2.0);
-  const Eigen::MatrixXd paths =
-      at_.scale * at_.scale * scatter_within_ * too_large *
-      (shots_.parts.parts() * cell_covariance() * shots_.parts.parts().transpose());
+  return noise + at_.scale * at_.scale * scatter_within_ * too_large *
+                     (shots_.parts.parts() * cell_covariance() * shots_.parts.parts().transpose());
+}
+
+LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
+  if (blocks_ < kLeastBlocks) return {};
+  const Eigen::MatrixXd light = shots_.parts.parts() * shots_.parts.cells();
+  const Eigen::Index n = light.rows();
   const Eigen::MatrixXd j = light * ScatteringEquation::jacobian(pilot_, at_, unknowns() == 3);
   Eigen::MatrixXd free(n, j.cols() + joint_.nuisances().cols());
   constexpr double kWide = 30.0;  // of the light
@@ -180,7 +202,31 @@ LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
                                      [](const Nuisance& v) { return !std::isfinite(v.std); });
   const int fitted = static_cast<int>(j.cols() + unbound);
   if (n <= fitted) return {};
-  return lack_of_fit(light * rest, noise + paths, free, fitted);
+  return lack_of_fit(light * rest, covariance_of_parts(light), free, fitted);
+}
+
+std::vector<PriorPull> TransportRound::pulls() const {
+  if (blocks_ < kLeastBlocks) return {};
+  const Eigen::MatrixXd light = shots_.parts.parts() * shots_.parts.cells();
+  const Eigen::MatrixXd root = cholesky_lower(covariance_of_parts(light));
+  if (!root.allFinite()) return {};
+  const auto whitened = [&](const Eigen::MatrixXd& of_rows) -> Eigen::MatrixXd {
+    return root.triangularView<Eigen::Lower>().solve(light * of_rows);
+  };
+  const bool is_free = unknowns() == 3;
+  const auto n = static_cast<Eigen::Index>(shots_.system.nuisances.size());
+  WhitenedModel model;
+  model.residual = whitened(residual());
+  model.free = whitened(ScatteringEquation::jacobian(pilot_, at_, is_free));
+  model.columns.resize(light.rows(), n + (is_free ? 0 : 1));
+  if (n > 0) model.columns.leftCols(n) = whitened(shots_.system.nuisance_columns);
+  model.nuisances = shots_.system.nuisances;
+  if (!is_free) {
+    model.columns.rightCols(1) = whitened(at_.scale * pilot_.l);
+    model.nuisances.push_back({"scale", scale_.relative_std, true, "scale"});
+  }
+  model.data_length = whitened(shots_.system.l).norm();
+  return judge(model).pulls;
 }
 
 }  // namespace scattermeter

@@ -9,6 +9,7 @@
 
 #include "core/estimation/channel_simulation.h"
 #include "core/estimation/transport_verdict.h"
+#include "core/fit/estimate.h"
 #include "core/fit/lack_of_fit.h"
 #include "core/fit/linear_shot.h"
 #include "core/fit/scattering_equation.h"
@@ -59,7 +60,13 @@ class TransportRound {
   Eigen::VectorXd residual() const { return joint_.residual(image_, at_, step_.to); }
   // Error variance of the shots beyond their noise, over the Monte Carlo variance: within their
   // parts, and in total (a misfit of the parts less probable than 1 in 100 widens it by Birge's
-  // ratio).
+  // ratio). The former is limited: rows may scatter by kMostRowScatter of the image beyond noise
+  // and Monte Carlo, cells by kMostCellScatter, so that no residual excuses itself.
+  static constexpr double kMostRowScatter = 0.01;
+  static constexpr double kMostCellScatter = 0.005;
+  // Root mean square of the rows' residual beyond noise and Monte Carlo, nuisances fitted, relative
+  // to the image.
+  double unexplained() const { return unexplained_; }
   double scatter_within() const { return scatter_within_; }
   double scatter() const { return scatter_; }
   // Whether the image contradicts the stated scale.
@@ -77,6 +84,8 @@ class TransportRound {
   // The misfit of the light of the shots' parts, with free coefficients. Empty (dof 0) for fewer
   // than kLeastBlocks blocks.
   const LackOfFit& misfit() const { return misfit_; }
+  // Of the rig's uncertain quantities, from the light of the parts; none for fewer blocks.
+  std::vector<PriorPull> pulls() const;
 
  private:
   struct Single {
@@ -87,9 +96,12 @@ class TransportRound {
   };
   Eigen::Index unknowns() const { return joint_.projection().rows(); }
   double scatter_of_cells(const Eigen::VectorXd& rest) const;
+  // Covariance of the light of the parts by noise, Monte Carlo and scatter within them.
+  Eigen::MatrixXd covariance_of_parts(const Eigen::MatrixXd& light) const;
   LackOfFit misfit_of(const Eigen::VectorXd& rest) const;
 
   TransportShots shots_;
+  ScalePrior scale_;
   ScatteringPoint at_;
   ScatteringImage pilot_;
   Eigen::MatrixXd correlated_;  // errors common to rows
@@ -97,6 +109,7 @@ class TransportRound {
   std::vector<Single> singles_;
   ScatteringImage image_;
   Eigen::MatrixXd covariance_;  // of projection() * image
+  double unexplained_ = 0;
   double scatter_within_ = 1;
   double scatter_ = 1;
   LackOfFit misfit_;

@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "core/estimation/channel_simulation.h"
+#include "core/estimation/mesh_scale.h"
 #include "core/estimation/transport_pilot.h"
 #include "core/estimation/transport_round.h"
 #include "core/estimation/transport_verdict.h"
@@ -221,7 +222,9 @@ class TransportSearch {
     if (options_.keep_rows) {
       result.rows = shot_rows(channel_, rows_, system_.l - rest, variance.cwiseSqrt());
     }
-    add_refusals(round.misfit(), scale_test, round.blocks(), estimate);
+    add_refusals(round.misfit(), round.unexplained(), round.pulls(), scale_test, round.blocks(),
+                 estimate);
+    widen_by_mesh_scale(channel_, estimate);
     report_shots(round, result);
   }
 

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/core.h>
+
+#include "core/fit/prior_pulls.h"
 
 namespace scattermeter {
 namespace {
@@ -12,6 +15,12 @@ namespace {
 // With a misfit this improbable and this large, the result is refused.
 constexpr double kMisfitPValue = 1e-6;
 constexpr double kMisfit = 0.003;
+// A residual that exceeds noise and Monte Carlo by this share of the image is refused: twice what
+// rows may scatter.
+constexpr double kUnexplained = 0.02;
+// A quantity of the rig contradicted by so many deviations, and by that share of the image.
+constexpr double kMostPull = 5.0;
+constexpr double kLeastPullImage = 1e-3;
 // The same for the stated scale, a single direction: an offset of three standard deviations widens
 // the result by it, one of 4.4 that exceeds a per cent refuses it.
 constexpr double kWideningScalePValue = 3e-3;
@@ -77,8 +86,8 @@ ScatteringEquation::Step widened_by_scale(const ScatteringEquation& equation,
   return step;
 }
 
-void add_refusals(const LackOfFit& misfit, const ScatteringEquation::ScaleTest& scale, int blocks,
-                  Estimate& estimate) {
+void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<PriorPull> pulls,
+                  const ScatteringEquation::ScaleTest& scale, int blocks, Estimate& estimate) {
   if (blocks < kLeastBlocks) {
     estimate.reasons.push_back(fmt::format(
         "the time was too short: {} blocks of paths for each light, at least {} are needed", blocks,
@@ -91,6 +100,17 @@ void add_refusals(const LackOfFit& misfit, const ScatteringEquation::ScaleTest& 
         "transport does not explain the shots: parts of the image are {:.2g} % off (scale, light, "
         "pose, shape or eta are not as the rig states)",
         100.0 * misfit.rms));
+  }
+  if (unexplained > kUnexplained) {
+    estimate.reasons.push_back(
+        fmt::format("transport does not explain the shots: the residual is {:.2g} %, of which "
+                    "neither noise nor "
+                    "Monte Carlo explains {:.2g} %",
+                    100.0 * estimate.rms_relative, 100.0 * unexplained));
+  }
+  estimate.pulls = std::move(pulls);
+  if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
+    estimate.reasons.push_back(contradiction_sentence(*worst));
   }
   if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {
     estimate.reasons.push_back(fmt::format(

@@ -1,6 +1,8 @@
 // Verdicts on a round of the search by transport.
 #pragma once
 
+#include <vector>
+
 #include "core/fit/estimate.h"
 #include "core/fit/lack_of_fit.h"
 #include "core/fit/scattering_equation.h"
@@ -31,8 +33,9 @@ ScatteringEquation::Step widened_by_scale(const ScatteringEquation& equation,
                                           const ScatteringEquation::ScaleTest& scale,
                                           ScatteringEquation::Step step);
 
-// Adds the misfit and any reasons for refusal to an estimate whose values are already set.
-void add_refusals(const LackOfFit& misfit, const ScatteringEquation::ScaleTest& scale, int blocks,
-                  Estimate& estimate);
+// Adds the misfit, the pulls and any reasons for refusal to an estimate whose values are already
+// set. unexplained: see TransportRound::unexplained().
+void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<PriorPull> pulls,
+                  const ScatteringEquation::ScaleTest& scale, int blocks, Estimate& estimate);
 
 }  // namespace scattermeter

@@ -235,7 +235,7 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
   // Errors of the method are at least as large as the misfit that is seen.
   std::vector<Nuisance> nuisances = rows.nuisances();
   for (Nuisance& n : nuisances) {
-    if (!n.fitted && estimate.misfit_p_value < options.misfit_p_value) {
+    if (!n.fitted && n.std > 0.0 && estimate.misfit_p_value < options.misfit_p_value) {
       n.std = std::max(n.std, options.misfit_margin * estimate.misfit_relative);
     }
   }

@@ -26,6 +26,9 @@ std::vector<IncidentLight> AmbientLight::illuminate(const PatchMesh& patches, co
   if (use == LightUse::kMeasure) {
     options.tolerance = 3e-4;
     options.sky_bisections = 3;
+  } else if (use == LightUse::kBudget) {
+    options.tolerance = 1e-2;
+    options.sky_bisections = 1;
   }
   return {scattermeter::illuminate(patches, scene, even_probe(), eta_int_over_ext, options)[0]};
 }

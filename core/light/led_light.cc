@@ -1,5 +1,7 @@
 #include "core/light/led_light.h"
 
+#include <Eigen/Geometry>
+
 #include "core/base/covariance_root.h"
 
 namespace scattermeter {
@@ -18,6 +20,11 @@ std::array<Eigen::Index, kSeen> seen_by(std::size_t channel) {
 // A nuisance whose last entry is the coefficient of the logarithm of the intensity.
 LightNuisance calibrated_nuisance(const std::string& name, const Eigen::VectorXd& seen) {
   return {name, "LED calibration", 1.0, seen.head(kSeen - 1), seen[kSeen - 1], 0.0};
+}
+
+std::array<Eigen::Vector3d, 2> axis_tangents(const Led& led) {
+  const Eigen::Vector3d first = led.axis.unitOrthogonal();
+  return {first, led.axis.cross(first)};
 }
 
 }  // namespace
@@ -42,14 +49,16 @@ std::vector<LightChange> LedLight::changes(const Eigen::Vector3d& object_center_
   // A hundredth of the distance: shadow edges then move by several of the parts that patches are
   // cut into, and the next order is still a hundredth of the first.
   const double move_mm = 0.01 * (led.position_mm - object_center_mm).norm();
-  for (int i = 0; i < 3 && (calibrated || position_std_mm > 0.0); ++i) {
+  for (int i = 0; i < 3 && moves(); ++i) {
     Led other = led;
     other.position_mm[i] += move_mm;
     add(other, move_mm);
   }
-  for (std::size_t t = 0; t < 2 && calibrated; ++t) {
+  const std::array<Eigen::Vector3d, 2> tangents =
+      calibrated ? calibrated->tangents : axis_tangents(led);
+  for (std::size_t t = 0; t < 2 && (calibrated || axis_std_rad > 0.0); ++t) {
     Led other = led;
-    other.axis = (led.axis + kTurn_rad * calibrated->tangents[t]).normalized();
+    other.axis = (led.axis + kTurn_rad * tangents[t]).normalized();
     add(other, kTurn_rad);
   }
   if (calibrated || exponent_std > 0.0) {
@@ -77,11 +86,15 @@ std::vector<LightNuisance> LedLight::nuisances(const std::string& name, std::siz
     }
     return out;
   }
-  const bool moves = position_std_mm > 0.0;
-  const Eigen::Index n = (moves ? 3 : 0) + (exponent_std > 0.0 ? 1 : 0);
-  for (Eigen::Index i = 0; i < 3 && moves; ++i) {
+  const bool turns = axis_std_rad > 0.0;
+  const Eigen::Index n = (moves() ? 3 : 0) + (turns ? 2 : 0) + (exponent_std > 0.0 ? 1 : 0);
+  for (Eigen::Index i = 0; i < 3 && moves(); ++i) {
     out.push_back({name + ".position" + std::to_string(i), "LED position", position_std_mm,
                    Eigen::VectorXd::Unit(n, i), 0.0, 0.0});
+  }
+  for (Eigen::Index i = 0; i < 2 && turns; ++i) {
+    out.push_back({name + ".axis" + std::to_string(i), "LED axis", axis_std_rad,
+                   Eigen::VectorXd::Unit(n, (moves() ? 3 : 0) + i), 0.0, 0.0});
   }
   if (exponent_std > 0.0) {
     out.push_back({name + ".exponent", "LED exponent", exponent_std,

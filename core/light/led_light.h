@@ -13,13 +13,17 @@ namespace scattermeter {
 struct LedLight final : Light {
   Led led;
   double position_std_mm = 0;  // in each coordinate
+  double axis_std_rad = 0;     // in each of two directions
   double exponent_std = 0;
   double intensity_relative_std = 0;  // common to the three channels
-  // From `calibrate led`: replaces the three deviations above.
+  // From `calibrate led`: replaces the four deviations above.
   std::optional<LedUncertainty> calibrated;
   // With a calibrated intensity: the responsivity (counts mm^2 sr/(W s), R G B) for which it was
   // calibrated.
   std::optional<std::array<double, 3>> calibrated_for;
+
+  // Whether changes() begin with those of the position.
+  bool moves() const { return calibrated || position_std_mm > 0.0; }
 
   std::size_t channels() const override { return 1; }
   const Eigen::Array3d& power() const override { return led.intensity_W_per_sr; }

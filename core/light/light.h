@@ -40,6 +40,7 @@ struct LightNuisance {
 // The purpose for which the light is computed.
 enum class LightUse {
   kMeasure,  // for a fit
+  kBudget,   // for an uncertainty: 1 % suffices
   kRender,   // for a simulated picture: finer where the two differ
 };
 

@@ -33,6 +33,11 @@ struct ShotExposure {
   double relative_std = 0;           // of true_s
   double black_std_counts = 0;       // of this file's black level, common to its samples
   ExposureDeparture departure = {};  // in a bracket
+  // Counts common to the samples of a channel besides their light, already subtracted, and the
+  // standard deviation of what remains: black level and glare (capture/shots/pedestal.h). 0 with a
+  // radiance calibration, which states its own.
+  std::array<double, kRgb> pedestal_counts{};
+  std::array<double, kRgb> pedestal_std_counts{};
 };
 
 // The part of a shot's files that a measurement uses and a cache stores.

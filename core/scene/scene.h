@@ -53,6 +53,10 @@ struct SceneObject {
   std::string mesh_path;  // of a closed mesh, mm; for messages and for the code that reads it
   double eta_int_over_ext = 1.3;
   double eta_std = 0;
+  // Standard deviation of each coordinate of the object's position, world, mm; its orientation is
+  // uncertain by the same amount at a distance of its own size.
+  double position_std_mm = 0;
+  double scale_relative_std = 0;        // of all lengths of the mesh
   std::optional<double> patch_size_mm;  // absent: chosen
   int line = 0;
 };
@@ -114,6 +118,10 @@ struct SceneShot {
 };
 
 struct Scene {
+  // Standard deviation of unlisted, uniform light on each shot's object under LEDs, whose
+  // irradiance is this share of the LEDs' on a surface that faces them; for shots that list no
+  // ambient light.
+  double even_light_share_std = 0;
   std::string source;  // the file that describes it, for messages; "": created in code
   SceneCamera camera;
   std::vector<SceneObject> objects;

@@ -21,7 +21,7 @@ const std::string& raw_path() {
     for (std::uint16_t& code : codes) code = static_cast<std::uint16_t>(64 + random() % 4000);
     const std::string path =
         (std::filesystem::temp_directory_path() / "raw_reader_bench.dng").string();
-    write_dng(path, kWidth, kHeight, codes, DngMetadata{});
+    write_dng(path, kWidth, kHeight, codes, RawMetadata{});
     return path;
   }();
   return kPath;

@@ -37,7 +37,7 @@ void raws(const fs::path& folder) {
   constexpr int kSide = 24;
   std::vector<std::uint16_t> codes(kSide * kSide);
   for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = static_cast<std::uint16_t>(64 + i);
-  scattermeter::capture::DngMetadata metadata;
+  scattermeter::capture::RawMetadata metadata;
   scattermeter::capture::write_dng(folder / "plain.dng", kSide, kSide, codes, metadata);
   metadata.black_counts = {60, 61, 62, 63};
   for (std::uint16_t i = 0; i < 1024; ++i) {

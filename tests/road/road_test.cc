@@ -236,6 +236,21 @@ TEST(Road, ToneCurveAndOtherPhase) {
   EXPECT_LT(worst_errors(Json::parse(rig.result())).first, 0.02) << r.out;
 }
 
+// Files as the target camera makes them, one shot a bracket.
+TEST(Road, NefsOfAD80) {
+  SmallRig rig;
+  rig.keep_shots("PE_pyramid");
+  rig.write(replaced(replaced(rig.text(), "black_counts: 64}", "black_counts: 0}"),
+                     "{file: PE_pyramid_1.dng,",
+                     "{file: [short.NEF, long.NEF], exposure_s: [0.01, 0.1],"));
+  rig.simulate({"--raw-format", "nef"});
+  const Answer r = rig.measure();
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  const Json result = Json::parse(rig.result());
+  EXPECT_EQ(result["brackets"].size(), 1U);
+  EXPECT_LT(worst_errors(result).first, 0.02) << r.out;
+}
+
 TEST(Road, PaperModel) {
   SmallRig rig;
   rig.keep_shots("PE_pyramid_2");

@@ -62,6 +62,37 @@ TEST(YamlField, RefusesWhatIsNoMap) {
   expect_message([&] { load(folder, "a: [1, 2\nb: 3"); }, "not valid YAML");
 }
 
+TEST(YamlField, SuggestsTheKeyThatWasMeant) {
+  const TemporaryFolder folder;
+  const YamlField top = load(folder, "camera: 1\nlihgts: 2\n");
+  expect_message(
+      [&] {
+        top.only({"camera", "lights", "shots"});
+      },
+      "a.yaml:2: lihgts: unknown key; did you mean lights? (known here: camera, lights,");
+}
+
+TEST(YamlField, TabsAndTheirLine) {
+  const TemporaryFolder folder;
+  for (const char* text : {"a:\n  b: 1\n\tc: 2\n", "a: 1\nb:\n\tc: 2\n", "a:\n  - 1\n\t- 2\n"}) {
+    expect_message([&] { load(folder, text); }, "a.yaml:3: the line is indented by a tab");
+  }
+  // Within brackets, and behind the indentation, a tab is a space.
+  EXPECT_EQ(load(folder, "a: [1,\n\t2]\nb:\t3\n").at("a").numbers(2)[1], 2);
+}
+
+TEST(YamlField, DecimalCommas) {
+  const TemporaryFolder folder;
+  const YamlField top = load(folder, "a: 1,4\nb: [30,5, -60, 80]\nc: {eta: 1,4}\nd: -0,5e-3\n");
+  const std::string told = "write decimals with a point, not with a comma";
+  expect_message([&] { top.at("a").number(); },
+                 "a.yaml:1: a: expected a number; " + told + ", got 1,4");
+  expect_message([&] { top.at("b").vector3(); },
+                 "a.yaml:2: b: expected a list of 3 numbers; " + told);
+  expect_message([&] { top.at("c").only({"eta"}); }, "a.yaml:3: c.4: unknown key; " + told);
+  expect_message([&] { top.at("d").number(); }, told);
+}
+
 // What the system refuses to look up is a file that can't be read, no error of another kind.
 TEST(YamlField, NamesThatTheSystemRefuses) {
   const TemporaryFolder folder;

@@ -9,6 +9,7 @@
 #include "apps/simulation/virtual_shots.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/raw/raw_reader.h"
+#include "capture/raw/tiff_layout.h"
 #include "tests/fixtures/apps/small_rig.h"
 #include "tests/fixtures/apps/yaml_text.h"
 
@@ -47,6 +48,24 @@ TEST_F(Simulate, FilesAreTheVirtualShots) {
   const capture::RawFrame second = capture::read_raw(file("second.dng"));
   EXPECT_TRUE(second.samples == shots.frame(1, 7, 1).samples);
   EXPECT_NEAR(second.exposure_s, 0.01, 1e-6);
+}
+
+// A NEF has the tone curve of its camera; what it cannot hold is refused by name, before any work.
+TEST_F(Simulate, NefOfAD80) {
+  SimulateOptions options;
+  options.format = capture::RawFormat::kNef;
+  made(options);
+  rig_.scene.camera.sensor.nef_lossy_curve = true;
+  const ObjectScenes scenes = open_objects(rig_);
+  const VirtualShots shots(rig_, scenes, {.noise = true});
+  const capture::RawFrame frame = capture::read_raw(file("PE_cube_1.dng"));
+  EXPECT_TRUE(frame.samples == shots.frame(0, 1).samples);
+  EXPECT_EQ(frame.model, "D80");
+  EXPECT_EQ(capture::tiff_layout(file("PE_cube_1.dng")).is_dng, false);
+  rig_.scene.camera.sensor.white_counts = 4000;
+  EXPECT_THAT(refusal_of([&] { made(options); }), HasSubstr("camera.sensor.white_counts: is 4000"));
+  rig_.scene.camera.model = "Canon EOS 5D";
+  EXPECT_THAT(refusal_of([&] { made(options); }), HasSubstr("camera.model: is Canon EOS 5D"));
 }
 
 // Shots of the scene and of the calibrations, either of which may be left out.

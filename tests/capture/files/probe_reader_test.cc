@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 
@@ -14,6 +13,7 @@
 #include "core/light/sky_probe.h"
 #include "tests/fixtures/capture/probe_bytes.h"
 #include "tests/fixtures/core/boxes.h"
+#include "tests/fixtures/shared_file.h"
 #include "tests/fixtures/temporary_folder.h"
 
 namespace scattermeter::capture {
@@ -111,12 +111,8 @@ TEST_F(ProbeReader, RefusesOtherFiles) {
 }
 
 TEST_F(ProbeReader, PhotographedProbe) {
-  const char* shared = std::getenv("SCATTERMETER_SHARED");
-  const std::string path = std::string(shared != nullptr ? shared : SCATTERMETER_SHARED_DEFAULT) +
-                           "/data/probes/pedestrian_overpass_1k.hdr";
-  if (!std::filesystem::exists(path)) {
-    GTEST_SKIP() << path << " is not there; set SCATTERMETER_SHARED to the folder with data/probes";
-  }
+  const std::string path = shared_file("data/probes/pedestrian_overpass_1k.hdr");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << shared_file_missing(path);
   const ProbeImage image = read_probe(path);
   EXPECT_EQ(image.width_px, 1024);
   EXPECT_EQ(image.height_px, 512);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "capture/raw/dng_writer.h"
+#include "capture/raw/nef_writer.h"
 #include "capture/raw/raw_reader.h"
 #include "capture/raw/tone_curve.h"
 #include "tests/fixtures/capture/tiff_bytes.h"
@@ -28,7 +30,7 @@ void expect_same(const RawFrame& a, const RawFrame& b) {
 
 TEST(DecodedFrame, IsWhatTheReaderMakesOfTheFile) {
   const TemporaryFolder folder;
-  DngMetadata metadata;
+  RawMetadata metadata;
   metadata.cfa = cfa_pattern_from_name("GRBG");
   metadata.black_counts = {60, 61, 62, 63};
   metadata.white_counts = 4000;
@@ -42,7 +44,7 @@ TEST(DecodedFrame, IsWhatTheReaderMakesOfTheFile) {
 
 TEST(DecodedFrame, GoesThroughTheToneCurve) {
   const TemporaryFolder folder;
-  DngMetadata metadata;
+  RawMetadata metadata;
   metadata.linearization_table = nef_lossy_curve();
   std::vector<std::uint16_t> codes = random_image(64, 48, 12).codes;
   for (std::uint16_t& code : codes) {
@@ -52,10 +54,12 @@ TEST(DecodedFrame, GoesThroughTheToneCurve) {
   const RawFrame frame = decoded_frame(64, 48, codes, metadata);
   EXPECT_EQ(frame.curve_levels.back(), 3880);
   expect_same(frame, read_raw(folder / "shot.dng"));
+  write_nef(folder / "shot.nef", 64, 48, codes, metadata);
+  expect_same(frame, read_raw(folder / "shot.nef"));
 }
 
 TEST(DecodedFrame, RefusesCodesThatDoNotFit) {
-  DngMetadata metadata;
+  RawMetadata metadata;
   EXPECT_THROW(decoded_frame(4, 4, std::vector<std::uint16_t>(15), metadata),
                std::invalid_argument);
   metadata.linearization_table = {0, 5};

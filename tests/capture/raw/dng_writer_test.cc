@@ -2,7 +2,6 @@
 
 #include <csignal>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
@@ -24,20 +23,7 @@ using testing::StartsWith;
 
 class DngWriter : public testing::Test {
  protected:
-  // What exiftool reads from the fields, in the order asked for; a missing one is left out.
-  static std::vector<std::string> exiftool(const std::string& path,
-                                           const std::vector<std::string>& fields) {
-    std::vector<std::string> arguments = {"-n", "-s3"};
-    for (const std::string& field : fields) arguments.push_back("-" + field);
-    arguments.push_back(path);
-    const std::vector<std::uint8_t> output = output_of("exiftool", arguments);
-    std::istringstream lines(std::string(output.begin(), output.end()));
-    std::vector<std::string> values;
-    for (std::string line; std::getline(lines, line);) values.push_back(line);
-    return values;
-  }
-
-  void write(const DngMetadata& metadata) const { write_dng(path_, 64, 48, codes_, metadata); }
+  void write(const RawMetadata& metadata) const { write_dng(path_, 64, 48, codes_, metadata); }
 
   TemporaryFolder folder_;
   std::string path_ = folder_ / "shot.dng";
@@ -45,7 +31,7 @@ class DngWriter : public testing::Test {
 };
 
 TEST_F(DngWriter, ExiftoolReadsEveryField) {
-  DngMetadata metadata;
+  RawMetadata metadata;
   metadata.cfa = cfa_pattern_from_name("GBRG");
   metadata.black_counts = {60, 60, 60, 60};
   metadata.white_counts = 4000;
@@ -53,28 +39,28 @@ TEST_F(DngWriter, ExiftoolReadsEveryField) {
   metadata.iso = 1600;
   metadata.f_number = 5.6;
   write(metadata);
-  EXPECT_THAT(
-      exiftool(path_, {"FileType", "ImageWidth", "ImageHeight", "BitsPerSample", "Compression",
-                       "PhotometricInterpretation", "Make", "Model", "Orientation", "ExposureTime",
-                       "ISO", "FNumber", "DNGVersion", "UniqueCameraModel", "BlackLevel",
-                       "WhiteLevel", "CFAPattern2", "CalibrationIlluminant1", "AsShotNeutral"}),
-      ElementsAre("DNG", "64", "48", "12", "1", "32803", "NIKON CORPORATION", "NIKON D80", "1",
-                  "0.4", "1600", "5.6", "1 4 0 0", "NIKON D80", "60", "4000", "1 2 0 1", "21",
-                  "1 1 1"));
-  EXPECT_THAT(exiftool(path_, {"BlackLevelRepeatDim", "LinearizationTable"}), ElementsAre());
+  EXPECT_THAT(exiftool_fields(path_, {"FileType", "ImageWidth", "ImageHeight", "BitsPerSample",
+                                      "Compression", "PhotometricInterpretation", "Make", "Model",
+                                      "Orientation", "ExposureTime", "ISO", "FNumber", "DNGVersion",
+                                      "UniqueCameraModel", "BlackLevel", "WhiteLevel",
+                                      "CFAPattern2", "CalibrationIlluminant1", "AsShotNeutral"}),
+              ElementsAre("DNG", "64", "48", "12", "1", "32803", "NIKON CORPORATION", "NIKON D80",
+                          "1", "0.4", "1600", "5.6", "1 4 0 0", "NIKON D80", "60", "4000",
+                          "1 2 0 1", "21", "1 1 1"));
+  EXPECT_THAT(exiftool_fields(path_, {"BlackLevelRepeatDim", "LinearizationTable"}), ElementsAre());
   // Nothing for exiftool to complain about in the structure.
-  EXPECT_THAT(exiftool(path_, {"Warning", "Error"}), ElementsAre());
+  EXPECT_THAT(exiftool_fields(path_, {"Warning", "Error"}), ElementsAre());
 }
 
 TEST_F(DngWriter, BlackOfEveryPhaseAndACurve) {
-  DngMetadata metadata;
+  RawMetadata metadata;
   metadata.black_counts = {60, 61, 62, 63};
   metadata.linearization_table = {0, 3, 9, 1000};
   std::fill(codes_.begin(), codes_.end(), std::uint16_t{3});
   write(metadata);
-  EXPECT_THAT(exiftool(path_, {"BlackLevelRepeatDim", "BlackLevel"}),
+  EXPECT_THAT(exiftool_fields(path_, {"BlackLevelRepeatDim", "BlackLevel"}),
               ElementsAre("2 2", "60 61 62 63"));
-  EXPECT_THAT(exiftool(path_, {"b", "LinearizationTable"}), ElementsAre("0 3 9 1000"));
+  EXPECT_THAT(exiftool_fields(path_, {"b", "LinearizationTable"}), ElementsAre("0 3 9 1000"));
   EXPECT_EQ(read_raw(path_).at(5, 5), 1000);
 }
 
@@ -87,17 +73,17 @@ TEST_F(DngWriter, ExposureTimesAreTheBestRational) {
   for (const Case& c : {Case{1.0 / 8000, "0.000125"}, Case{1.0 / 3, "0.3333333333"}, Case{30, "30"},
                         Case{123.456, "123.456"}, Case{0.1, "0.1"}, Case{1.0 / 7, "0.1428571429"},
                         Case{3600, "3600"}}) {
-    DngMetadata metadata;
+    RawMetadata metadata;
     metadata.exposure_s = c.exposure_s;
     write(metadata);
-    EXPECT_THAT(exiftool(path_, {"ExposureTime"}), ElementsAre(c.read));
+    EXPECT_THAT(exiftool_fields(path_, {"ExposureTime"}), ElementsAre(c.read));
     EXPECT_NEAR(read_raw(path_).exposure_s / c.exposure_s, 1, 1e-7);  // LibRaw keeps a float
   }
 }
 
 TEST_F(DngWriter, ReaderGetsBackWhatWasWritten) {
   for (const bool curved : {false, true}) {
-    DngMetadata metadata;
+    RawMetadata metadata;
     metadata.cfa = cfa_pattern_from_name("BGGR");
     if (curved) metadata.linearization_table = nef_lossy_curve();
     std::vector<std::uint16_t> values = codes_;
@@ -134,24 +120,24 @@ TEST_F(DngWriter, SmallestFrameThatLibRawTakes) {
 
 TEST_F(DngWriter, RefusesBrokenPreconditions) {
   const auto refused = [&](const auto& change) {
-    DngMetadata metadata;
+    RawMetadata metadata;
     change(metadata);
     EXPECT_THROW(write(metadata), std::invalid_argument);
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  refused([](DngMetadata& m) { m.make.clear(); });
-  refused([](DngMetadata& m) { m.model.clear(); });
-  refused([](DngMetadata& m) { m.black_counts[2] = -1; });
-  refused([](DngMetadata& m) { m.black_counts[2] = 4095; });
-  refused([](DngMetadata& m) { m.white_counts = 0; });
-  refused([](DngMetadata& m) { m.white_counts = 65536; });
-  refused([](DngMetadata& m) { m.exposure_s = 0; });
-  refused([&](DngMetadata& m) { m.exposure_s = nan; });
-  refused([](DngMetadata& m) { m.iso = 0; });
-  refused([](DngMetadata& m) { m.iso = 65535; });
-  refused([](DngMetadata& m) { m.f_number = -8; });
-  refused([](DngMetadata& m) { m.linearization_table.assign(4097, 1); });
-  refused([](DngMetadata& m) { m.linearization_table.assign(100, 1); });  // codes reach 4095
+  refused([](RawMetadata& m) { m.make.clear(); });
+  refused([](RawMetadata& m) { m.model.clear(); });
+  refused([](RawMetadata& m) { m.black_counts[2] = -1; });
+  refused([](RawMetadata& m) { m.black_counts[2] = 4095; });
+  refused([](RawMetadata& m) { m.white_counts = 0; });
+  refused([](RawMetadata& m) { m.white_counts = 65536; });
+  refused([](RawMetadata& m) { m.exposure_s = 0; });
+  refused([&](RawMetadata& m) { m.exposure_s = nan; });
+  refused([](RawMetadata& m) { m.iso = 0; });
+  refused([](RawMetadata& m) { m.iso = 65535; });
+  refused([](RawMetadata& m) { m.f_number = -8; });
+  refused([](RawMetadata& m) { m.linearization_table.assign(4097, 1); });
+  refused([](RawMetadata& m) { m.linearization_table.assign(100, 1); });  // codes reach 4095
   EXPECT_THROW(write_dng(path_, 64, 47, codes_, {}), std::invalid_argument);
   EXPECT_THROW(write_dng(path_, 0, 48, {}, {}), std::invalid_argument);
   EXPECT_THROW(write_dng(path_, 63, 48, std::vector<std::uint16_t>(63 * 48), {}),

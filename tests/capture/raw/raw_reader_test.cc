@@ -1,7 +1,7 @@
 #include "capture/raw/raw_reader.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <filesystem>
 #include <future>
 #include <string>
 
@@ -13,6 +13,7 @@
 #include "core/base/input_error.h"
 #include "tests/fixtures/capture/process.h"
 #include "tests/fixtures/capture/tiff_bytes.h"
+#include "tests/fixtures/shared_file.h"
 #include "tests/fixtures/temporary_folder.h"
 
 namespace scattermeter::capture {
@@ -99,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Layouts, AgainstDcraw,
 TEST(RawReader, WholeFrameOfAD80EqualsDcraw) {
   const TemporaryFolder folder;
   const std::string path = folder / "d80.dng";
-  DngMetadata metadata;
+  RawMetadata metadata;
   metadata.linearization_table = nef_lossy_curve();
   TestImage image = random_image(3872, 2592, 12);
   for (std::uint16_t& code : image.codes) code = static_cast<std::uint16_t>(code % 683);
@@ -108,12 +109,8 @@ TEST(RawReader, WholeFrameOfAD80EqualsDcraw) {
 }
 
 TEST(RawReader, PhotographedChartEqualsDcraw) {
-  const char* shared = std::getenv("SCATTERMETER_SHARED");
-  const std::string path = std::string(shared != nullptr ? shared : SCATTERMETER_SHARED_DEFAULT) +
-                           "/data/raw/tinydng_colorchart.dng";
-  if (!std::filesystem::exists(path)) {
-    GTEST_SKIP() << path << " is not there; set SCATTERMETER_SHARED to the folder with data/raw";
-  }
+  const std::string path = shared_file("data/raw/tinydng_colorchart.dng");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << shared_file_missing(path);
   const RawFrame frame = read_raw(path);
   expect_same_samples(frame, dcraw_frame(path), 0, 0);
   EXPECT_EQ(frame.width_px, 1734);  // exiftool: ActiveArea 26 152 1182 1886
@@ -125,6 +122,22 @@ TEST(RawReader, PhotographedChartEqualsDcraw) {
   EXPECT_EQ(frame.white_counts, 15000);
   EXPECT_TRUE(frame.curve_levels.empty());
   EXPECT_EQ(frame.model, "EOS Kiss X4");
+}
+
+// A photograph in the compression that Nikon's cameras of 2003 to 2007 write.
+TEST(RawReader, PhotographedNefEqualsDcraw) {
+  const std::string path = shared_file("data/raw/nikon_d2h_12bit_compressed.nef");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << shared_file_missing(path);
+  const RawFrame frame = read_raw(path);
+  expect_same_samples(frame, dcraw_frame(path), 0, 0);
+  EXPECT_EQ(cfa_pattern_name(frame.cfa), "GBRG");
+  EXPECT_THAT(frame.black_counts, ElementsAre(0, 0, 0, 0));
+  EXPECT_EQ(frame.white_counts, 4095);
+  EXPECT_EQ(frame.curve_levels.size(), 683U);
+  EXPECT_EQ(frame.exposure_s, 0.002);
+  EXPECT_EQ(frame.iso, 200);
+  EXPECT_EQ(frame.f_number, 8);
+  EXPECT_EQ(frame.model, "D2H");
 }
 
 TEST(RawReader, PatternCountsFromTheActiveAreasCorner) {
@@ -194,7 +207,7 @@ TEST(RawReader, KnownCamerasGetNoOtherLevels) {
     for (const bool full_size : {false, true}) {
       const int width = full_size ? 3872 : 90;
       const int height = full_size ? 2592 : 64;
-      DngMetadata metadata;
+      RawMetadata metadata;
       metadata.make = camera.make;
       metadata.model = camera.model;
       metadata.cfa = cfa_pattern_from_name("GBRG");

@@ -19,7 +19,7 @@ std::vector<float> ramp() {
 }
 
 void expect_rounds_to_the_raw(const SensorModel& sensor, double largest_step_counts) {
-  DngMetadata metadata;
+  RawMetadata metadata;
   metadata.black_counts = sensor.black_counts;
   metadata.white_counts = sensor.white_counts;
   metadata.linearization_table = sensor.tone_curve;

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "capture/raw/raw_reader.h"
 #include "capture/raw/tone_curve.h"
 #include "capture/sensor/sensor.h"
+#include "tests/fixtures/shared_file.h"
 
 namespace scattermeter::capture {
 namespace {
@@ -174,7 +177,74 @@ TEST(ClipLevels, PileBelowHalfOfWhiteIsAScene) {
   EXPECT_THAT(clip_levels(frame_of(shot)), Each(2048));
 }
 
-TEST(ClipLevels, FewerThan32SamplesAreNoPile) {
+// Defect pixels and the like are recorded above the level at which all others saturate.
+TEST(ClipLevels, OutliersAboveThePileAreClippedWithIt) {
+  for (const bool curve : {false, true}) {
+    Shot shot{wedge};
+    if (curve) shot.sensor.tone_curve = nef_lossy_curve();
+    const int level = curve ? shot.sensor.tone_curve[620] : 3100;
+    shot.ceiling_counts = level;
+    const RawFrame frame = frame_of(shot);
+    // Every `every`-th sample of phase 0 that piles up lies above the pile, at one of `values`.
+    const auto with_outliers = [&](int every, int values) {
+      RawFrame changed = frame;
+      int met = 0;
+      for (int y = 0; y < kFrameHeight; y += 2) {
+        for (int x = 0; x < kFrameWidth; x += 2) {
+          auto& sample = changed.samples[static_cast<std::size_t>(y * kFrameWidth + x)];
+          if (sample != level || ++met % every != 0) continue;
+          const int above = 1 + met / every % values;
+          sample = static_cast<std::uint16_t>(curve ? shot.sensor.tone_curve.at(620 + above)
+                                                    : level + 7 * above);
+        }
+      }
+      EXPECT_GT(met, 3000);
+      return clip_levels(changed);
+    };
+    EXPECT_THAT(with_outliers(3000, 1), Each(level)) << "a single one";
+    EXPECT_THAT(with_outliers(100, 1), Each(level)) << "one per cent, all of the same value";
+    EXPECT_THAT(with_outliers(40, 50), Each(level)) << "of many values";
+    EXPECT_EQ(with_outliers(8, 50)[0], curve ? 3880 : 4095) << "as many as a scene has";
+  }
+}
+
+// Defect pixels that reach the nominal white level are no pile-up of their own.
+TEST(ClipLevels, OutliersAtTheWhiteLevel) {
+  Shot shot{wedge};
+  shot.ceiling_counts = 3100;
+  RawFrame frame = frame_of(shot);
+  for (std::size_t i = 0; i < 60; ++i) {
+    frame.samples[2 * i] = static_cast<std::uint16_t>(i < 40 ? 4095 : 3200 + 10 * i);
+  }
+  EXPECT_THAT(clip_levels(frame), Each(3100));
+}
+
+TEST(ClipLevels, PhotographWithASaturatedPatch) {
+  const std::string path = shared_file("data/raw/nikon_d2h_12bit_compressed.nef");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << shared_file_missing(path);
+  RawFrame frame = read_raw(path);
+  const auto clipped_greens = [&] {
+    const std::array<double, 4> clip = clip_levels(frame);
+    std::size_t clipped = 0;
+    for (int y = 0; y < frame.height_px; ++y) {
+      for (int x = y % 2; x < frame.width_px; x += 2) {
+        clipped += frame.at(x, y) >= clip[static_cast<std::size_t>(3 * (y % 2))] ? 1U : 0U;
+      }
+    }
+    return clipped;
+  };
+  EXPECT_THAT(clip_levels(frame), ElementsAre(3908, 4095, 4095, 3908));
+  EXPECT_EQ(clipped_greens(), 35'826U);
+  // A blue sample of this frame is one level higher, at 3923; a green one must free no other.
+  ASSERT_EQ(std::count(frame.samples.begin(), frame.samples.end(), 3923), 1);
+  frame.samples[0] = 3923;
+  const auto last = frame.samples.size() - 1;
+  frame.samples[last] = 4011;
+  EXPECT_THAT(clip_levels(frame), ElementsAre(3908, 4095, 4095, 3908));
+  EXPECT_EQ(clipped_greens(), 35'828U);
+}
+
+TEST(ClipLevels, FewerThan37SamplesAreNoPile) {
   RawFrame frame = frame_of({wedge, {}, 3000});
   // Only `pile` samples of phase 0 stay at 3500, all others lie below 3000.
   const auto with_pile = [&](std::size_t pile) {
@@ -185,7 +255,7 @@ TEST(ClipLevels, FewerThan32SamplesAreNoPile) {
     }
     return clip_levels(changed)[0];
   };
-  EXPECT_EQ(with_pile(31), 4095);
+  EXPECT_EQ(with_pile(36), 4095);
   EXPECT_EQ(with_pile(100), 3500);
 }
 

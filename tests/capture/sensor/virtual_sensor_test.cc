@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/rig/rig.h"
 #include "capture/raw/raw_reader.h"
+#include "capture/raw/tiff_layout.h"
 #include "core/base/input_error.h"
 #include "core/camera/vignetting.h"
 #include "tests/fixtures/apps/small_rig.h"
@@ -40,6 +42,21 @@ TEST_F(VirtualSensorTest, FileHoldsTheFrame) {
   const capture::VirtualSensor sensor(rig_.scene, rig_.truth.sensor, true);
   sensor.write(files_ / "a.dng", even(500), 0.1, 7);
   EXPECT_EQ(capture::read_raw(files_ / "a.dng").samples, sensor.frame(even(500), 0.1, 7).samples);
+}
+
+TEST_F(VirtualSensorTest, NefHoldsTheFrame) {
+  rig_.truth.sensor.format = capture::RawFormat::kNef;
+  rig_.scene.camera.sensor.nef_lossy_curve = true;
+  rig_.scene.camera.model = "NIKON D80";
+  const capture::VirtualSensor sensor(rig_.scene, rig_.truth.sensor, true);
+  sensor.write(files_ / "a.nef", even(500), 0.1, 7);
+  const capture::RawFrame read = capture::read_raw(files_ / "a.nef");
+  const capture::RawFrame made = sensor.frame(even(500), 0.1, 7);
+  EXPECT_EQ(read.samples, made.samples);
+  EXPECT_EQ(read.curve_levels, made.curve_levels);
+  EXPECT_EQ(read.black_counts, made.black_counts);
+  EXPECT_EQ(read.model, "D80");
+  EXPECT_FALSE(capture::tiff_layout(files_ / "a.nef").is_dng);
 }
 
 TEST_F(VirtualSensorTest, ExposureTimesAreTheShutters) {

@@ -82,7 +82,7 @@ TEST(TransportVerdict, NothingIsAddedToATrustedEstimate) {
   LackOfFit misfit;
   misfit.rms = 0.1;
   misfit.p_value = 1e-3;  // large, but not significant
-  add_refusals(misfit, {0.5, 0.2, 0.02}, kLeastBlocks, estimate);
+  add_refusals(misfit, 0.01, {}, {0.5, 0.2, 0.02}, kLeastBlocks, estimate);
   EXPECT_TRUE(estimate.reasons.empty());
   EXPECT_EQ(estimate.misfit_relative, 0.1);
   EXPECT_EQ(estimate.misfit_p_value, 1e-3);
@@ -95,7 +95,7 @@ TEST(TransportVerdict, EachReasonIsStated) {
   Estimate estimate = trusted();
   estimate.sigma_s_prime_per_mm = normal_quantity(2.0, 1.1);
   estimate.sigma_a_per_mm.std = std::numeric_limits<double>::infinity();
-  add_refusals(misfit, {std::log(1.05), 0.01, 1e-7}, 2, estimate);
+  add_refusals(misfit, 0.0, {}, {std::log(1.05), 0.01, 1e-7}, 2, estimate);
   ASSERT_EQ(estimate.reasons.size(), 5U);
   EXPECT_EQ(estimate.reasons[0],
             "the time was too short: 2 blocks of paths for each light, at least 64 are needed");
@@ -109,12 +109,26 @@ TEST(TransportVerdict, EachReasonIsStated) {
   EXPECT_EQ(estimate.reasons[4], "these shots set no upper limit to sigma_a");
 }
 
+TEST(TransportVerdict, UnexplainedResidualsAndContradictionsAreReasons) {
+  Estimate estimate = trusted();
+  estimate.rms_relative = 0.06;
+  add_refusals({}, 0.05,
+               {{"eta", "eta", 4.0, 0.04, 0.01}, {"led1.position0", "LED position", -9.0, 2, 0.1}},
+               {}, kLeastBlocks, estimate);
+  ASSERT_EQ(estimate.reasons.size(), 2U);
+  EXPECT_EQ(estimate.reasons[0],
+            "transport does not explain the shots: the residual is 6 %, of which neither noise nor "
+            "Monte Carlo explains 5 %");
+  EXPECT_NE(estimate.reasons[1].find("LED position (led1.position0)"), std::string::npos);
+  EXPECT_EQ(estimate.pulls.size(), 2U);
+}
+
 TEST(TransportVerdict, SmallOrInsignificantScalesAreNoReason) {
   Estimate estimate = trusted();
-  add_refusals({}, {0.009, 0.001, 1e-12}, kLeastBlocks, estimate);
-  add_refusals({}, {0.05, 0.02, 1e-4}, kLeastBlocks, estimate);
+  add_refusals({}, 0.0, {}, {0.009, 0.001, 1e-12}, kLeastBlocks, estimate);
+  add_refusals({}, 0.0, {}, {0.05, 0.02, 1e-4}, kLeastBlocks, estimate);
   EXPECT_TRUE(estimate.reasons.empty());
-  add_refusals({}, {-0.05, 0.001, 1e-12}, kLeastBlocks, estimate);
+  add_refusals({}, 0.0, {}, {-0.05, 0.001, 1e-12}, kLeastBlocks, estimate);
   ASSERT_EQ(estimate.reasons.size(), 1U);
   EXPECT_NE(estimate.reasons[0].find("at least 4.9 +- 0.1 % smaller"), std::string::npos);
 }

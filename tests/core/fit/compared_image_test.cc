@@ -16,8 +16,8 @@ using test_support::HalfLitPlate;
 using test_support::noisy_system;
 using ::testing::HasSubstr;
 
-constexpr double kEta = 1.3;
-const Medium kTruth{1.2, 0.004, kEta};
+constexpr double kPlateEta = 1.3;
+const Medium kPlateTruth{1.2, 0.004, kPlateEta};
 
 // A system of one shot, divided into runs of rows.
 class DividedRows final : public ImageRows {
@@ -41,12 +41,12 @@ struct Plate {
   HalfLitPlate plate{1.0};
   DistanceKnots knots = plate.knots();
   WeightMatrix weights = plate.weights(knots);
-  Eigen::VectorXd l = plate.image(Dipole(kTruth));
+  Eigen::VectorXd l = plate.image(Dipole(kPlateTruth));
 
   DenseSystem system(unsigned seed) const { return noisy_system(weights, l, 0.005, seed); }
   DipoleFit fit(const ImageRows& rows) const {
     DipoleFitOptions options;
-    options.eta_int_over_ext = kEta;
+    options.eta_int_over_ext = kPlateEta;
     return fit_dipole(rows, joint_information(information_by_shot(rows), rows.nuisances().size()),
                       knots, options);
   }
@@ -63,8 +63,8 @@ TEST(ComparedImage, PartsAreSumsOfTheirRows) {
   at.q = 0.004 / 1.204;
   at.log_s = 0.1;
   at.v = {0.02};
-  const ComparedImage image = compared_image(rows, plate.knots, at, kEta);
-  const DipoleCurve curve = dipole_curve(plate.knots, at.u, at.q, kEta);
+  const ComparedImage image = compared_image(rows, plate.knots, at, kPlateEta);
+  const DipoleCurve curve = dipole_curve(plate.knots, at.u, at.q, kPlateEta);
   const Eigen::VectorXd nominal = std::exp(0.1) * (system.weights * curve.r);
   EXPECT_LT((image.predicted - nominal - 0.02 * system.nuisance_columns).norm(),
             1e-12 * nominal.norm());

@@ -1,0 +1,203 @@
+#include "apps/deviations/deviation_report.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+
+#include "apps/report/csv.h"
+#include "apps/report/text_table.h"
+
+namespace scattermeter::apps {
+namespace {
+
+double share(int part, int whole) {
+  return whole > 0 ? static_cast<double>(part) / whole : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string percent(int part, int whole) {
+  return whole > 0 ? fmt::format("{:.0f} %", 100.0 * share(part, whole)) : "-";
+}
+
+const char* channel_name(std::size_t channel) {
+  static constexpr std::array<const char*, 3> kNames = {"R", "G", "B"};
+  return kNames[channel];
+}
+
+std::string size_text(const DeviationRun& run) {
+  const Deviation& kind = *run.kind;
+  return kind.unit.empty() ? "" : fmt::format("{:g} {}", kind.sizes[run.size_idx], kind.unit);
+}
+
+void add_row(TextTable& table, const std::string& kind, const std::string& size, const char* mark,
+             const DeviationCount& n) {
+  table.add_row({kind, size, mark, std::to_string(n.runs), std::to_string(n.wrong_ok),
+                 n.wrong_ok > 0 ? fmt::format("{:.1f}", n.worst_by_std) : "-",
+                 percent(n.right + n.wrong_ok, n.runs), percent(n.refused, n.runs),
+                 percent(n.named, n.refused)});
+}
+
+// A line for each wrong answer.
+std::string wrong_answers(const std::vector<DeviationResult>& results) {
+  std::string text;
+  for (const DeviationResult& r : results) {
+    if (r.judged.verdict != DeviationVerdict::kWrongOk) continue;
+    const auto coefficient = [](const char* name, const Quantity& q, const AnswerError& e) {
+      return fmt::format("{} {:.4g} +- {:.2g} ({:+.1f} %, {:+.1f} s)", name, q.value, q.std,
+                         100.0 * e.relative, e.in_std);
+    };
+    text += fmt::format(
+        "wrong ok: {} {}, {}, {} LED, {}, {}, seed {}: {}; {}\n", r.run.kind->name,
+        size_text(r.run), r.run.body, r.run.leds, r.run.volume ? "volume" : "dipole",
+        deviation_media()[r.channel].name, r.run.seed,
+        coefficient("sigma_s'", r.estimate.sigma_s_prime_per_mm, r.judged.sigma_s_prime),
+        coefficient("sigma_a", r.estimate.sigma_a_per_mm, r.judged.sigma_a));
+  }
+  return text;
+}
+
+}  // namespace
+
+void DeviationCount::add(const JudgedAnswer& answer) {
+  ++runs;
+  right += answer.verdict == DeviationVerdict::kRight ? 1 : 0;
+  wrong_ok += answer.verdict == DeviationVerdict::kWrongOk ? 1 : 0;
+  refused += answer.verdict == DeviationVerdict::kRefused ? 1 : 0;
+  named += answer.names_cause ? 1 : 0;
+  worst_by_std = std::max(worst_by_std, answer.wrong_by_std);
+}
+
+void DeviationCount::add(const DeviationCount& other) {
+  runs += other.runs;
+  right += other.right;
+  wrong_ok += other.wrong_ok;
+  refused += other.refused;
+  named += other.named;
+  worst_by_std = std::max(worst_by_std, other.worst_by_std);
+}
+
+double DeviationCount::answered_share() const { return share(right + wrong_ok, runs); }
+double DeviationCount::named_share() const { return share(named, refused); }
+
+DeviationSummary summarise(const std::vector<DeviationResult>& results) {
+  DeviationSummary out;
+  for (const Deviation& kind : all_deviations()) {
+    DeviationKindCount count{&kind, std::vector<DeviationCount>(kind.sizes.size()), {}};
+    for (const DeviationResult& r : results) {
+      if (r.run.kind != &kind) continue;
+      count.by_size[r.run.size_idx].add(r.judged);
+      count.all.add(r.judged);
+      if (!kind.counted) continue;
+      (r.run.volume ? out.volume : out.dipole).add(r.judged);
+      if (r.run.within()) out.within.add(r.judged);
+    }
+    if (count.all.runs == 0) continue;
+    if (kind.counted) out.total.add(count.all);
+    out.kinds.push_back(count);
+  }
+  return out;
+}
+
+std::string deviation_table(const std::vector<DeviationResult>& results) {
+  using Align = TextTable::Align;
+  const DeviationSummary summary = summarise(results);
+  TextTable table({{"deviation", Align::kLeft},
+                   {"size", Align::kLeft},
+                   {"", Align::kLeft},
+                   {"answers"},
+                   {"wrong ok"},
+                   {"worst [s]"},
+                   {"answered"},
+                   {"refused"},
+                   {"by name"}});
+  for (const DeviationKindCount& k : summary.kinds) {
+    bool is_first = true;
+    for (std::size_t s = 0; s < k.by_size.size(); ++s) {
+      if (k.by_size[s].runs == 0) continue;
+      DeviationRun run;
+      run.kind = k.kind;
+      run.size_idx = s;
+      const char* mark = !k.kind->counted ? "not counted" : run.within() ? "within" : "";
+      add_row(table, is_first ? k.kind->name : "", size_text(run), mark, k.by_size[s]);
+      is_first = false;
+    }
+  }
+  add_row(table, "rendered by the dipole", "", "", summary.dipole);
+  add_row(table, "rendered by volume", "", "", summary.volume);
+  add_row(table, "all", "", "", summary.total);
+  add_row(table, "within what the rig states", "", "within", summary.within);
+  return table.text() + wrong_answers(results);
+}
+
+std::string deviation_csv(const std::vector<DeviationResult>& results) {
+  Csv csv({"deviation",
+           "size",
+           "unit",
+           "within",
+           "body",
+           "leds",
+           "rendering",
+           "medium",
+           "channel",
+           "seed",
+           "verdict",
+           "sigma_s_prime_per_mm",
+           "sigma_s_prime_std_per_mm",
+           "sigma_s_prime_error_relative",
+           "sigma_s_prime_error_in_std",
+           "sigma_a_per_mm",
+           "sigma_a_std_per_mm",
+           "sigma_a_error_relative",
+           "sigma_a_error_in_std",
+           "reduced_chi2",
+           "rms_relative",
+           "names_cause",
+           "seconds",
+           "reasons"});
+  for (const DeviationResult& r : results) {
+    const Estimate& e = r.estimate;
+    csv.add_row(
+        {r.run.kind->name,
+         csv_number(r.run.kind->sizes[r.run.size_idx]),
+         r.run.kind->unit,
+         r.run.within() ? "yes" : "no",
+         r.run.body,
+         std::to_string(r.run.leds),
+         r.run.volume ? "volume" : "dipole",
+         deviation_media()[r.channel].name,
+         channel_name(r.channel),
+         std::to_string(r.run.seed),
+         verdict_name(r.judged.verdict),
+         csv_number(e.sigma_s_prime_per_mm.value),
+         csv_number(e.sigma_s_prime_per_mm.std),
+         csv_number(answer_error(e.sigma_s_prime_per_mm, r.truth.sigma_s_prime_per_mm).relative),
+         csv_number(answer_error(e.sigma_s_prime_per_mm, r.truth.sigma_s_prime_per_mm).in_std),
+         csv_number(e.sigma_a_per_mm.value),
+         csv_number(e.sigma_a_per_mm.std),
+         csv_number(answer_error(e.sigma_a_per_mm, r.truth.sigma_a_per_mm).relative),
+         csv_number(answer_error(e.sigma_a_per_mm, r.truth.sigma_a_per_mm).in_std),
+         csv_number(e.reduced_chi2),
+         csv_number(e.rms_relative),
+         e.reasons.empty() ? "" : (r.judged.names_cause ? "yes" : "no"),
+         csv_number(r.seconds),
+         fmt::format("{}", fmt::join(e.reasons, " "))});
+  }
+  return csv.text();
+}
+
+std::string deviation_list() {
+  using Align = TextTable::Align;
+  TextTable table({{"deviation", Align::kLeft},
+                   {"sizes", Align::kLeft},
+                   {"unit", Align::kLeft},
+                   {"within what is stated"},
+                   {"a refusal names one of", Align::kLeft}});
+  for (const Deviation& kind : all_deviations()) {
+    table.add_row({kind.name, fmt::format("{:g}", fmt::join(kind.sizes, ", ")), kind.unit,
+                   std::to_string(kind.within), fmt::format("{}", fmt::join(kind.words, ", "))});
+  }
+  return table.text();
+}
+
+}  // namespace scattermeter::apps

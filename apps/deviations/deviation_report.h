@@ -1,0 +1,46 @@
+// Counts, table and CSV of `bench deviations`.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/deviations/deviation_runs.h"
+
+namespace scattermeter::apps {
+
+// Answers (of a channel each) counted by verdict.
+struct DeviationCount {
+  int runs = 0;
+  int right = 0, wrong_ok = 0, refused = 0;
+  int named = 0;            // of the refused
+  double worst_by_std = 0;  // of the wrong
+  void add(const JudgedAnswer& answer);
+  void add(const DeviationCount& other);
+  double answered_share() const;  // NaN for none
+  double named_share() const;     // of the refusals; NaN for none
+};
+
+// Counts of a kind: of each size, and of all.
+struct DeviationKindCount {
+  const Deviation* kind = nullptr;
+  std::vector<DeviationCount> by_size;
+  DeviationCount all;
+};
+
+struct DeviationSummary {
+  std::vector<DeviationKindCount> kinds;  // those that occur, in the order of all_deviations()
+  // Of the kinds that count: of all sizes; of sizes within what the rig states, by rendering.
+  DeviationCount total, within;
+  DeviationCount dipole, volume;  // of all sizes
+};
+DeviationSummary summarise(const std::vector<DeviationResult>& results);
+
+// A row for each kind and size, the totals, and the wrong answers one by one.
+std::string deviation_table(const std::vector<DeviationResult>& results);
+// A row for each answer.
+std::string deviation_csv(const std::vector<DeviationResult>& results);
+// The kinds with sizes, units and words.
+std::string deviation_list();
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,69 @@
+// Measuring the shots of deviating rigs with the rig that is stated.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/deviations/deviation.h"
+#include "apps/deviations/deviation_verdict.h"
+#include "core/base/progress.h"
+
+namespace scattermeter::apps {
+
+// One rig and its shots. The three media (faint, plain, dense) are those of R, G and B.
+struct DeviationRun {
+  const Deviation* kind = nullptr;
+  std::size_t size_idx = 0;
+  std::string body;  // "cube", "pyramid", "sphere"
+  int leds = 2;      // 1 or 2: a shot by each
+  bool volume = false;
+  std::uint64_t seed = 1;
+  bool within() const { return static_cast<int>(size_idx) < kind->within; }
+};
+
+enum class DeviationRendering { kDipole, kVolume, kBoth };
+
+struct DeviationOptions {
+  // Runs, drawn evenly from the kinds and sizes; 0: each combination of kind, size, body, number of
+  // LEDs and rendering once.
+  int runs = 400;
+  std::vector<std::string> kinds;  // names; empty: all
+  DeviationRendering rendering = DeviationRendering::kBoth;
+  std::uint64_t seed = 1;
+  int image_width_px = 484;
+  // Of a volume rendering, for each light and channel.
+  std::int64_t rendered_paths = 3'000'000;
+  // Of measuring by transport, for each light and view.
+  std::int64_t measured_paths = 20'000'000;
+  double time_limit_s = 50;  // of measuring by transport, for each channel
+  Progress* progress = nullptr;
+};
+
+struct DeviationResult {
+  DeviationRun run;
+  std::size_t channel = 0;
+  TrueCoefficients truth;
+  Estimate estimate;  // with the reasons of a refusal
+  JudgedAnswer judged;
+  double seconds = 0;  // of the run, without the rendering
+};
+
+// Names of the media of R, G and B, and their coefficients.
+struct DeviationMedium {
+  const char* name;
+  Medium medium;
+};
+const std::array<DeviationMedium, 3>& deviation_media();
+
+// Throws std::invalid_argument for an unknown kind.
+std::vector<DeviationRun> planned_runs(const DeviationOptions& options);
+
+// The rig of a careful user, and its mesh: what measuring is told.
+Rig stated_rig(const DeviationRun& run, int image_width_px);
+TriangleMesh stated_mesh(const std::string& body);
+
+// Three results for each run, in their order.
+std::vector<DeviationResult> bench_deviations(const DeviationOptions& options);
+
+}  // namespace scattermeter::apps

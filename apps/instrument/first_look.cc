@@ -1,0 +1,47 @@
+#include "apps/instrument/first_look.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace scattermeter::apps {
+namespace {
+
+constexpr std::size_t kMostReasons = 2;
+
+bool is_of_lights(const Finding& f) {
+  return f.cause == "LEDs exchanged" || f.cause.starts_with("unit");
+}
+
+}  // namespace
+
+std::vector<Finding> in_order(std::vector<Finding> of_outlines, std::vector<Finding> of_light) {
+  std::set<std::size_t> explained;
+  for (const Finding& f : of_outlines) explained.insert(f.shots.begin(), f.shots.end());
+  std::vector<Finding> out = std::move(of_outlines);
+  for (Finding& f : of_light) {
+    const bool follows = std::all_of(f.shots.begin(), f.shots.end(),
+                                     [&](std::size_t s) { return explained.contains(s); });
+    if (!follows || is_of_lights(f)) out.push_back(std::move(f));
+  }
+  return out;
+}
+
+void refuse(const Scene& scene, const std::vector<Finding>& findings, Estimation& estimation) {
+  for (std::size_t i = 0; i < estimation.results.size(); ++i) {
+    std::set<std::size_t> own;
+    for (const ObservedShot* shot : estimation.channels[i].shots) {
+      own.insert(static_cast<std::size_t>(shot->stated - scene.shots.data()));
+    }
+    std::size_t reasons = 0;
+    for (const Finding& f : findings) {
+      const bool concerns = std::any_of(f.shots.begin(), f.shots.end(),
+                                        [&](std::size_t s) { return own.contains(s); });
+      if (!concerns || reasons++ >= kMostReasons) continue;
+      estimation.results[i].estimate.reasons.push_back(f.sentence());
+    }
+  }
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,295 @@
+#include "apps/instrument/outline_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <fmt/core.h>
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "core/view/camera_view.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using calib::OutlineCause;
+
+// Standard deviation of an object's place on its stand, in each coordinate, as put down by hand
+// against a stop or a drawn line.
+constexpr double kPlaceStd_mm = 0.2;
+
+// Below this share of points that lie on one outline it is not judged: the background is bright, or
+// too little of the object is lit.
+constexpr double kLeastShare = 0.5;
+// Another object explains a shot if this share of its outline fits, and so much more than of the
+// stated object's.
+constexpr double kOtherShare = 0.85;
+constexpr double kOtherGain = 0.2;
+constexpr std::size_t kLeastPoints = 30;
+constexpr int kLooksAgain = 2;
+constexpr std::size_t kShotsAgain = 4;  // of each object
+
+// Share of the points that lie on the contour, wherever it stands.
+double share_alone(const calib::OutlineLook& look, const std::vector<calib::ContourPoint>& contour,
+                   const CameraIntrinsics& intrinsics, const PoseResult& pose,
+                   const Eigen::Vector3d& center_mm) {
+  if (look.offsets.size() < kLeastPoints) return 0.0;
+  const calib::OutlineModel model({{"", 0, &contour, look, Eigen::Vector3d::Zero()}}, intrinsics,
+                                  pose, {center_mm});
+  return static_cast<double>(model.kept(0)) / static_cast<double>(look.points);
+}
+
+std::string advice_for(const calib::OutlineExplanation& e, const std::string& object) {
+  switch (e.cause) {
+    case OutlineCause::kMeshScale:
+      return fmt::format("measure the object and scale the mesh of objects.{}", object);
+    case OutlineCause::kCamera:
+      return "take the pose points again, or all shots";
+    case OutlineCause::kShotMoved:
+      return "take this shot again";
+    default:
+      return fmt::format(
+          "put the object back or place the mesh of objects.{} where it stands; if the camera was "
+          "moved, take the pose points again",
+          object);
+  }
+}
+
+std::string class_of(OutlineCause cause) {
+  switch (cause) {
+    case OutlineCause::kNone:
+      return "none";
+    case OutlineCause::kMeshDisplaced:
+      return "mesh displaced";
+    case OutlineCause::kMeshTurned:
+      return "mesh turned";
+    case OutlineCause::kMeshScale:
+      return "mesh scaled";
+    case OutlineCause::kMeshMisplaced:
+      return "mesh displaced and turned";
+    case OutlineCause::kCamera:
+      return "camera moved";
+    case OutlineCause::kShotMoved:
+      return "shot moved";
+  }
+  return "";
+}
+
+}  // namespace
+
+OutlineWatch::OutlineWatch(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose)
+    : rig_(rig), objects_(objects), pose_(pose) {
+  const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
+  for (const SceneObject& object : rig.scene.objects) {
+    names_.push_back(object.name);
+    const auto scene = objects.find(object.name);
+    centers_mm_.push_back(scene == objects.end() ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+                                                 : scene->second.box.center_mm());
+    if (scene == objects.end()) continue;
+    contours_[object.name] = calib::contour_points(
+        *scene->second.rays, lens, pose.camera_from_world, calib::outline_cell_px(lens.width_px));
+  }
+}
+
+capture::ShotSource OutlineWatch::watched(const capture::ShotSource& source) {
+  capture::ShotSource out = source;
+  if (const auto* frames = std::get_if<capture::FrameSource>(&source.open)) {
+    out.open = capture::FrameSource([this, frames](std::size_t shot_idx, std::size_t exposure_idx) {
+      capture::RawFrame frame = (*frames)(shot_idx, exposure_idx);
+      if (exposure_idx == 0) look(shot_idx, frame);
+      return frame;
+    });
+  }
+  return out;
+}
+
+void OutlineWatch::look(std::size_t shot_idx, const capture::RawFrame& frame) {
+  const auto contour = contours_.find(rig_.scene.shots.at(shot_idx).object);
+  if (contour == contours_.end()) return;
+  Seen seen{&contour->second,
+            calib::look_at_outline(contour->second, frame, rig_.scene.camera.sensor.noise)};
+  const std::lock_guard lock(mutex_);
+  looks_[shot_idx] = std::move(seen);
+}
+
+std::size_t OutlineWatch::body_of(std::size_t shot_idx) const {
+  const auto at = std::find(names_.begin(), names_.end(), rig_.scene.shots.at(shot_idx).object);
+  return static_cast<std::size_t>(at - names_.begin());
+}
+
+calib::OutlineDiagnosis OutlineWatch::explain(const Looks& looks,
+                                              const std::vector<Eigen::Vector3d>& assumed_mm,
+                                              std::vector<std::size_t>& looked_at) const {
+  std::vector<calib::OutlineShot> shots;
+  looked_at.clear();
+  for (const auto& [idx, seen] : looks) {
+    const std::size_t body = body_of(idx);
+    shots.push_back({rig_.scene.shots[idx].file, static_cast<int>(body), seen.contour, seen.look,
+                     assumed_mm[body]});
+    looked_at.push_back(idx);
+  }
+  calib::OutlineOptions options;
+  options.place_std_mm = kPlaceStd_mm;
+  return calib::explain_outlines(shots, rig_.scene.camera.intrinsics, pose_, names_, centers_mm_,
+                                 options);
+}
+
+// Shots of another object than the stated one; they are taken out of the looks.
+void OutlineWatch::find_other_objects(const capture::FrameSource& frames, Looks& looks,
+                                      OutlineFindings& out) const {
+  const CameraIntrinsics& lens = rig_.scene.camera.intrinsics;
+  for (auto it = looks.begin(); it != looks.end();) {
+    const std::size_t idx = it->first;
+    const std::size_t body = body_of(idx);
+    const double own =
+        share_alone(it->second.look, *it->second.contour, lens, pose_, centers_mm_[body]);
+    double best = 0.0;
+    std::string other;
+    if (own < kOtherShare && contours_.size() > 1) {
+      const capture::RawFrame frame = frames(idx, 0);
+      for (const auto& [name, contour] : contours_) {
+        if (name == names_[body]) continue;
+        const calib::OutlineLook look =
+            calib::look_at_outline(contour, frame, rig_.scene.camera.sensor.noise);
+        const double share =
+            share_alone(look, contour, lens, pose_, objects_.at(name).box.center_mm());
+        if (share <= best) continue;
+        best = share;
+        other = name;
+      }
+    }
+    if (best < kOtherShare || best < own + kOtherGain) {
+      ++it;
+      continue;
+    }
+    Finding finding;
+    finding.cause = "file exchanged";
+    finding.text = fmt::format(
+        "file exchanged: {} has the outline of {} ({:.0f} % of it fits), not of {} ({:.0f} %)",
+        rig_.scene.shots[idx].file, other, 100.0 * best, names_[body], 100.0 * own);
+    finding.advice = "give the file its right name, or correct shots.object";
+    finding.shots = {idx};
+    out.findings.push_back(finding);
+    it = looks.erase(it);
+  }
+}
+
+void OutlineWatch::find_unseen(Looks& looks, OutlineFindings& out) const {
+  for (auto it = looks.begin(); it != looks.end();) {
+    if (it->second.look.offsets.size() >= kLeastPoints) {
+      ++it;
+      continue;
+    }
+    out.notes.push_back(fmt::format(
+        "{}: outline of {} not seen against a darker background, so pose and mesh are not checked",
+        rig_.scene.shots[it->first].file, names_[body_of(it->first)]));
+    it = looks.erase(it);
+  }
+}
+
+// Looks again about the places of a first diagnosis, which is linear.
+calib::OutlineDiagnosis OutlineWatch::look_again(const capture::FrameSource& frames,
+                                                 const Looks& looks, calib::OutlineDiagnosis first,
+                                                 std::vector<std::size_t>& looked_at) const {
+  const CameraIntrinsics& lens = rig_.scene.camera.intrinsics;
+  std::map<std::size_t, std::size_t> of_body;
+  std::vector<std::size_t> idxs;
+  for (const auto& [idx, seen] : looks) {
+    if (of_body[body_of(idx)]++ < kShotsAgain) idxs.push_back(idx);
+  }
+  std::vector<capture::RawFrame> pictures(idxs.size());
+  tbb::parallel_for(std::size_t{0}, idxs.size(),
+                    [&](std::size_t i) { pictures[i] = frames(idxs[i], 0); });
+  calib::OutlineDiagnosis out = std::move(first);
+  for (int round = 0; round < kLooksAgain && !out.agrees; ++round) {
+    std::vector<Eigen::Vector3d> assumed(names_.size(), Eigen::Vector3d::Zero());
+    for (const calib::OutlineExplanation& e : out.explanations) {
+      if (e.cause == OutlineCause::kMeshDisplaced) assumed[e.which] = e.value;
+    }
+    std::map<std::string, std::vector<calib::ContourPoint>> contours;
+    Looks again;
+    for (std::size_t i = 0; i < idxs.size(); ++i) {
+      const std::size_t idx = idxs[i];
+      const std::size_t body = body_of(idx);
+      const auto [at, is_new] = contours.try_emplace(names_[body]);
+      if (is_new) {
+        const Rigid3d moved =
+            pose_.camera_from_world * Rigid3d{Eigen::Quaterniond::Identity(), assumed[body]};
+        at->second = calib::contour_points(*objects_.at(names_[body]).rays, lens, moved,
+                                           calib::outline_cell_px(lens.width_px));
+      }
+      again[idx] = {&at->second, calib::look_at_outline(at->second, pictures[i],
+                                                        rig_.scene.camera.sensor.noise)};
+      if (again[idx].look.offsets.size() < kLeastPoints) return out;
+    }
+    out = explain(again, assumed, looked_at);
+  }
+  return out;
+}
+
+void OutlineWatch::conclude(OutlineFindings& out) const {
+  const calib::OutlineDiagnosis& d = *out.diagnosis;
+  double share = 0.0;
+  for (const double s : d.fitting_share) {
+    share += s / static_cast<double>(d.fitting_share.size());
+  }
+  if (share < kLeastShare) {
+    out.notes.push_back(fmt::format(
+        "outlines are not judged: only {:.0f} % of their points are seen where any place of the "
+        "objects would put them; use a darker background, and light the objects from more sides",
+        100.0 * share));
+    return;
+  }
+  if (d.agrees) {
+    if (!d.improves_pose) return;
+    out.pose = d.pose;
+    out.notes.push_back(fmt::format(
+        "outline {:.1f} px {} and {:.1f} px {} of where the pose puts it (± {:.1f}), within the "
+        "stated uncertainty: the pose was corrected by it",
+        std::abs(d.shift_px.x()), d.shift_px.x() < 0 ? "left" : "right", std::abs(d.shift_px.y()),
+        d.shift_px.y() < 0 ? "high" : "low", d.shift_std_px));
+    return;
+  }
+  const calib::OutlineExplanation& best = d.explanations.at(1);
+  const bool of_shot = best.cause == OutlineCause::kShotMoved;
+  const bool of_mesh = !of_shot && best.cause != OutlineCause::kCamera;
+  Finding finding;
+  finding.cause = class_of(best.cause);
+  finding.text = best.text;
+  for (std::size_t k = 2; k < d.explanations.size() && k <= d.likely; ++k) {
+    finding.text += (k == 2 ? " (cannot be told from: " : ", ") + d.explanations[k].text;
+    if (k + 1 == d.explanations.size() || k == d.likely) finding.text += ")";
+  }
+  finding.advice = advice_for(best, of_mesh ? names_[best.which] : "");
+  for (std::size_t i = 0; i < out.looked_at.size(); ++i) {
+    const std::size_t idx = out.looked_at[i];
+    if (of_shot ? i == best.which : !of_mesh || body_of(idx) == best.which) {
+      finding.shots.push_back(idx);
+    }
+  }
+  out.findings.push_back(finding);
+}
+
+OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const {
+  OutlineFindings out;
+  const auto* frames = std::get_if<capture::FrameSource>(&source.open);
+  Looks looks = looks_;
+  find_unseen(looks, out);
+  if (looks.empty() || frames == nullptr) return out;
+  const std::vector<Eigen::Vector3d> nowhere(names_.size(), Eigen::Vector3d::Zero());
+  out.diagnosis = explain(looks, nowhere, out.looked_at);
+  if (!out.diagnosis->agrees) {
+    find_other_objects(*frames, looks, out);
+    if (looks.empty()) return out;
+    if (!out.findings.empty()) out.diagnosis = explain(looks, nowhere, out.looked_at);
+    if (out.diagnosis->explanations.at(1).cause != OutlineCause::kShotMoved) {
+      out.diagnosis = look_again(*frames, looks, *out.diagnosis, out.looked_at);
+    }
+  }
+  conclude(out);
+  return out;
+}
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,233 @@
+#include "calib/pose/outline_causes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include <Eigen/Cholesky>
+#include <fmt/core.h>
+
+#include "core/base/chi_square.h"
+#include "core/base/cross_matrix.h"
+
+namespace scattermeter::calib {
+namespace {
+
+constexpr double kOutlineDoubt = 1e-4;
+constexpr double kOutlineCloseScore = 6.0;
+constexpr double kGrowth = 0.5;     // cells
+constexpr double kShotShift = 0.3;  // cells
+// An object is put down in another place far more often than its mesh is turned or of another size:
+// by this much the latter must be more likely, as a score.
+constexpr double kRare = 5.0;
+constexpr Eigen::Index kOutlinePose = OutlineModel::kPose;
+
+// Length of a vector and its standard deviation along itself.
+std::pair<double, double> length_of(const Eigen::Vector3d& v, const Eigen::Matrix3d& c) {
+  const Eigen::Vector3d u = v.norm() > 0 ? v.normalized().eval() : Eigen::Vector3d::UnitX().eval();
+  return {v.norm(), std::sqrt(std::max(0.0, u.dot(c * u)))};
+}
+
+std::string displaced(const Eigen::Vector3d& v, const Eigen::Matrix3d& c) {
+  const auto [mm, std_mm] = length_of(v, c);
+  return fmt::format("by {:.2f} ± {:.2f} mm (x {:+.2f}, y {:+.2f}, z {:+.2f})", mm,
+                     std::max(0.01, std_mm), v.x(), v.y(), v.z());
+}
+
+std::string turned(const Eigen::Vector3d& v, const Eigen::Matrix3d& c) {
+  const auto [rad, std_rad] = length_of(v, c);
+  constexpr double kOutlineDegree = 180 / std::numbers::pi;
+  return fmt::format("by {:.2f} ± {:.2f} deg", kOutlineDegree * rad,
+                     std::max(0.01, kOutlineDegree * std_rad));
+}
+
+std::string text_of(const OutlineExplanation& e, const std::vector<std::string>& names,
+                    const std::vector<OutlineShot>& shots) {
+  const auto at = [&](Eigen::Index first) { return e.value.segment<3>(first).eval(); };
+  const auto c = [&](Eigen::Index first) { return e.covariance.block<3, 3>(first, first).eval(); };
+  switch (e.cause) {
+    case OutlineCause::kNone:
+      return "the outline agrees with pose and mesh";
+    case OutlineCause::kMeshDisplaced:
+      return fmt::format("mesh of {} displaced: the object stands away from it {}", names[e.which],
+                         displaced(at(0), c(0)));
+    case OutlineCause::kMeshTurned:
+      return fmt::format("mesh of {} turned: the object stands turned against it {}",
+                         names[e.which], turned(at(0), c(0)));
+    case OutlineCause::kMeshScale:
+      return fmt::format("mesh of {} scaled: the object is {:.2f} ± {:.2f} % {} than it",
+                         names[e.which], 100 * std::abs(std::expm1(e.value[0])),
+                         100 * std::max(1e-4, std::sqrt(e.covariance(0, 0))),
+                         e.value[0] > 0 ? "larger" : "smaller");
+    case OutlineCause::kMeshMisplaced:
+      return fmt::format(
+          "mesh of {} displaced and turned: the object stands away from it {} and turned {}",
+          names[e.which], displaced(at(0), c(0)), turned(at(3), c(3)));
+    case OutlineCause::kCamera:
+      return fmt::format("camera moved since its pose was taken: turned {} and moved {}",
+                         turned(at(0), c(0)), displaced(at(3), c(3)));
+    case OutlineCause::kShotMoved:
+      return fmt::format(
+          "object or camera moved in {}: its outline is {:+.1f} px right and {:+.1f} px down of "
+          "that of the other shots",
+          shots[e.which].file, e.value[0], e.value[1]);
+  }
+  throw std::logic_error("text_of: no such cause");
+}
+
+class Causes {
+ public:
+  Causes(const OutlineModel& model, const OutlineOptions& options,
+         const std::vector<std::string>& names, const std::vector<OutlineShot>& shots)
+      : model_(model), names_(names), shots_(shots) {
+    for (const OutlineShot& shot : shots) {
+      if (!shot.look.offsets.empty()) bodies_.insert(static_cast<std::size_t>(shot.body_idx));
+    }
+    known_ = Eigen::VectorXd::Zero(model.columns());
+    for (const std::size_t b : bodies_) {
+      known_.segment<3>(model.place(b)).setConstant(options.place_std_mm);
+      known_[model.scale(b)] = options.scale_relative_std;
+      known_[model.growth(b)] = kGrowth * model.cell_px();
+    }
+    for (std::size_t s = 0; s < shots.size(); ++s) {
+      known_.segment<2>(model.shift(s)).setConstant(kShotShift * model.cell_px());
+    }
+  }
+
+  const Eigen::VectorXd& known() const { return known_; }
+
+  OutlineExplanation none() const { return explanation(OutlineCause::kNone, 0, 0, 0, 0.0, 0); }
+
+  std::vector<OutlineExplanation> all() const {
+    std::vector<OutlineExplanation> out;
+    for (const std::size_t b : bodies_) {
+      out.push_back(
+          explanation(OutlineCause::kMeshDisplaced, b, model_.place(b), 3, kFreePlace_mm, 0));
+      out.push_back(explanation(OutlineCause::kMeshTurned, b, model_.turn(b), 3, kFreeTurn_rad, 0));
+      out.push_back(explanation(OutlineCause::kMeshScale, b, model_.scale(b), 1, kFreeScale, 0));
+      out.push_back(explanation(OutlineCause::kMeshMisplaced, b, model_.place(b), 6, kFreePlace_mm,
+                                kFreeTurn_rad));
+    }
+    if (bodies_.size() > 1) {
+      out.push_back(explanation(OutlineCause::kCamera, 0, 0, 6, kFreeTurn_rad, kFreePlace_mm));
+    }
+    if (shots_.size() > 1) {
+      for (std::size_t s = 0; s < shots_.size(); ++s) {
+        if (shots_[s].look.offsets.empty()) continue;
+        out.push_back(
+            explanation(OutlineCause::kShotMoved, s, model_.shift(s), 2, kFreeShift_px, 0));
+      }
+    }
+    return out;
+  }
+
+ private:
+  // The last three of six parameters have the standard deviation `rest`.
+  OutlineExplanation explanation(OutlineCause cause, std::size_t which, Eigen::Index first, int n,
+                                 double free, double rest) const {
+    Eigen::VectorXd std = known_;
+    std.segment(first, n).setConstant(free);
+    if (n == 6) std.segment(first + 3, 3).setConstant(rest);
+    const OutlineModel::Fit f = model_.fit(std, cause != OutlineCause::kCamera);
+    OutlineExplanation e;
+    e.cause = cause;
+    e.which = which;
+    e.parameters = n;
+    e.chi2 = f.chi2;
+    e.value = f.value.segment(first, n);
+    e.covariance = f.covariance.block(first, first, n, n);
+    e.text = text_of(e, names_, shots_);
+    return e;
+  }
+
+  const OutlineModel& model_;
+  const std::vector<std::string>& names_;
+  const std::vector<OutlineShot>& shots_;
+  std::set<std::size_t> bodies_;
+  Eigen::VectorXd known_;
+};
+
+// The pose relative to the mesh from the fit of the rig as it is: places are shifts of the pose.
+PoseResult pose_of(const OutlineModel& model, const OutlineModel::Fit& fit, const PoseResult& pose,
+                   std::size_t body) {
+  PoseResult out = pose;
+  const Eigen::Matrix3d r = pose.camera_from_world.rotation.toRotationMatrix();
+  Eigen::MatrixXd by = Eigen::MatrixXd::Zero(6, model.columns());
+  by.leftCols<6>().setIdentity();
+  by.block<3, 3>(3, model.place(body)) = r;
+  const Eigen::Matrix<double, 6, 1> v = by * fit.value;
+  const double angle = v.head<3>().norm();
+  if (angle > 0) {
+    out.camera_from_world.rotation =
+        (Eigen::Quaterniond(Eigen::AngleAxisd(angle, v.head<3>() / angle)) *
+         pose.camera_from_world.rotation)
+            .normalized();
+  }
+  out.camera_from_world.translation_mm += v.tail<3>();
+  out.covariance = by * fit.covariance * by.transpose();
+  const Eigen::Matrix3d rt = out.camera_from_world.rotation.conjugate().toRotationMatrix();
+  Eigen::Matrix<double, 3, 6> center;
+  center << -rt * cross_matrix(out.camera_from_world.translation_mm), -rt;
+  out.center_std_mm =
+      (center * out.covariance * center.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+  return out;
+}
+
+}  // namespace
+
+OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
+                                  const CameraIntrinsics& intrinsics, const PoseResult& pose,
+                                  const std::vector<std::string>& names,
+                                  const std::vector<Eigen::Vector3d>& centers_mm,
+                                  const OutlineOptions& options) {
+  const OutlineModel model(shots, intrinsics, pose, centers_mm);
+  const Causes causes(model, options, names, shots);
+  OutlineDiagnosis out;
+  const OutlineExplanation none = causes.none();
+  std::vector<OutlineExplanation> others = causes.all();
+  const double per_parameter = std::log(std::max(2.0, model.independent_points()));
+  const auto score = [&](const OutlineExplanation& e) {
+    const bool rare = e.cause != OutlineCause::kMeshDisplaced && e.cause != OutlineCause::kCamera;
+    return e.chi2 + e.parameters * per_parameter + (rare ? kRare : 0.0);
+  };
+  std::sort(others.begin(), others.end(),
+            [&](const auto& a, const auto& b) { return score(a) < score(b); });
+  for (const OutlineExplanation& e : others) {
+    out.agrees = out.agrees &&
+                 chi_square_tail(std::max(0.0, none.chi2 - e.chi2), e.parameters) >= kOutlineDoubt;
+    out.likely += score(e) <= score(others.front()) + kOutlineCloseScore ? 1 : 0;
+  }
+  out.explanations = {none};
+  out.explanations.insert(out.explanations.end(), others.begin(), others.end());
+  for (std::size_t s = 0; s < shots.size(); ++s) {
+    const auto points = static_cast<double>(shots[s].look.points);
+    out.fitting_share.push_back(points > 0 ? static_cast<double>(model.kept(s)) / points : 0.0);
+  }
+  // One shift of all shots, with pose and place exact.
+  Eigen::VectorXd errors = causes.known();
+  errors.head<kOutlinePose>().setZero();
+  std::size_t body = 0;
+  for (std::size_t b = 0; b < centers_mm.size(); ++b) errors.segment<3>(model.place(b)).setZero();
+  for (const OutlineShot& shot : shots) body = static_cast<std::size_t>(shot.body_idx);
+  const OutlineModel::Fit exact = model.fit(errors, false);
+  const OutlineModel::Fit known = model.fit(causes.known(), true);
+  double n = 0;
+  for (std::size_t s = 0; s < shots.size(); ++s) {
+    Eigen::VectorXd one = errors;
+    one.segment<2>(model.shift(s)).setConstant(kFreeShift_px);
+    const Eigen::Vector2d of_shot = model.fit(one, false).value.segment<2>(model.shift(s));
+    out.shift_px += of_shot;
+    n += 1.0;
+  }
+  out.shift_px /= std::max(1.0, n);
+  out.shift_std_px = kShotShift * model.cell_px() / std::sqrt(std::max(1.0, n));
+  out.improves_pose =
+      out.agrees && chi_square_tail(std::max(0.0, exact.chi2 - known.chi2), 6) < kOutlineDoubt;
+  out.pose = out.improves_pose ? pose_of(model, known, pose, body) : pose;
+  return out;
+}
+
+}  // namespace scattermeter::calib

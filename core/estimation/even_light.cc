@@ -1,0 +1,55 @@
+#include "core/estimation/even_light.h"
+
+#include <algorithm>
+
+#include "core/diffusion/source_cloud.h"
+#include "core/light/ambient_light.h"
+
+namespace scattermeter {
+
+LightKey even_light_key(const ObservedShot& shot) { return {shot.seen.get(), "", 0}; }
+
+bool may_have_even_light(const Scene& scene, const ObservedShot& shot) {
+  const std::vector<std::string>& names = shot.stated->lights;
+  const auto any = [&](const auto& is) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return is(scene.light(name)); });
+  };
+  return scene.even_light_share_std > 0.0 &&
+         any([](const SceneLight& l) { return l.led() != nullptr; }) &&
+         !any([](const SceneLight& l) { return l->is_fitted(); });
+}
+
+Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& knots,
+                                  const std::vector<LitMedium>& media) {
+  const ObjectScene& object = *seen.object;
+  const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
+  // Smooth light: patches of a twentieth of the object.
+  const PatchMesh coarse(object.mesh(),
+                         std::max(2.0 * seen.patches->patch_size_mm(), object.size_mm() / 20.0));
+  const double eta = object.stated->eta_int_over_ext;
+  const SourceCloud sources(AmbientLight().illuminate(coarse, shadows, eta, LightUse::kBudget)[0],
+                            object.box.center_mm());
+  std::vector<ExitSite> sites;
+  sites.reserve(seen.sites.size());
+  for (const ExitSite& site : seen.sites) sites.push_back(exit_point(site.center_mm));
+  return smooth_images(sites, sources, coarse_knots(knots), coarse_pair_options(knots),
+                       scaled_curves(media, knots, eta));
+}
+
+double facing_irradiance_W_per_mm2(const Scene& scene, const ObservedShot& shot,
+                                   std::size_t channel) {
+  const Eigen::Vector3d center_mm = shot.seen->object->box.center_mm();
+  double sum = 0.0;
+  for (const std::string& name : shot.stated->lights) {
+    const SceneLight& light = scene.light(name);
+    if (light.led() == nullptr) continue;
+    const Led& led = light.led()->led;
+    const Eigen::Vector3d to_object = center_mm - led.position_mm;
+    sum += light->power()[static_cast<Eigen::Index>(channel)] * led.lobe(to_object.normalized()) /
+           to_object.squaredNorm();
+  }
+  return sum;
+}
+
+}  // namespace scattermeter

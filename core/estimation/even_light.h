@@ -1,0 +1,32 @@
+// Unlisted, uniform light on the objects: other lamps, and what the room returns of the LEDs'
+// light.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/diffusion/distance_weights.h"
+#include "core/estimation/light_sensitivity.h"
+#include "core/estimation/nuisances.h"
+#include "core/scene/lit_objects.h"
+#include "core/scene/observed_shot.h"
+
+namespace scattermeter {
+
+// The key of a view under uniform light: that of a light without a name.
+LightKey even_light_key(const ObservedShot& shot);
+// Whether the shot may contain such light: it lists an LED, and no light that is fitted.
+bool may_have_even_light(const Scene& scene, const ObservedShot& shot);
+
+// l on the rows of a view under light of radiance 1 from all sides, W/mm^2 per W/(mm^2 sr), for
+// each medium: rows x media, to about 1 %.
+Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& knots,
+                                  const std::vector<LitMedium>& media);
+
+// Irradiance by the shot's LEDs of surfaces at the object's centre that face them, unshadowed,
+// W/mm^2, summed; channel 0 R, 1 G, 2 B.
+double facing_irradiance_W_per_mm2(const Scene& scene, const ObservedShot& shot,
+                                   std::size_t channel);
+
+}  // namespace scattermeter
