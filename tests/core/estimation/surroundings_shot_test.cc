@@ -70,7 +70,7 @@ struct Measured {
 
 Measured measured(ShotsAbovePlane& shots, const ScatteringMedium& medium, const char* model) {
   EstimateOptions options;
-  options.paths = 400'000;
+  options.paths = 250'000;
   options.time_limit_s = 1e4;  // the paths are the limit
   CubeEstimation run(shots.cube, "R", options);
   run.kept.weights.clear();
@@ -96,7 +96,7 @@ Measured measured(ShotsAbovePlane& shots, const ScatteringMedium& medium, const 
 const ScatteringMedium kPlain{1.3, 0.008, 0.0, 1.4};
 
 TEST(SurroundingsShot, StatedPlaneIsAccountedForByTransport) {
-  ShotsAbovePlane stated(kPlain, 0.3, plane_of(0.3, 0.01), 400);
+  ShotsAbovePlane stated(kPlain, 0.3, plane_of(0.3, 0.01), 120);
   const Measured right = measured(stated, kPlain, "transport");
   ASSERT_TRUE(right.estimate.converged);
   EXPECT_LT(std::abs(right.of_s), 3.0);
@@ -110,8 +110,8 @@ TEST(SurroundingsShot, StatedPlaneIsAccountedForByTransport) {
 
 // A stand that the rig does not mention.
 TEST(SurroundingsShot, DefaultBudgetCoversABlackStand) {
-  for (const double albedo : {0.0, 0.05, 0.08}) {
-    ShotsAbovePlane shots(kPlain, albedo, std::nullopt, 400);
+  for (const double albedo : {0.0, 0.05}) {
+    ShotsAbovePlane shots(kPlain, albedo, std::nullopt, 120);
     const Measured m = measured(shots, kPlain, "transport");
     ASSERT_TRUE(m.estimate.converged) << albedo;
     EXPECT_LT(std::abs(m.of_s), 3.0) << albedo;
@@ -120,18 +120,6 @@ TEST(SurroundingsShot, DefaultBudgetCoversABlackStand) {
     EXPECT_TRUE(std::any_of(budget.begin(), budget.end(), [](const BudgetLine& line) {
       return line.cause == "surroundings" && line.std_sigma_a_per_mm > 0.0;
     }));
-  }
-}
-
-TEST(SurroundingsShot, Dipole) {
-  const ScatteringMedium dense{4.0, 0.05, 0.0, 1.4};
-  for (double albedo : {0.0, 0.05, 0.3}) {
-    ShotsAbovePlane none(dense, albedo, std::nullopt, 400);
-    if (albedo < 0.1) measured(none, dense, "dipole");
-    none.cube.scene.surroundings.plane = plane_of(0.0, 0.0);
-    measured(none, dense, "dipole");
-    none.cube.scene.surroundings.plane = plane_of(albedo, 0.02);
-    measured(none, dense, "dipole");
   }
 }
 
