@@ -57,6 +57,7 @@ TEST(SurroundingsNuisance, MeetsPathsAboveAPlane) {
   const Led& led = cube.scene.lights[0].led()->led;
   add_smooth_weights(cube.scene, cube.shots, cube.lit, nullptr, cube.weights);
   const DistanceKnots knots = smooth_knots(cube.lit);
+  const IncidentLight& direct = cube.lit.light("cube", "led", 0);
   for (const Medium& medium : {Medium{1.0, 0.01, 1.4}, Medium{4.0, 0.06, 1.4}}) {
     const std::vector<LitMedium> media = {{medium, 1.0}, {medium, 2.0}};
     const auto dipole =
@@ -66,7 +67,7 @@ TEST(SurroundingsNuisance, MeetsPathsAboveAPlane) {
       ScenePlane plane;
       plane.z_mm = z_mm;
       plane.albedo.setConstant(0.25);
-      const Eigen::MatrixXd change = change_by_plane(seen, led, plane, knots, media);
+      const Eigen::MatrixXd change = change_by_plane(seen, led, direct, plane, knots, media);
       EXPECT_LT((change.col(1) - 2.0 * change.col(0)).norm(), 1e-9 * change.norm());
       const auto column = means(seen, change.col(0));
       const auto with_plane = traced(seen, led, medium, plane.in(0), 100);
