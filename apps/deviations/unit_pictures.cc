@@ -1,10 +1,12 @@
 #include "apps/deviations/unit_pictures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "apps/instrument/open_objects.h"
 #include "capture/sensor/virtual_sensor.h"
+#include "core/transport/volume_light.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -79,12 +81,19 @@ SceneLight of_unit_power(SceneLight light) {
   return light;
 }
 
+// That of the volume's renderer.
+double patch_size_mm(const TriangleMesh& mesh, const std::array<Medium, 3>& media) {
+  const double size_mm = bounds(mesh).size_mm().maxCoeff();
+  double shortest_mm = size_mm;
+  for (const Medium& m : media) shortest_mm = std::min(shortest_mm, 1.0 / m.sigma_t_prime_per_mm());
+  return volume_patch_size_mm(shortest_mm, size_mm);
+}
+
 }  // namespace
 
-std::shared_ptr<const ColourRadiance> UnitPictures::of(const TrueSetup& setup,
-                                                       const SceneLight& light,
-                                                       const std::array<Medium, 3>& media,
-                                                       bool volume) {
+std::shared_ptr<const UnitPicture> UnitPictures::of(const TrueSetup& setup, const SceneLight& light,
+                                                    const std::array<Medium, 3>& media,
+                                                    bool volume) {
   const std::string key = key_of(setup, light, media, volume);
   if (const auto it = kept_.find(key); it != kept_.end()) {
     by_use_.splice(by_use_.begin(), by_use_, it->second.use);
@@ -103,8 +112,12 @@ std::shared_ptr<const ColourRadiance> UnitPictures::of(const TrueSetup& setup,
   // A stream of its own for each picture, which does not depend on those made before.
   transport.seed = capture::VirtualSensor::stream(1, key);
   ShotRenderer renderer(rig, objects, transport);
-  auto picture = std::make_shared<const ColourRadiance>(renderer.render_colour(rig.scene.shots[0]));
-  monte_carlo_std_ = std::max(monte_carlo_std_, renderer.monte_carlo_std());
+  auto picture = std::make_shared<UnitPicture>();
+  picture->radiance = renderer.render_colour(rig.scene.shots[0]);
+  if (volume) {
+    picture->relative_variance_mm2 =
+        std::pow(renderer.monte_carlo_std() * patch_size_mm(setup.mesh, media), 2);
+  }
   ++rendered_;
   if (kept_.size() >= most_) {
     kept_.erase(by_use_.back());
