@@ -27,7 +27,8 @@ const char* channel_name(std::size_t channel) {
 
 std::string size_text(const DeviationRun& run) {
   const Deviation& kind = *run.kind;
-  return kind.unit.empty() ? "" : fmt::format("{:g} {}", kind.sizes[run.size_idx], kind.unit);
+  if (kind.sizes.size() == 1) return "";
+  return fmt::format("{:g}{}{}", kind.sizes[run.size_idx], kind.unit.empty() ? "" : " ", kind.unit);
 }
 
 void add_row(TextTable& table, const std::string& kind, const std::string& size, const char* mark,

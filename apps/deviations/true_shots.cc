@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 
 #include "apps/simulation/chosen_exposure.h"
-#include "apps/simulation/synthetic_camera.h"
 #include "capture/sensor/virtual_sensor.h"
 
 namespace scattermeter::apps {
@@ -36,16 +36,21 @@ double range_of(const Rig& stated) {
   return capture::VirtualSensor(stated.scene, stated.truth.sensor, false).range_counts();
 }
 
-// Of the pixels that the object fills.
-double mean_signal_counts(const ColourFrame& frame, std::size_t channel) {
-  double sum = 0.0;
-  int n = 0;
-  for (float c : frame.counts[channel]) {
-    if (!(c > 0.0F)) continue;
-    sum += static_cast<double>(c);
-    ++n;
+// Share of the pixels that are samples of the channel.
+double samples_per_px(std::size_t channel) { return channel == 1 ? 0.5 : 0.25; }
+
+// Independent noise of so much variance per count.
+void add_noise(std::vector<float>& raw, int width_px, const CfaPattern& cfa,
+               const std::array<double, 3>& counts2_per_count, std::uint64_t stream) {
+  std::mt19937_64 generator(stream);
+  std::normal_distribution<double> normal;
+  for (std::size_t i = 0; i < raw.size(); ++i) {
+    const auto x = static_cast<int>(i % static_cast<std::size_t>(width_px));
+    const auto y = static_cast<int>(i / static_cast<std::size_t>(width_px));
+    const double variance = counts2_per_count[static_cast<std::size_t>(cfa.at(x, y))] *
+                            std::max(0.0, static_cast<double>(raw[i]));
+    raw[i] += static_cast<float>(std::sqrt(variance) * normal(generator));
   }
-  return n > 0 ? sum / n : 0.0;
 }
 
 }  // namespace
@@ -55,10 +60,10 @@ ExpectedShots expected_shots(const TrueSetup& setup, const Rig& stated, bool vol
   const SceneCamera& camera = setup.rig.scene.camera;
   ExpectedShots out;
   double brightest = 0.0;
-  double relative_variance_mm2 = 0.0;
   for (const TrueShot& shot : setup.shots) {
     ColourFrame& frame = out.frames.emplace_back(
         black_frame(camera.intrinsics.width_px, camera.intrinsics.height_px, range_of(stated)));
+    std::array<double, 3>& noise = out.noise_counts2_per_count.emplace_back();
     for (const SceneLight& light : shot.lights) {
       Eigen::Array3d factor = light->power();
       for (std::size_t c = 0; c < 3; ++c) {
@@ -69,7 +74,10 @@ ExpectedShots expected_shots(const TrueSetup& setup, const Rig& stated, bool vol
         const ColourRadiance& r = p->radiance;
         frame.object = {r.x0, r.y0, r.width, r.height};
         add_picture(frame, r, factor, part);
-        relative_variance_mm2 = std::max(relative_variance_mm2, p->relative_variance_mm2);
+        for (std::size_t c = 0; c < 3; ++c) {
+          noise[c] = std::max(noise[c], factor[static_cast<Eigen::Index>(c)] * samples_per_px(c) *
+                                            p->variance_px_per_radiance[c]);
+        }
       };
       add(shot.media, shot.right_half ? Part::kLeft : Part::kAll);
       if (shot.right_half) add(*shot.right_half, Part::kRight);
@@ -79,14 +87,11 @@ ExpectedShots expected_shots(const TrueSetup& setup, const Rig& stated, bool vol
   out.exposure_s =
       rounded_exposure_s(brightest > 0.0 ? kExposedTo * out.frames.front().range_counts / brightest
                                          : kDefaultExposure_s);
-  for (ColourFrame& frame : out.frames) {
-    scale_frame(frame, out.exposure_s);
-    for (std::size_t c = 0; c < 3; ++c) {
-      // Of the four pixels of a cell, one (of G two) is a sample of the channel.
-      const double sample_mm2 = (c == 1 ? 2.0 : 4.0) * std::pow(pixel_mm(stated), 2);
-      out.rendering_counts2_per_count =
-          std::max(out.rendering_counts2_per_count,
-                   relative_variance_mm2 * mean_signal_counts(frame, c) / sample_mm2);
+  for (std::size_t i = 0; i < out.frames.size(); ++i) {
+    scale_frame(out.frames[i], out.exposure_s);
+    for (double& noise : out.noise_counts2_per_count[i]) {
+      noise *= out.exposure_s;
+      out.rendering_counts2_per_count = std::max(out.rendering_counts2_per_count, noise);
     }
   }
   return out;

@@ -20,9 +20,10 @@ namespace scattermeter::apps {
 struct UnitPicture {
   // W/(mm^2 sr) per unit of the light's power, every channel at every pixel.
   ColourRadiance radiance;
-  // Relative Monte Carlo variance of the mean over an area of the surface, times that area: the
-  // median over the renderer's patches. 0 for the dipole.
-  double relative_variance_mm2 = 0;
+  // Monte Carlo variance of the mean over a square of pixels of about the size of a patch, times
+  // its number of pixels, over the mean radiance: per channel, from two independent halves. 0 for
+  // the dipole.
+  std::array<double, 3> variance_px_per_radiance{};
 };
 
 class UnitPictures {

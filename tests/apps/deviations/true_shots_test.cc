@@ -10,20 +10,20 @@
 namespace scattermeter::apps {
 namespace {
 
-struct Setup {
+struct SmallShots {
   Rig stated;
   TrueSetup truth;
 };
-Setup small_setup() {
+SmallShots small_setup() {
   const DeviationRun run{.kind = &deviation_named("none"), .body = "cube", .seed = 4};
-  Setup out{stated_rig(run, 240), {}};
+  SmallShots out{stated_rig(run, 240), {}};
   out.truth = true_setup(out.stated, "cube");
   return out;
 }
 
 // Without a deviation the shots are those that `simulate` makes of the same rig.
 TEST(TrueShots, AreThoseOfSimulate) {
-  const Setup setup = small_setup();
+  const SmallShots setup = small_setup();
   UnitPictures pictures(10'000);
   const ExpectedShots shots = expected_shots(setup.truth, setup.stated, false, pictures);
   EXPECT_EQ(shots.rendering_counts2_per_count, 0.0);
@@ -43,7 +43,7 @@ TEST(TrueShots, AreThoseOfSimulate) {
 }
 
 TEST(TrueShots, Exposure) {
-  Setup setup = small_setup();
+  SmallShots setup = small_setup();
   UnitPictures pictures(10'000);
   const auto brightest = [&] {
     const ExpectedShots shots = expected_shots(setup.truth, setup.stated, false, pictures);
@@ -62,7 +62,7 @@ TEST(TrueShots, Exposure) {
 }
 
 TEST(TrueShots, FilesSayWhatIsStated) {
-  Setup setup = small_setup();
+  SmallShots setup = small_setup();
   UnitPictures pictures(10'000);
   const ExpectedShots shots = expected_shots(setup.truth, setup.stated, false, pictures);
   const capture::RawFrame plain = exposed_frames(shots, setup.truth, setup.stated, 1)[1];
@@ -79,7 +79,7 @@ TEST(TrueShots, FilesSayWhatIsStated) {
 }
 
 TEST(TrueShots, TwoMaterials) {
-  Setup setup = small_setup();
+  SmallShots setup = small_setup();
   UnitPictures pictures(10'000);
   const ExpectedShots one = expected_shots(setup.truth, setup.stated, false, pictures);
   for (TrueShot& shot : setup.truth.shots) {

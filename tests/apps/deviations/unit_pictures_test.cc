@@ -20,7 +20,7 @@ TEST(UnitPictures, RendersWhatIsNewAndNothingTwice) {
   const TrueShot& shot = setup.shots[0];
   const auto first = pictures.of(setup, shot.lights[0], shot.media, false);
   EXPECT_EQ(pictures.rendered(), 1U);
-  EXPECT_EQ(first->relative_variance_mm2, 0.0);
+  EXPECT_EQ(first->variance_px_per_radiance, (std::array<double, 3>{}));
   // Power, sensor and the other lights do not matter.
   TrueSetup same = setup;
   same.rig.truth.sensor.veiling_glare = 0.1;
@@ -51,8 +51,10 @@ TEST(UnitPictures, Volume) {
   UnitPictures few(10'000), more(90'000);
   const auto a = few.of(setup, shot.lights[0], shot.media, true);
   const auto b = more.of(setup, shot.lights[0], shot.media, true);
-  EXPECT_GT(a->relative_variance_mm2, 4.0 * b->relative_variance_mm2);
-  EXPECT_GT(b->relative_variance_mm2, 0.0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_GT(a->variance_px_per_radiance[c], 4.0 * b->variance_px_per_radiance[c]);
+    EXPECT_GT(b->variance_px_per_radiance[c], 0.0);
+  }
   EXPECT_EQ(few.of(setup, shot.lights[0], shot.media, true), a);
   const auto dipole = more.of(setup, shot.lights[0], shot.media, false);
   for (std::size_t c = 0; c < 3; ++c) {
