@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 
@@ -13,6 +13,7 @@
 #include "core/fit/profile_interval.h"
 #include "core/fit/recovered_reflectance.h"
 #include "core/fit/residual.h"
+#include "core/fit/rig_priors.h"
 #include "core/fit/score_tests.h"
 
 namespace scattermeter {
@@ -148,28 +149,46 @@ double set_misfit(const RecoveredReflectance& recovered, double l2,
   return cost / dof;
 }
 
-// Of the fitted nuisances and the scale, where it has a prior.
-std::vector<PriorPull> pulls_of_rig(const RecoveredReflectance& recovered,
-                                    const std::vector<Nuisance>& nuisances,
-                                    const DipoleCurve& curve, const Point& p,
-                                    const ScalePrior& scale) {
-  const double s = std::exp(p.log_s);
-  const double per_noise = 1.0 / std::sqrt(recovered.noise_excess());
-  const auto n = static_cast<Eigen::Index>(nuisances.size());
-  const Eigen::MatrixXd kernel = per_noise * recovered.sqrt_information.leftCols(curve.r.size());
-  const Eigen::VectorXd nominal = kernel * (s * curve.r);
-  const bool is_free = std::isinf(scale.relative_std);
-  WhitenedModel model;
-  model.residual = per_noise * recovered.whitened - nominal;
-  model.free.resize(nominal.size(), is_free ? 3 : 2);
-  model.free.leftCols(2) << kernel * (s * curve.d_u), kernel * (s * curve.d_q);
-  model.columns.resize(nominal.size(), n + (is_free ? 0 : 1));
-  model.columns.leftCols(n) = per_noise * recovered.sqrt_information.rightCols(n);
-  (is_free ? model.free : model.columns).rightCols(1) = nominal;
-  model.nuisances = nuisances;
-  if (!is_free) model.nuisances.push_back({"scale", scale.relative_std, true, "scale"});
-  model.data_length = per_noise * recovered.whitened.norm();
-  return judge(model).pulls;
+// The optimum under the rig's priors, once more with wider ones where the image doubts them. The
+// pulls are those of the priors as stated.
+struct Solved {
+  RigPriors priors;
+  std::vector<Nuisance> fitted;
+  std::unique_ptr<DipoleSolver> solver;  // refers to `fitted`
+  Point optimum;
+  std::vector<PriorPull> pulls;
+};
+
+void solve(const RecoveredReflectance& recovered, const DistanceKnots& knots, double eta,
+           Solved& out) {
+  out.fitted = out.priors.fitted();
+  out.solver = std::make_unique<DipoleSolver>(recovered, knots, out.fitted, eta, out.priors.scale);
+  out.optimum = out.solver->best();
+}
+
+void solve_with_doubt(const RecoveredReflectance& recovered, const DistanceKnots& knots, double eta,
+                      Solved& out) {
+  solve(recovered, knots, eta, out);
+  const Point& p = out.optimum;
+  out.pulls = pulls_of(out.priors, recovered, dipole_curve(knots, p.u, p.q, eta), p);
+  if (widen_doubtful(out.pulls, out.priors)) solve(recovered, knots, eta, out);
+}
+
+// Refusals by the quantities of the rig and by the light of the parts.
+void add_contradictions(const DipoleFit& fit, const Solved& solved, const DipoleFitOptions& options,
+                        Estimate& estimate) {
+  estimate.pulls = solved.pulls;
+  if (const PriorPull* worst =
+          contradiction(estimate.pulls, options.max_pull, options.min_pull_relative)) {
+    estimate.reasons.push_back(contradiction_sentence(*worst));
+  }
+  const LackOfFit parts =
+      misfit_of_parts(fit.image.parts, solved.priors.nuisances, solved.priors.scale);
+  if (parts.p_value < options.misfit_p_value && parts.rms > options.max_parts_relative) {
+    estimate.reasons.push_back(
+        sentence("the dipole does not explain the shots: parts of the image are ",
+                 100.0 * parts.rms, " % off"));
+  }
 }
 
 }  // namespace
@@ -210,39 +229,38 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
     estimate.reasons.push_back("no light reaches the object in these shots");
     return fit;
   }
-  std::vector<Nuisance> fitted;
-  std::copy_if(rows.nuisances().begin(), rows.nuisances().end(), std::back_inserter(fitted),
-               [](const Nuisance& n) { return n.fitted; });
-  const DipoleSolver solver(recovered, knots, fitted, options.eta_int_over_ext, options.scale);
-  fit.optimum = solver.best();
+  Solved solved;
+  solved.priors = {rows.nuisances(), options.scale};
+  solve_with_doubt(recovered, knots, options.eta_int_over_ext, solved);
+  const ScalePrior& scale = solved.priors.scale;
+  fit.optimum = solved.optimum;
   const Point& p = fit.optimum;
   estimate.converged = p.converged;
   const DipoleCurve curve = dipole_curve(knots, p.u, p.q, options.eta_int_over_ext);
   fit.image = compared_image(rows, knots, p, options.eta_int_over_ext);
   const Residual rest = residual(fit.image.l, fit.image.predicted, fit.image.std_l);
-  const int n_parameters = options.scale.relative_std == 0.0 ? 2 : 3;
+  const int n_parameters = scale.relative_std == 0.0 ? 2 : 3;
   estimate.reduced_chi2 = rest.chi2 / (static_cast<double>(image.rows) - n_parameters) +
                           (options.without_noise ? 1.0 : 0.0);
   estimate.rms_relative = rest.rms_relative;
   estimate.psnr_db = rest.psnr_db;
   const double misfit =
-      set_misfit(recovered, image.l2, fitted, options.scale, p, options.without_noise, estimate);
+      set_misfit(recovered, image.l2, solved.fitted, scale, p, options.without_noise, estimate);
   double inflation = std::max(1.0, estimate.reduced_chi2);
   // The dipole's misfit lies in the few directions that r can explain, as the coefficients do;
   // averaged over all rows it would be diluted. It is taken as equal in all those directions (Birge
   // 1932).
   if (estimate.misfit_p_value < options.misfit_p_value) inflation = std::max(inflation, misfit);
   // Errors of the method are at least as large as the misfit that is seen.
-  std::vector<Nuisance> nuisances = rows.nuisances();
+  std::vector<Nuisance> nuisances = solved.priors.nuisances;
   for (Nuisance& n : nuisances) {
     if (!n.fitted && n.std > 0.0 && estimate.misfit_p_value < options.misfit_p_value) {
       n.std = std::max(n.std, options.misfit_margin * estimate.misfit_relative);
     }
   }
   // If the image contradicts the values stated in the rig, the result is widened or refused.
-  const ScoreTests tests =
-      score_tests(recovered, rows.nuisances(), knots, p, options.eta_int_over_ext, options.scale,
-                  recovered.noise_excess());
+  const ScoreTests tests = score_tests(recovered, solved.priors.nuisances, knots, p,
+                                       options.eta_int_over_ext, scale, recovered.noise_excess());
   RecoveredReflectance widened = recovered;
   for (const auto& [test, name] : {std::pair{&tests.scale, "scale"}, {&tests.eta, "eta"}}) {
     if (!(test->p_value < options.misfit_p_value)) continue;
@@ -256,21 +274,11 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
                                           test->offset));
     }
   }
-  set_uncertainty(FitUncertainty(widened, nuisances, curve, p.u, p.q, std::exp(p.log_s),
-                                 options.scale, inflation),
-                  solver, p, inflation, estimate);
+  set_uncertainty(
+      FitUncertainty(widened, nuisances, curve, p.u, p.q, std::exp(p.log_s), scale, inflation),
+      *solved.solver, p, inflation, estimate);
   add_refusals(knots, p, options, estimate);
-  estimate.pulls = pulls_of_rig(recovered, rows.nuisances(), curve, p, options.scale);
-  if (const PriorPull* worst =
-          contradiction(estimate.pulls, options.max_pull, options.min_pull_relative)) {
-    estimate.reasons.push_back(contradiction_sentence(*worst));
-  }
-  const LackOfFit parts = misfit_of_parts(fit.image.parts, rows.nuisances(), options.scale);
-  if (parts.p_value < options.misfit_p_value && parts.rms > options.max_parts_relative) {
-    estimate.reasons.push_back(
-        sentence("the dipole does not explain the shots: parts of the image are ",
-                 100.0 * parts.rms, " % off"));
-  }
+  add_contradictions(fit, solved, options, estimate);
   return fit;
 }
 

@@ -1,0 +1,57 @@
+#include "core/fit/rig_priors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/fit/prior_pulls.h"
+
+namespace scattermeter {
+
+std::vector<Nuisance> RigPriors::fitted() const {
+  std::vector<Nuisance> out;
+  std::copy_if(nuisances.begin(), nuisances.end(), std::back_inserter(out),
+               [](const Nuisance& n) { return n.fitted; });
+  return out;
+}
+
+std::vector<PriorPull> pulls_of(const RigPriors& priors, const RecoveredReflectance& recovered,
+                                const DipoleCurve& curve, const DipoleSolver::Point& optimum) {
+  const double s = std::exp(optimum.log_s);
+  const double per_noise = 1.0 / std::sqrt(recovered.noise_excess());
+  const auto n = static_cast<Eigen::Index>(priors.nuisances.size());
+  const Eigen::MatrixXd kernel = per_noise * recovered.sqrt_information.leftCols(curve.r.size());
+  const Eigen::VectorXd nominal = kernel * (s * curve.r);
+  const bool is_free = std::isinf(priors.scale.relative_std);
+  WhitenedModel model;
+  model.residual = per_noise * recovered.whitened - nominal;
+  model.free.resize(nominal.size(), is_free ? 3 : 2);
+  model.free.leftCols(2) << kernel * (s * curve.d_u), kernel * (s * curve.d_q);
+  model.columns.resize(nominal.size(), n + (is_free ? 0 : 1));
+  model.columns.leftCols(n) = per_noise * recovered.sqrt_information.rightCols(n);
+  (is_free ? model.free : model.columns).rightCols(1) = nominal;
+  model.nuisances = priors.nuisances;
+  if (!is_free) model.nuisances.push_back({"scale", priors.scale.relative_std, true, "scale"});
+  model.data_length = per_noise * recovered.whitened.norm();
+  return judge(model).pulls;
+}
+
+bool widen_doubtful(const std::vector<PriorPull>& pulls, RigPriors& priors) {
+  bool any = false;
+  for (const PriorPull& p : pulls) {
+    const double size = std::abs(p.pull);
+    if (!(size > kDoubtfulPull)) continue;
+    if (p.group == "scale") {
+      priors.scale.relative_std *= size;
+      any = any || priors.scale.relative_std > 0.0;
+    }
+    for (Nuisance& n : priors.nuisances) {
+      if (!n.fitted || n.name.empty() || n.name != p.name) continue;
+      n.std *= size;
+      any = true;
+    }
+  }
+  return any;
+}
+
+}  // namespace scattermeter
