@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "apps/checking/check.h"
+#include "calib/pose/shot_pose.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -49,8 +50,13 @@ std::vector<CheckItem> check_pose(const CheckedRig& checked) {
     lens.worst = checked.lens->worst_px;
     out.push_back(lens);
   }
-  out.push_back(judged("pose outliers", "% of points", {checked.options.max_pose_outlier_percent},
-                       "look for exchanged or mistyped points", outliers));
+  CheckItem& left_out = out.emplace_back(judged("pose outliers", "% of points",
+                                                {checked.options.max_pose_outlier_percent},
+                                                "look for exchanged or mistyped points", outliers));
+  if (checked.shared_pose && checked.rig.pose.board_shot.empty()) {
+    const std::string points = calib::left_out_points(*checked.shared_pose);
+    if (!points.empty()) left_out.where += "; left out: " + points;
+  }
   return out;
 }
 

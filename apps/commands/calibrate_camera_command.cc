@@ -120,6 +120,7 @@ void declare_options(CLI::App& command, CameraArguments& a) {
 }
 
 int run_calibrate_camera(CameraArguments a, CommandContext& context) {
+  capture::require_output_file(a.out);
   if (a.rig.empty()) {
     complete_board(a);
   } else {

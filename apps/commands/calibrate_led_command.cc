@@ -38,6 +38,11 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
                    "the folder for NAME.yaml")
       ->required();
   run_if_named(*command, context, [options, &context] {
+    if (options->light.empty()) {
+      capture::require_output_folder(options->out);
+    } else {
+      capture::require_output_file(options->out);
+    }
     Rig rig = read_rig(options->rig);
     calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
     const calib::LedCalibrationInput input = led_calibration_input(rig);

@@ -29,6 +29,7 @@ void add_check_command(CLI::App& app, CommandContext& context) {
   command->add_option("--rig", options->rig, "rig file (YAML)")->required();
   command->add_option("--out", options->out, "folder for check.json and check.html");
   run_if_named(*command, context, [options, &context] {
+    if (!options->out.empty()) require_results_folder(options->out, options->shots);
     CheckOptions check_options;
     check_options.progress = context.progress;
     if (!options->out.empty()) {

@@ -8,6 +8,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "capture/files/output_place.h"
+#include "core/base/input_error.h"
 #include "core/base/progress.h"
 #include "core/transport/path_peers.h"
 
@@ -35,6 +37,16 @@ inline void run_if_named(CLI::App& command, CommandContext& context, std::functi
     context.chosen = body;
     context.shares_paths = shares_paths;
   });
+}
+
+// Throws InputError, before the work starts, unless results can be written to the folder, which is
+// not that of the shots.
+inline void require_results_folder(const std::string& out, const std::string& shots) {
+  if (capture::is_same_folder(out, shots)) {
+    throw InputError("--out",
+                     "is the folder of the shots, results need a folder of their own, got " + out);
+  }
+  capture::require_output_folder(out);
 }
 
 void add_measure_command(CLI::App& app, CommandContext& context);

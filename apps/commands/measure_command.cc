@@ -67,6 +67,7 @@ void declare_options(CLI::App& command, MeasureArguments& a) {
 }
 
 int run_measure(const MeasureArguments& a, CommandContext& context) {
+  require_results_folder(a.out, a.shots);
   MeasureOptions options = a.options;
   options.estimate.keep_rows = true;
   if (!a.no_cache) options.cache_folder = a.out + "/cache";

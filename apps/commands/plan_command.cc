@@ -89,6 +89,7 @@ void add_plan_command(CLI::App& app, CommandContext& context) {
       ->check(CLI::PositiveNumber);
   command->add_flag("--fast", options->fast, "without maps and suggestions for other shots");
   run_if_named(*command, context, [options, &context] {
+    if (!options->out.empty()) capture::require_output_folder(options->out);
     PlanOptions plan_options;
     plan_options.sigma_s_prime_per_mm = range_of(options->sigma_s, "--sigma-s-prime", false);
     plan_options.sigma_a_per_mm = range_of(options->sigma_a, "--sigma-a", true);

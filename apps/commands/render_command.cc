@@ -104,6 +104,7 @@ void declare_options(CLI::App& command, RenderArguments& a) {
 }
 
 int run_render(const RenderArguments& a, CommandContext& context) {
+  capture::require_output_folder(a.out);
   RenderOptions options = a.options;
   options.transport.volume = a.model == "transport";
   options.progress = context.progress;

@@ -53,6 +53,7 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
   run_if_named(
       *command, context,
       [options, &context] {
+        capture::require_output_folder(options->out);
         options->simulate.noise = options->noise == "on";
         options->simulate.format =
             options->format == "nef" ? capture::RawFormat::kNef : capture::RawFormat::kDng;

@@ -14,6 +14,7 @@
 #include "core/camera/camera_model.h"
 #include "core/mesh/bodies.h"
 #include "core/mesh/round_bodies.h"
+#include "core/scene/default_uncertainty.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -168,10 +169,8 @@ Rig stated_rig(const DeviationRun& run, int image_width_px) {
   rig.scene.camera.responsivity_relative_std = 0.02;
   rig.scene.camera.sensor.cfa = cfa_pattern_from_name(kPatterns[run.seed / 2 % kPatterns.size()]);
   rig.pose.options = {};
-  for (SceneLight& light : rig.scene.lights) {
-    light.led()->position_std_mm = std::max(0.2, light.led()->position_std_mm);
-    light.led()->intensity_relative_std = std::max(0.01, light.led()->intensity_relative_std);
-  }
+  for (SceneLight& light : rig.scene.lights) light.led()->position_std_mm = 0.2;
+  default_uncertainty::take_where_none(rig.scene);
   return rig;
 }
 

@@ -43,6 +43,9 @@ class Instrument {
   // and to this instrument.
   Measurement forecast(const capture::ShotSource& source, std::vector<ObservedShot>& opened);
 
+  // From the rig's points; empty if it has none.
+  const std::optional<PoseResult>& pose_of_points() const { return pose_; }
+
  private:
   Measurement measure(const capture::ShotSource& source, Stopwatch& watch, bool without_noise,
                       std::vector<ObservedShot>& shots);

@@ -14,6 +14,7 @@
 #include "capture/shots/shot_folder.h"
 #include "capture/shots/shot_source.h"
 #include "core/base/input_error.h"
+#include "core/base/nearest_name.h"
 #include "core/base/progress.h"
 #include "core/base/stopwatch.h"
 
@@ -31,8 +32,9 @@ Rig with_materials(const Rig& rig, const std::vector<std::string>& wanted) {
   const std::vector<std::string> known = rig.scene.materials();
   for (const std::string& name : wanted) {
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw InputError(rig.path, fmt::format("shots: no shot is of material {} (there are: {})",
-                                             name, fmt::join(known, ", ")));
+      throw InputError(rig.path,
+                       fmt::format("shots: no shot is of material {}{} (there are: {})", name,
+                                   did_you_mean(name, known), fmt::join(known, ", ")));
     }
   }
   Rig out = rig;
@@ -78,6 +80,14 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
     throw;
   }
   out.skipped.shots_not_asked = whole.scene.shots.size() - rig.scene.shots.size();
+  if (instrument.pose_of_points() && whole.pose.board_shot.empty()) {
+    const std::string points = calib::left_out_points(*instrument.pose_of_points());
+    if (!points.empty()) {
+      out.notes.push_back(whole.at(whole.pose.line) +
+                          ": pose: left out, because the other points " +
+                          "contradict them: " + points + "; check their numbers");
+    }
+  }
   for (const std::string& name : folder.unlisted) {
     if (lists(whole, name)) continue;
     out.notes.push_back(name + ": not in the rig's list of shots, skipped");

@@ -10,6 +10,7 @@
 #include "apps/commands/commands.h"
 #include "apps/program/library_versions.h"
 #include "apps/program/progress_bar.h"
+#include "apps/program/usage_error.h"
 #include "core/base/input_error.h"
 #include "core/base/version.h"
 
@@ -80,7 +81,9 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
   try {
     app.parse(words);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e, out, err) == 0 ? 0 : 2;
+    if (e.get_exit_code() == 0) return app.exit(e, out, err);  // --help, --version
+    err << usage_error(app, e, arguments);
+    return 2;
   }
   const int threads = context.threads > 0
                           ? context.threads

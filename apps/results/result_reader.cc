@@ -10,7 +10,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "capture/files/file_kind.h"
 #include "core/base/input_error.h"
+#include "core/base/nearest_name.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -114,12 +116,21 @@ ReadResult read_result(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream text;
   text << in.rdbuf();
+  if (capture::is_folder(path)) {
+    throw InputError(path, "is a folder; give the result.json that `measure` has written");
+  }
   if (!in || !text) throw InputError(path, "cannot be read");
   ParsedJson json;
   try {
     json = ParsedJson::parse(text.str());
-  } catch (const ParsedJson::exception& e) {
-    throw InputError(path, std::string("is not JSON: ") + e.what());
+  } catch (const ParsedJson::parse_error& e) {
+    const std::string read = text.str().substr(0, std::max<std::size_t>(e.byte, 1) - 1);
+    throw InputError(path, fmt::format("is not JSON (line {}); give the result.json that `measure` "
+                                       "has written",
+                                       1 + std::count(read.begin(), read.end(), '\n')));
+  }
+  if (json.is_object() && !json.contains("results")) {
+    throw InputError(path, "has no results; give the result.json that `measure` has written");
   }
   const JsonField root(json, path, "");
   ReadResult result;
@@ -146,8 +157,8 @@ std::vector<MeasuredMaterial> materials_of(const ReadResult& result,
   }
   for (const std::string& name : names) {
     if (std::find(all.begin(), all.end(), name) != all.end()) continue;
-    throw InputError(result.path,
-                     fmt::format("holds no material {}, only {}", name, fmt::join(all, ", ")));
+    throw InputError(result.path, fmt::format("holds no material {}, only {}{}", name,
+                                              fmt::join(all, ", "), did_you_mean(name, all)));
   }
   std::vector<MeasuredMaterial> out;
   for (const std::string& name : all) {

@@ -24,6 +24,7 @@ calib::CalibrationBoard read_calibration_board(const YamlField& field) {
   board.squares_x = squares[0];
   board.squares_y = squares[1];
   board.square_mm = field.at("square_mm").positive();
+  require_mm(field.at("square_mm"), board.square_mm, 0.1);
   if (charuco) {
     board.marker_mm = field.at("marker_mm").positive();
     if (const auto f = field.find("dictionary")) board.dictionary = f->text();

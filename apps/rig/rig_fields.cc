@@ -1,7 +1,10 @@
 #include "apps/rig/rig_fields.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
+
+#include "core/base/nearest_name.h"
 
 namespace scattermeter::apps {
 
@@ -64,6 +67,19 @@ calib::BoardViewpoint read_viewpoint(const YamlField& field) {
     field.fail("position_mm, look_at_mm and up do not define a camera");
   }
   return out;
+}
+
+void require_name(const YamlField& field, const std::vector<std::string>& names,
+                  const std::string& what) {
+  const std::string name = field.text();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  field.fail(what + did_you_mean(name, names));
+}
+
+void require_mm(const YamlField& field, double length_mm, double shortest_mm) {
+  if (length_mm > 0.0 && length_mm < shortest_mm) {
+    field.fail("lengths are in mm, and this one looks like metres");
+  }
 }
 
 void require_version(const YamlField& top, const std::string& key, const std::string& what) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -23,6 +24,12 @@ Eigen::Vector3d unit_vector(const YamlField& field);  // of any length but zero;
 Eigen::Array3d some_light(const YamlField& field);    // R, G, B of at least 0, not all of them 0
 // position_mm, look_at_mm and the optional up of a camera.
 calib::BoardViewpoint read_viewpoint(const YamlField& field);
+// Requires the text of the field to be one of the names; suggests the nearest one in the message,
+// which begins with `what`.
+void require_name(const YamlField& field, const std::vector<std::string>& names,
+                  const std::string& what);
+// Refuses a length that is not 0 but less than any rig has there: it was meant in metres.
+void require_mm(const YamlField& field, double length_mm, double shortest_mm);
 // Requires top.<key> to be 1. what: of which files, for the message ("rigs").
 void require_version(const YamlField& top, const std::string& key, const std::string& what);
 

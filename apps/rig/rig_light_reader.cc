@@ -13,7 +13,9 @@
 #include "apps/rig/yaml_field.h"
 #include "capture/files/probe_reader.h"
 #include "core/base/input_error.h"
+#include "core/base/nearest_name.h"
 #include "core/light/environment.h"
+#include "core/scene/default_uncertainty.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -53,11 +55,17 @@ void read_led(const LightEntry& entry, SceneLight& light) {
   if (const auto f = field.find("exponent")) led.exponent = f->number(0.0, 1000.0);
   if (const auto f = field.find("radius_mm")) led.radius_mm = f->number(0.0, 1000.0);
   led.intensity_W_per_sr = some_light(field.at("intensity_W_per_sr"));
-  led_light.position_std_mm = field.number_or("position_std_mm", 0.3, 0.0, 1000.0);
+  led_light.position_std_mm =
+      field.number_or("position_std_mm", default_uncertainty::kLedPosition_mm, 0.0, 1000.0);
   led_light.axis_std_rad =
-      field.number_or("axis_std_deg", 1.0, 0.0, 180.0) * std::numbers::pi / 180.0;
-  led_light.exponent_std = field.number_or("exponent_std", 0.05, 0.0, 1000.0);
-  led_light.intensity_relative_std = field.number_or("intensity_relative_std", 0.01, 0.0, 10.0);
+      field.number_or("axis_std_deg", default_uncertainty::kLedAxis_deg, 0.0, 180.0) *
+      std::numbers::pi / 180.0;
+  led_light.exponent_std =
+      field.number_or("exponent_std", default_uncertainty::kLedExponent, 0.0, 1000.0);
+  led_light.intensity_relative_std =
+      field.number_or("intensity_relative_std", default_uncertainty::kLedIntensity, 0.0, 10.0);
+  // An LED in the very origin of the world may be, but not one a millimetre beside it.
+  require_mm(field.at("position_mm"), led.position_mm.norm(), 2.0);
 }
 
 ProbeProjection read_projection(const YamlField& field) {
@@ -136,15 +144,17 @@ SceneLight read_light(const std::string& name, const YamlField& field, const std
   const LightEntry entry{field, rig_path, limits,
                          rig_path + ":" + std::to_string(light.line) + ": lights." + name};
   std::string known;
+  std::vector<std::string> names;
   for (const LightReader& reader : kLightReaders) {
     if (text == reader.type) {
       reader.read(entry, light);
       return light;
     }
+    names.emplace_back(reader.type);
     const bool is_last = &reader == std::end(kLightReaders) - 1;
     known += (known.empty() ? "" : is_last ? " or " : ", ") + std::string(reader.type);
   }
-  type.fail("expected " + known);
+  type.fail("expected " + known + did_you_mean(text, names));
 }
 
 }  // namespace scattermeter::apps

@@ -1,5 +1,6 @@
 #include "apps/rig/rig_pose_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -15,6 +16,7 @@ calib::CharucoBoard read_board(const YamlField& field) {
   board.squares_x = squares[0];
   board.squares_y = squares[1];
   board.square_mm = field.at("square_mm").positive();
+  require_mm(field.at("square_mm"), board.square_mm, 0.1);
   board.marker_mm = field.at("marker_mm").positive();
   if (const auto f = field.find("dictionary")) board.dictionary = f->text();
   Eigen::Vector3d x = Eigen::Vector3d::UnitX();
@@ -47,11 +49,15 @@ calib::PoseSource read_pose(const YamlField& field) {
   if (points.has_value() == charuco.has_value()) field.fail("expected either points or charuco");
   if (points) {
     pose.line = points->line();
+    double extent_mm = 0;
     for (const YamlField& pair : points->items()) {
       pair.only({"world_mm", "image_px"});
       const std::vector<double> px = pair.at("image_px").numbers(2);
       pose.points.push_back({pair.at("world_mm").vector3(), {px[0], px[1]}});
+      extent_mm =
+          std::max(extent_mm, (pose.points.back().world_mm - pose.points.front().world_mm).norm());
     }
+    require_mm(*points, extent_mm, 2.0);
   } else {
     pose.line = charuco->line();
     pose.charuco = read_board(*charuco);

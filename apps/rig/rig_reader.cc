@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <utility>
 
 #include "apps/rig/rig.h"
@@ -11,6 +11,7 @@
 #include "apps/rig/rig_sensor_truth.h"
 #include "apps/rig/rig_surroundings.h"
 #include "apps/rig/yaml_field.h"
+#include "core/scene/default_uncertainty.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -23,9 +24,11 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   object.line = field.line();
   object.mesh_path = beside(rig_path, field.at("mesh").text());
   object.eta_int_over_ext = field.at("eta").number(1.0, 4.0);
-  object.eta_std = field.number_or("eta_std", 0.01, 0.0, 1.0);
-  object.position_std_mm = field.number_or("position_std_mm", 0.1, 0.0, 1000.0);
-  object.scale_relative_std = field.number_or("scale_relative_std", 0.002, 0.0, 1.0);
+  object.eta_std = field.number_or("eta_std", default_uncertainty::kEta, 0.0, 1.0);
+  object.position_std_mm =
+      field.number_or("position_std_mm", default_uncertainty::kObjectPosition_mm, 0.0, 1000.0);
+  object.scale_relative_std =
+      field.number_or("scale_relative_std", default_uncertainty::kMeshScale, 0.0, 1.0);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   return object;
 }
@@ -64,6 +67,13 @@ void read_shot_files(const YamlField& field, SceneShot& shot) {
   for (std::size_t i = 1; i < n; ++i) shot.more_exposures_s.push_back(times[i].positive());
 }
 
+template <typename Named>
+std::vector<std::string> names_of(const std::vector<Named>& all) {
+  std::vector<std::string> names;
+  for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
 SceneShot read_shot(const YamlField& field, const Rig& rig) {
   field.only({"file", "object", "material", "lights", "exposure_s"});
   SceneShot shot;
@@ -73,17 +83,11 @@ SceneShot read_shot(const YamlField& field, const Rig& rig) {
   shot.object = object.text();
   const YamlField material = field.at("material");
   shot.material = material.text();
-  const auto known = [](const auto& all, const std::string& name) {
-    for (const auto& one : all) {
-      if (one.name == name) return true;
-    }
-    return false;
-  };
-  if (!known(rig.scene.objects, shot.object)) object.fail("no such object in objects");
+  require_name(object, names_of(rig.scene.objects), "no such object in objects");
   const YamlField lights = field.at("lights");
   for (const YamlField& light : lights.items()) {
     const std::string name = light.text();
-    if (!known(rig.scene.lights, name)) light.fail("no such light in lights");
+    require_name(light, names_of(rig.scene.lights), "no such light in lights");
     for (const std::string& other : shot.lights) {
       if (other == name) light.fail("the light is listed twice");
     }
@@ -167,18 +171,21 @@ Rig read_rig(const std::string& path, bool with_radiance) {
     rig.scene.objects.push_back(read_object(name, field, path));
   }
   const YamlField lights = top.at("lights");
-  rig.scene.even_light_share_std = top.number_or("even_light_share_std", 0.003, 0.0, 1.0);
+  rig.scene.even_light_share_std =
+      top.number_or("even_light_share_std", default_uncertainty::kEvenLight, 0.0, 1.0);
   for (const auto& [name, field] : lights.entries()) {
     rig.scene.lights.push_back(read_light(name, field, path, rig.limits));
   }
   take_responsivity_of_leds(lights, rig);
-  std::set<std::string> files;
+  std::map<std::string, int> line_of_file;
   const YamlField shots = top.at("shots");
   for (const YamlField& field : shots.items()) {
     rig.scene.shots.push_back(read_shot(field, rig));
     for (const std::string& file : rig.scene.shots.back().files()) {
-      if (!files.insert(file).second) {
-        field.at("file").fail("two shots of the same name: " + file);
+      const auto [first, is_new] = line_of_file.emplace(file, field.line());
+      if (!is_new) {
+        field.at("file").fail("two shots of the same name: " + file + " is also that of line " +
+                              std::to_string(first->second));
       }
     }
   }
@@ -186,13 +193,12 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   if (const auto f = top.find("surroundings")) rig.scene.surroundings = read_surroundings(*f);
   if (const auto f = top.find("calibration")) rig.calibration = read_calibration(*f, path);
   if (rig.calibration.radiance && rig.calibration.radiance->white) {
-    const std::string& name = rig.calibration.radiance->white->light;
-    const bool is_led =
-        std::any_of(rig.scene.lights.begin(), rig.scene.lights.end(),
-                    [&](const SceneLight& l) { return l.name == name && l.led() != nullptr; });
-    if (!is_led) {
-      top.at("calibration").at("radiance").at("white").at("light").fail("no such LED in lights");
+    std::vector<std::string> leds;
+    for (const SceneLight& light : rig.scene.lights) {
+      if (light.led() != nullptr) leds.push_back(light.name);
     }
+    require_name(top.at("calibration").at("radiance").at("white").at("light"), leds,
+                 "no such LED in lights");
   }
   if (const auto truth = top.find("truth")) read_truth(*truth, rig);
   return rig;

@@ -7,6 +7,7 @@
 
 #include "apps/instrument/open_objects.h"
 #include "core/base/input_error.h"
+#include "core/base/nearest_name.h"
 #include "core/base/progress.h"
 
 namespace scattermeter::apps {
@@ -16,11 +17,14 @@ template <typename Named>
 void require_known(const Rig& rig, const std::vector<Named>& known, const std::string& name,
                    const std::string& kind) {
   std::string all;
+  std::vector<std::string> names;
   for (const Named& k : known) {
     if (k.name == name) return;
     all += (all.empty() ? "" : ", ") + k.name;
+    names.push_back(k.name);
   }
-  throw InputError(rig.path, "has no " + kind + " " + name + ", only " + all);
+  throw InputError(rig.path,
+                   "has no " + kind + " " + name + ", only " + all + did_you_mean(name, names));
 }
 
 std::vector<RenderScene> scenes_of(const Rig& rig, const RenderOptions& options) {

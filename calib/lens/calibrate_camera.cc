@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kNotSeen = "the board is not seen";
+
 struct OpenedBoardShot {
   std::string path;
   std::string name;
@@ -79,7 +81,38 @@ void open_board_shot(const CalibrateCameraOptions& options, bool must_be_picture
   shot->view = {shot->name,
                 find_board_corners(options.board, picture.grey, picture.width_px, picture.height_px,
                                    picture.px_scale, picture.px_offset)};
-  if (shot->view.corners.empty()) shot->fault = "the board is not seen";
+  if (shot->view.corners.empty()) shot->fault = kNotSeen;
+}
+
+// What to say when no shot shows the board: whether one does if its squares were counted as corners
+// or its corners as squares. At most this many shots are tried again, as the search takes a second.
+constexpr std::size_t kTriedAgain = 3;
+
+std::string other_count(const CalibrateCameraOptions& options,
+                        const std::vector<OpenedBoardShot>& shots) {
+  if (options.board.kind != BoardKind::kChessboard) return "";
+  std::size_t tried = 0;
+  for (const OpenedBoardShot& shot : shots) {
+    if (shot.fault != kNotSeen) continue;
+    if (tried++ == kTriedAgain) break;
+    const GreyPicture picture = read_grey_picture(shot.path, options.max_megapixels);
+    for (const int more : {1, -1}) {
+      CalibrationBoard board = options.board;
+      board.squares_x += more;
+      board.squares_y += more;
+      if (!calibration_board_problem(board).empty()) continue;
+      if (find_board_corners(board, picture.grey, picture.width_px, picture.height_px,
+                             picture.px_scale, picture.px_offset)
+              .empty()) {
+        continue;
+      }
+      return fmt::format(
+          "; {} shows a board of {} x {} squares, which has {} x {} inner corners: one was given "
+          "for the other",
+          shot.name, board.squares_x, board.squares_y, board.squares_x - 1, board.squares_y - 1);
+    }
+  }
+  return "";
 }
 
 // The most frequent size; the first of several.
@@ -122,10 +155,15 @@ CameraCalibrationRun calibrate_camera_shots(const CalibrateCameraOptions& option
       left_out.push_back({shot.name, shot.fault});
     }
   }
+  const bool none_seen =
+      std::ranges::none_of(shots, [](const OpenedBoardShot& shot) { return shot.fault.empty(); });
   CameraCalibrationRun run;
   run.n_shots = shots.size();
   run.calibration =
       calibrate_camera(views, size.first, size.second, {options.board_std_mm, options.model});
+  if (none_seen && run.calibration.status == CameraCalibrationStatus::kTooFewViews) {
+    run.calibration.message += other_count(options, shots);
+  }
   run.calibration.left_out.insert(run.calibration.left_out.begin(), left_out.begin(),
                                   left_out.end());
   return run;

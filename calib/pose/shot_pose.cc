@@ -25,6 +25,18 @@ PoseResult pose_from_points(const Scene& scene, const PoseSource& source) {
   return pose;
 }
 
+std::string left_out_points(const PoseResult& pose) {
+  std::string out;
+  for (std::size_t i = 0; i < pose.inlier.size(); ++i) {
+    if (pose.inlier[i]) continue;
+    out += fmt::format("{}points[{}]", out.empty() ? "" : ", ", i);
+    if (i < pose.residuals_px.size()) {
+      out += fmt::format(" ({:.2g} px off)", pose.residuals_px[i].norm());
+    }
+  }
+  return out;
+}
+
 namespace {
 
 std::vector<PointPair> board_corners(const CharucoBoard& board, const capture::RawFrame& frame,

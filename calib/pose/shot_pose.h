@@ -17,6 +17,10 @@ namespace scattermeter::calib {
 // explains it.
 PoseResult pose_from_points(const Scene& scene, const PoseSource& source);
 
+// The points that the pose does not explain, "points[3] (57 px off), points[5] (9.1 px off)", as
+// they are numbered in the rig; "" if there are none. The distance is left out where it is unknown.
+std::string left_out_points(const PoseResult& pose);
+
 // Pose from the ChArUco board in the shot. Throws InputError naming the shot when the board is not
 // found or does not determine the pose.
 PoseResult pose_from_board(const Scene& scene, const PoseSource& source,

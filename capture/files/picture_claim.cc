@@ -141,20 +141,35 @@ PictureClaim tiff(Head& head, bool least_first) {
   return claim;
 }
 
-PictureClaim claim_of(Head& head) {
+std::string kind_of(Head& head) {
   using namespace std::string_literals;
   const std::string first = head.text(0, 12);
-  if (first.starts_with("\xff\xd8\xff")) return jpeg(head);
-  if (first.starts_with("\x89PNG\r\n\x1a\n")) return png(head);
-  if (first.starts_with("BM")) return bmp(head);
-  if (first.starts_with("II*\0"s) || first.starts_with("MM\0*"s))
-    return tiff(head, first[0] == 'I');
-  if (first.starts_with("RIFF") && first.ends_with("WEBP")) return webp(head);
-  if (first[0] == 'P' && first[1] >= '1' && first[1] <= '6') return portable_map(head);
+  if (first.starts_with("\xff\xd8\xff")) return "JPEG";
+  if (first.starts_with("\x89PNG\r\n\x1a\n")) return "PNG";
+  if (first.starts_with("BM")) return "BMP";
+  if (first.starts_with("II*\0"s) || first.starts_with("MM\0*"s)) return "TIFF";
+  if (first.starts_with("RIFF") && first.ends_with("WEBP")) return "WebP";
+  if (first[0] == 'P' && first[1] >= '1' && first[1] <= '6') return "PNM";
+  return "";
+}
+
+PictureClaim claim_of(Head& head) {
+  const std::string kind = kind_of(head);
+  if (kind == "JPEG") return jpeg(head);
+  if (kind == "PNG") return png(head);
+  if (kind == "BMP") return bmp(head);
+  if (kind == "TIFF") return tiff(head, head.text(0, 1) == "I");
+  if (kind == "WebP") return webp(head);
+  if (kind == "PNM") return portable_map(head);
   return {};
 }
 
 }  // namespace
+
+std::string picture_kind(std::istream& file) {
+  Head head(file);
+  return kind_of(head);
+}
 
 std::optional<PictureClaim> picture_claim(std::istream& file) {
   Head head(file);

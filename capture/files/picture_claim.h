@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <istream>
 #include <optional>
+#include <string>
 
 namespace scattermeter::capture {
 
@@ -14,6 +15,9 @@ struct PictureClaim {
   // tile or strip if that is larger.
   double pixels = 0;
 };
+
+// "JPEG", "PNG", "BMP", "TIFF", "WebP" or "PNM" by the first bytes of the file; "" for any other.
+std::string picture_kind(std::istream& file);
 
 // Reads the header of a JPEG, PNG, classic TIFF (first directory), BMP, PBM/PGM/PPM or WebP file,
 // as recognised by its first bytes and not by its name. nullopt for any other file and when the

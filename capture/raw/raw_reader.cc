@@ -12,6 +12,7 @@
 
 #include <libraw/libraw.h>
 
+#include "capture/files/picture_claim.h"
 #include "capture/raw/curve_levels.h"
 #include "capture/raw/refused_make.h"
 #include "capture/raw/tiff_layout.h"
@@ -43,6 +44,13 @@ void check_is_plain_file(const std::string& path) {
 
 void check_opened(const std::string& path, int status) {
   if (status == LIBRAW_SUCCESS) return;
+  std::ifstream file(path, std::ios::binary);
+  // A TIFF may be a raw file of an unknown camera.
+  if (const std::string kind = picture_kind(file); !kind.empty() && kind != "TIFF") {
+    throw InputError(path, "is a " + kind +
+                               " picture, a raw file is needed: set the camera to raw "
+                               "(NEF, CR2, DNG ...) and give these files");
+  }
   // LibRaw reports an input/output error for a short text file.
   if (status == LIBRAW_FILE_UNSUPPORTED || status == LIBRAW_IO_ERROR) {
     throw InputError(path, "is no raw file of a known camera format, or truncated in its header");

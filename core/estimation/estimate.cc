@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <vector>
 
+#include "core/base/nearest_name.h"
 #include "core/base/progress.h"
 #include "core/estimation/estimation.h"
 
@@ -25,7 +27,12 @@ const Estimator& estimator(const std::string& name) {
   const auto all = estimators();
   const auto it =
       std::find_if(all.begin(), all.end(), [&](const Estimator& e) { return name == e.name; });
-  if (it == all.end()) throw std::invalid_argument("no estimator has the name '" + name + "'");
+  if (it == all.end()) {
+    std::vector<std::string> names;
+    for (const Estimator& e : all) names.emplace_back(e.name);
+    throw std::invalid_argument("no estimator has the name '" + name + "'" +
+                                did_you_mean(name, names));
+  }
   return *it;
 }
 

@@ -32,6 +32,7 @@ TEST(CheckPose, OfTheRigsPoints) {
   EXPECT_EQ(items[1].what, "pose outliers");
   EXPECT_EQ(items[1].worst, 12.5);
   EXPECT_TRUE(items[1].passed);
+  EXPECT_EQ(items[1].where, "pose.points, 8 points; left out: points[3]");
   made.checked.shared_pose = made_pose(1.1, 3.0, {true, false, false, true});
   items = check_pose(made.checked);
   EXPECT_FALSE(items[0].passed);

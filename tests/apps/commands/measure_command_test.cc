@@ -1,6 +1,7 @@
 // Every mistake gets its own message naming file, field and value, exit status 2, and leaves
 // nothing behind.
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,77 @@ class BadInput : public ::testing::Test {
 TEST_F(BadInput, MissingFolder) {
   std::filesystem::remove_all(rig_.shots());
   expect_refused({rig_.shots(), "does not exist"});
+}
+
+TEST_F(BadInput, ResultsInTheWrongPlace) {
+  const auto told = [&](const std::string& out) {
+    const Answer r = run({"measure", rig_.shots(), "--rig", rig_ / "nowhere.yaml", "--out", out});
+    EXPECT_EQ(r.status, 2);
+    return r.err;  // before the rig is even opened
+  };
+  EXPECT_THAT(told(rig_.shots() + "/"), HasSubstr("--out: is the folder of the shots"));
+  EXPECT_THAT(told(rig_.rig()), HasSubstr("rig.yaml: is a file, a folder is needed"));
+  EXPECT_THAT(told(rig_.rig() + "/deep"), HasSubstr("cannot be created"));
+}
+
+TEST_F(BadInput, JpegAmongTheRaws) {
+  write_file(rig_.shots() + "/POM_cube_1.dng", std::string("\xff\xd8\xff\xe0 JFIF and more of it"));
+  expect_refused({"POM_cube_1.dng", "is a JPEG picture, a raw file is needed"});
+}
+
+TEST_F(BadInput, NamesThatWereMeant) {
+  change("object: cube, material: POM", "object: cbue, material: POM");
+  expect_refused(
+      {rig_.rig(), "shots[0].object: no such object in objects; did you mean cube?", "got cbue"});
+  change("cbue", "cube");
+  change("lights: [led1]", "lights: [lde1]");
+  expect_refused({"shots[0].lights[0]: no such light in lights; did you mean led1?"});
+  change("[lde1]", "[led1]");
+  const Answer r = rig_.measure({"--material", "PQM"});
+  EXPECT_THAT(r.err, HasSubstr("no shot is of material PQM; did you mean POM? (there are: POM)"));
+}
+
+TEST_F(BadInput, LengthsInMetres) {
+  const std::string good = rig_.text();
+  change("position_mm: [30, -60, 80]", "position_mm: [0.03, -0.06, 0.08]");
+  expect_refused(
+      {"lights.led1.position_mm: lengths are in mm, and this one looks like metres", "0.08"});
+  std::string metres = good;
+  for (std::size_t at = 0; (at = metres.find("world_mm: [", at)) != std::string::npos;) {
+    const std::size_t end = metres.find(']', at);
+    std::istringstream numbers(metres.substr(at + 11, end - at - 11));
+    std::string list;
+    for (std::string number; std::getline(numbers, number, ',');) {
+      list += (list.empty() ? "" : ", ") + std::to_string(1e-3 * std::stod(number));
+    }
+    metres.replace(at + 11, end - at - 11, list);
+    at += 11;
+  }
+  rig_.write(metres);
+  expect_refused({"pose.points: lengths are in mm, and this one looks like metres"});
+}
+
+TEST_F(BadInput, TwoShotsOfOneName) {
+  change("shots:\n",
+         "shots:\n  - {file: POM_cube_1.dng, object: cube, material: PE, lights: [led2]}\n");
+  expect_refused(
+      {"shots[1].file: two shots of the same name: POM_cube_1.dng is also that of line"});
+}
+
+// The pose is that of the other points; the user is told which one is left out.
+TEST_F(BadInput, MistypedPointIsNamed) {
+  const std::string& text = rig_.text();
+  const std::size_t third =
+      text.find("image_px: [", text.find("image_px: [", text.find("image_px: [") + 1) + 1);
+  std::string wrong = text;
+  const std::size_t first_digit = third + std::string("image_px: [").size();
+  wrong.insert(first_digit, "9");  // 9241.8 for 241.8
+  rig_.write(wrong);
+  const Answer r = rig_.measure({"--model", "dipole"});
+  EXPECT_EQ(r.status, 0) << r.out << r.err;
+  EXPECT_THAT(r.err, ::testing::ContainsRegex(
+                         "note: .*rig.yaml:[0-9]+: pose: left out, because the other points "
+                         "contradict them: points\\[2\\] \\([^)]* px off\\); check their numbers"));
 }
 
 // What a file may claim can be raised, and lowered; the message says by which key.

@@ -43,7 +43,10 @@ TEST(ResultReader, NamesWhatIsWrong) {
   EXPECT_EQ(exported.run_format("obj").status, 2);
   EXPECT_EQ(run({"export", "/nowhere.json", "--format", "csv", "--out", exported.out()}).status, 2);
   write_file(exported.result(), std::string("{\"results\": ["));
-  EXPECT_THAT(exported.run_format("csv").err, HasSubstr("is not JSON"));
+  EXPECT_THAT(exported.run_format("csv").err,
+              HasSubstr("is not JSON (line 1); give the result.json that `measure` has written"));
+  write_file(exported.result(), std::string("{\"format\": 1}"));
+  EXPECT_THAT(exported.run_format("csv").err, HasSubstr("has no results; give the result.json"));
 }
 
 TEST(ResultReader, ReadsWhatWasMeasured) {

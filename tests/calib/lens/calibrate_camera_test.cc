@@ -68,6 +68,18 @@ TEST(CalibrateCamera, RawsBackToTheTruth) {
   }
 }
 
+// 8 x 6 squares have 7 x 5 inner corners.
+TEST(CalibrateCamera, SquaresAndCornersExchanged) {
+  const BoardRig rig(kChess, 3);
+  rig.shoot(1);
+  for (const auto& [option, count] : {std::pair("--squares", "7x5"), {"--corners", "8x6"}}) {
+    const Answer a = rig.calibrate({"--board", "chessboard", option, count, "--square-mm", "30"});
+    EXPECT_EQ(a.status, 1) << a.out;
+    EXPECT_THAT(a.err, HasSubstr("shows a board of 8 x 6 squares, which has 7 x 5 inner corners: "
+                                 "one was given for the other"));
+  }
+}
+
 TEST(CalibrateCamera, LeavesOutWhatDoesNotBelong) {
   const BoardRig rig(kChess, 3);
   rig.shoot(1);

@@ -39,6 +39,21 @@ void expect_claim(const std::string& bytes, std::uint32_t width_px, std::uint32_
   }
 }
 
+TEST(PictureKind, IsToldByTheFirstBytes) {
+  const auto kind = [](const std::string& bytes) {
+    std::istringstream file(bytes);
+    return picture_kind(file);
+  };
+  EXPECT_EQ(kind("\xff\xd8\xff\xe1 and more"), "JPEG");
+  EXPECT_EQ(kind("\x89PNG\r\n\x1a\n"), "PNG");
+  EXPECT_EQ(kind("MM\0*\0\0\0\10"s), "TIFF");
+  EXPECT_EQ(kind("RIFF1234WEBP"), "WebP");
+  EXPECT_EQ(kind("P5\n2 2\n"), "PNM");
+  EXPECT_EQ(kind("BM"), "BMP");
+  EXPECT_EQ(kind("hello"), "");
+  EXPECT_EQ(kind(""), "");
+}
+
 TEST(PictureClaim, Png) {
   expect_claim("\x89PNG\r\n\x1a\n" + big(13, 4) + "IHDR" + big(70'000, 4) + big(3, 4), 70'000, 3);
   EXPECT_FALSE(claim_of("\x89PNG\r\n\x1a\n" + big(13, 4) + "IDAT" + big(7, 4) + big(3, 4)));

@@ -55,6 +55,16 @@ TEST_F(RawReaderRefusal, WhatIsNoRawFile) {
               AllOf(StartsWith(path_), HasSubstr("no raw file")));
 }
 
+TEST_F(RawReaderRefusal, PicturesAreNamedAsSuch) {
+  const Bytes jpeg = {0xff, 0xd8, 0xff, 0xe0, 0, 16, 'J', 'F', 'I', 'F',
+                      0,    1,    1,    0,    0, 1,  0,   1,   0,   0};
+  EXPECT_EQ(refusal_of(jpeg), path_ +
+                                  ": is a JPEG picture, a raw file is needed: set the camera to "
+                                  "raw (NEF, CR2, DNG ...) and give these files");
+  EXPECT_THAT(refusal_of({0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13}),
+              HasSubstr("is a PNG picture"));
+}
+
 // LibRaw can overrun a buffer on the names in such files (parseHassyModel()).
 TEST_F(RawReaderRefusal, MakeThatLibRawIsNotSafeWith) {
   constexpr unsigned kMake = 271;
