@@ -30,7 +30,7 @@ struct Place {
 
 // The surface as places; every patch belongs to one. A mesh of many facets has as few as another.
 struct Places {
-  Places(const PatchMesh& patches, double cell_mm) : cell_mm(cell_mm) {
+  Places(const PatchMesh& patches, double size_mm) : cell_mm(size_mm) {
     using Key = std::array<int, 6>;
     std::map<Key, std::size_t> known;
     std::vector<Eigen::Vector3d> sum;
@@ -38,7 +38,7 @@ struct Places {
       const Eigen::Vector3d at = patches.center_mm(k);
       Key key{};
       for (int i = 0; i < 3; ++i) {
-        key[static_cast<std::size_t>(i)] = static_cast<int>(std::floor(at[i] / cell_mm));
+        key[static_cast<std::size_t>(i)] = static_cast<int>(std::floor(at[i] / size_mm));
         key[static_cast<std::size_t>(i + 3)] =
             static_cast<int>(std::lround(1.49 * patches.normal(k)[i]));
       }
@@ -58,11 +58,11 @@ struct Places {
       const std::size_t p = of_patch[static_cast<std::size_t>(k)];
       const Eigen::Vector3d middle = sum[p] / all[p].area_mm2;
       const double distance = (patches.center_mm(k) - middle).norm();
-      if (distance >= nearest[p] - 1e-9 * cell_mm) continue;
+      if (distance >= nearest[p] - 1e-9 * size_mm) continue;
       nearest[p] = distance;
       // In the middle itself where the place is flat.
       const double off = patches.normal(k).dot(middle - patches.center_mm(k));
-      all[p].point = {std::abs(off) < 1e-6 * cell_mm ? middle : patches.center_mm(k),
+      all[p].point = {std::abs(off) < 1e-6 * size_mm ? middle : patches.center_mm(k),
                       patches.normal(k)};
     }
   }
