@@ -12,7 +12,7 @@ namespace {
 
 struct DeviationArguments {
   DeviationOptions options;
-  bool all = false, list = false;
+  bool all = false, list = false, each = false;
   std::string csv;
 };
 
@@ -51,6 +51,13 @@ void declare(CLI::App& command, DeviationArguments& a) {
       ->check(CLI::Range(std::int64_t{300'000}, std::int64_t{1'000'000'000'000}))
       ->capture_default_str();
   command.add_option("--csv", a.csv, "file for the answers one by one (default: none)");
+  command.add_option("--body", o.bodies, "only this body (may be repeated)")
+      ->check(CLI::IsMember({"cube", "pyramid", "sphere"}));
+  command.add_option("--size", o.sizes, "only this size, from 0 (may be repeated)")
+      ->check(CLI::Range(0, 9));
+  command.add_option("--leds", o.leds, "only this number of LEDs")->check(CLI::Range(1, 2));
+  command.add_option("--run-seed", o.run_seed, "of every run, as in the CSV: to repeat one");
+  command.add_flag("--each", a.each, "print every answer, not only those that are wrong");
   command.add_flag("--list", a.list, "only list the kinds of deviation");
 }
 
@@ -74,6 +81,10 @@ void add_deviations_bench(CLI::App& bench, CommandContext& context,
     }
     take_common(*common, context, a->options);
     if (a->all) a->options.runs = 0;
+    a->options.on_result = [&](const DeviationResult& result) {
+      const bool wrong = result.judged.verdict == DeviationVerdict::kWrongOk;
+      if (!context.quiet && (wrong || a->each)) context.out << deviation_line(result) << std::flush;
+    };
     const std::vector<DeviationResult> results = bench_deviations(a->options);
     if (!context.quiet) context.out << deviation_table(results);
     if (!a->csv.empty()) capture::write_text_file(a->csv, deviation_csv(results));

@@ -15,7 +15,9 @@
 namespace scattermeter::apps {
 namespace {
 
-constexpr double kOnPlane_mm = 1e-9;
+// Vertices closer than this to the plane are on it; two of the result are one.
+constexpr double kOnPlane_mm = 1e-6;
+constexpr double kOneVertex_mm = 1e-5;
 
 // Cuts triangles one by one; vertices on the plane are shared, so that the rim closes.
 class MeshCutter {
@@ -96,19 +98,24 @@ class MeshCutter {
     }
   }
 
+  // Without unused vertices, and with those that nearly coincide as one.
   TriangleMesh without_unused() const {
     TriangleMesh out;
     std::map<int, int> number;
-    for (const auto& triangle : out_.triangles) {
-      std::array<int, 3> renumbered{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto [it, is_new] =
-            number.try_emplace(triangle[k], static_cast<int>(out.vertices_mm.size()));
-        if (is_new)
-          out.vertices_mm.push_back(out_.vertices_mm[static_cast<std::size_t>(it->first)]);
-        renumbered[k] = it->second;
-      }
-      out.triangles.push_back(renumbered);
+    const auto number_of = [&](int vertex) {
+      const auto [it, is_new] = number.try_emplace(vertex, 0);
+      if (!is_new) return it->second;
+      const Eigen::Vector3d& x = out_.vertices_mm[static_cast<std::size_t>(vertex)];
+      const auto same = std::find_if(
+          out.vertices_mm.begin(), out.vertices_mm.end(),
+          [&](const Eigen::Vector3d& other) { return (other - x).norm() < kOneVertex_mm; });
+      it->second = static_cast<int>(same - out.vertices_mm.begin());
+      if (same == out.vertices_mm.end()) out.vertices_mm.push_back(x);
+      return it->second;
+    };
+    for (const auto& t : out_.triangles) {
+      const std::array<int, 3> n = {number_of(t[0]), number_of(t[1]), number_of(t[2])};
+      if (n[0] != n[1] && n[1] != n[2] && n[2] != n[0]) out.triangles.push_back(n);
     }
     return out;
   }

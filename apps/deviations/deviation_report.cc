@@ -27,7 +27,8 @@ const char* channel_name(std::size_t channel) {
 
 std::string size_text(const DeviationRun& run) {
   const Deviation& kind = *run.kind;
-  return kind.unit.empty() ? "" : fmt::format("{:g} {}", kind.sizes[run.size_idx], kind.unit);
+  if (kind.sizes.size() == 1) return "";
+  return fmt::format("{:g}{}{}", kind.sizes[run.size_idx], kind.unit.empty() ? "" : " ", kind.unit);
 }
 
 void add_row(TextTable& table, const std::string& kind, const std::string& size, const char* mark,
@@ -36,25 +37,6 @@ void add_row(TextTable& table, const std::string& kind, const std::string& size,
                  n.wrong_ok > 0 ? fmt::format("{:.1f}", n.worst_by_std) : "-",
                  percent(n.right + n.wrong_ok, n.runs), percent(n.refused, n.runs),
                  percent(n.named, n.refused)});
-}
-
-// A line for each wrong answer.
-std::string wrong_answers(const std::vector<DeviationResult>& results) {
-  std::string text;
-  for (const DeviationResult& r : results) {
-    if (r.judged.verdict != DeviationVerdict::kWrongOk) continue;
-    const auto coefficient = [](const char* name, const Quantity& q, const AnswerError& e) {
-      return fmt::format("{} {:.4g} +- {:.2g} ({:+.1f} %, {:+.1f} s)", name, q.value, q.std,
-                         100.0 * e.relative, e.in_std);
-    };
-    text += fmt::format(
-        "wrong ok: {} {}, {}, {} LED, {}, {}, seed {}: {}; {}\n", r.run.kind->name,
-        size_text(r.run), r.run.body, r.run.leds, r.run.volume ? "volume" : "dipole",
-        deviation_media()[r.channel].name, r.run.seed,
-        coefficient("sigma_s'", r.estimate.sigma_s_prime_per_mm, r.judged.sigma_s_prime),
-        coefficient("sigma_a", r.estimate.sigma_a_per_mm, r.judged.sigma_a));
-  }
-  return text;
 }
 
 }  // namespace
@@ -99,6 +81,23 @@ DeviationSummary summarise(const std::vector<DeviationResult>& results) {
   return out;
 }
 
+std::string deviation_line(const DeviationResult& r) {
+  const auto coefficient = [](const char* name, const Quantity& q, const AnswerError& e) {
+    return fmt::format("{} {:.4g} +- {:.2g} ({:+.1f} %, {:+.1f} s)", name, q.value, q.std,
+                       100.0 * e.relative, e.in_std);
+  };
+  const Estimate& e = r.estimate;
+  const std::string answer =
+      e.reasons.empty() ? coefficient("sigma_s'", e.sigma_s_prime_per_mm, r.judged.sigma_s_prime) +
+                              "; " + coefficient("sigma_a", e.sigma_a_per_mm, r.judged.sigma_a)
+                        : fmt::format("{}", fmt::join(e.reasons, " "));
+  return fmt::format("{}: {} {}, {}, {} LED{}, {}, {}, seed {}: {} (chi2/n {:.2f}, {:.1f} s)\n",
+                     verdict_name(r.judged.verdict), r.run.kind->name, size_text(r.run), r.run.body,
+                     r.run.leds, r.run.leds > 1 ? "s" : "", r.run.volume ? "volume" : "dipole",
+                     deviation_media()[r.channel].name, r.run.seed, answer, e.reduced_chi2,
+                     r.seconds);
+}
+
 std::string deviation_table(const std::vector<DeviationResult>& results) {
   using Align = TextTable::Align;
   const DeviationSummary summary = summarise(results);
@@ -127,7 +126,7 @@ std::string deviation_table(const std::vector<DeviationResult>& results) {
   add_row(table, "rendered by volume", "", "", summary.volume);
   add_row(table, "all", "", "", summary.total);
   add_row(table, "within what the rig states", "", "within", summary.within);
-  return table.text() + wrong_answers(results);
+  return table.text();
 }
 
 std::string deviation_csv(const std::vector<DeviationResult>& results) {

@@ -1,7 +1,7 @@
 // Counts, table and CSV of `bench deviations`.
 #pragma once
 
-#include <map>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -36,7 +36,9 @@ struct DeviationSummary {
 };
 DeviationSummary summarise(const std::vector<DeviationResult>& results);
 
-// A row for each kind and size, the totals, and the wrong answers one by one.
+// One answer: verdict, run, and the coefficients or the reasons of the refusal; with a line end.
+std::string deviation_line(const DeviationResult& result);
+// A row for each kind and size, and the totals.
 std::string deviation_table(const std::vector<DeviationResult>& results);
 // A row for each answer.
 std::string deviation_csv(const std::vector<DeviationResult>& results);

@@ -14,6 +14,7 @@
 #include "core/camera/camera_model.h"
 #include "core/mesh/bodies.h"
 #include "core/mesh/round_bodies.h"
+#include "core/scene/default_uncertainty.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -25,24 +26,32 @@ constexpr std::size_t kDipolePerVolume = 9;
 const std::vector<std::string> kBodies = {"cube", "pyramid", "sphere"};
 const std::vector<std::string> kPatterns = {"RGGB", "GRBG", "GBRG", "BGGR"};
 
-bool fits(const DeviationRun& run, DeviationRendering rendering) {
+template <class T>
+bool allowed(const std::vector<T>& list, const T& value) {
+  return list.empty() || std::find(list.begin(), list.end(), value) != list.end();
+}
+
+bool fits(const DeviationRun& run, const DeviationOptions& options) {
   const DeviationNeeds& needs = run.kind->needs;
   if (needs.two_leds && run.leds < 2) return false;
   if (needs.edges && run.body == "sphere") return false;
   if (needs.volume && !run.volume) return false;
-  return rendering == DeviationRendering::kBoth ||
-         run.volume == (rendering == DeviationRendering::kVolume);
+  return allowed(options.bodies, run.body) &&
+         allowed(options.sizes, static_cast<int>(run.size_idx)) &&
+         (options.leds == 0 || options.leds == run.leds) &&
+         (options.rendering == DeviationRendering::kBoth ||
+          run.volume == (options.rendering == DeviationRendering::kVolume));
 }
 
 // All bodies, numbers of LEDs and renderings of a kind and size.
 std::vector<DeviationRun> combinations(const Deviation& kind, std::size_t size_idx,
-                                       DeviationRendering rendering) {
+                                       const DeviationOptions& options) {
   std::vector<DeviationRun> out;
   for (bool volume : {false, true}) {
     for (const std::string& body : kBodies) {
       for (int leds : {1, 2}) {
         const DeviationRun run{&kind, size_idx, body, leds, volume, 1};
-        if (fits(run, rendering)) out.push_back(run);
+        if (fits(run, options)) out.push_back(run);
       }
     }
   }
@@ -70,20 +79,6 @@ void take_marks(Rig& stated, const Rig& by) {
   for (const PointPair& pair : stated.pose.points) marks_mm.push_back(pair.world_mm);
   const auto marks_px = project(view.intrinsics, view.camera_from_world, marks_mm);
   for (std::size_t i = 0; i < marks_px.size(); ++i) stated.pose.points[i].image_px = marks_px[i];
-}
-
-TrueSetup setup_of(const Rig& stated, const std::string& body) {
-  TrueSetup setup;
-  setup.rig = stated;
-  setup.mesh = stated_mesh(body);
-  for (const SceneShot& shot : stated.scene.shots) {
-    TrueShot& true_shot = setup.shots.emplace_back();
-    for (std::size_t c = 0; c < 3; ++c) true_shot.media[c] = deviation_media()[c].medium;
-    for (const std::string& name : shot.lights) {
-      true_shot.lights.push_back(stated.scene.light(name));
-    }
-  }
-  return setup;
 }
 
 TrueCoefficients truth_of(const TrueSetup& setup, std::size_t channel) {
@@ -117,31 +112,37 @@ std::array<Estimate, 3> measured(const Rig& stated, const TriangleMesh& mesh,
   return out;
 }
 
-void run_one(const DeviationRun& run, const DeviationOptions& options, UnitPictures& pictures,
-             std::vector<DeviationResult>& results) {
+std::array<DeviationResult, 3> run_one(const DeviationRun& run, const DeviationOptions& options,
+                                       UnitPictures& pictures) {
   const Deviation& kind = *run.kind;
   const DeviationDraw draw{kind.sizes[run.size_idx], run.seed % 2 == 0 ? 1.0 : -1.0, run.seed / 2};
   Rig stated = stated_rig(run, options.image_width_px);
-  TrueSetup setup = setup_of(stated, run.body);
+  TrueSetup setup = true_setup(stated, run.body);
   if (kind.truth) kind.truth(setup, draw);
   if (setup.marks_by_true_camera) take_marks(stated, setup.rig);
-  double exposure_s = 0;
-  std::vector<ColourFrame> expected =
-      expected_frames(setup, stated, run.volume, pictures, exposure_s);
-  if (kind.frames) kind.frames(expected, draw);
-  const std::vector<capture::RawFrame> frames =
-      exposed_frames(expected, setup, stated, exposure_s, run.seed);
+  ExpectedShots expected = expected_shots(setup, stated, run.volume, pictures);
+  if (kind.frames) kind.frames(expected.frames, draw);
+  const std::vector<capture::RawFrame> frames = exposed_frames(expected, setup, stated, run.seed);
+  // The noise of the rendering is known to the user as if it were the sensor's.
+  double& gain_e_per_count = stated.scene.camera.sensor.noise.gain_e_per_count;
+  gain_e_per_count /= 1.0 + gain_e_per_count * expected.rendering_counts2_per_count;
   if (kind.stated) kind.stated(stated, draw);
   std::vector<std::pair<std::string, double>> timing_s;
   Stopwatch watch(timing_s);
   const std::array<Estimate, 3> estimates =
       measured(stated, stated_mesh(run.body), frames, run.volume, options);
   watch.total();
+  std::array<DeviationResult, 3> results;
   for (std::size_t c = 0; c < 3; ++c) {
     const TrueCoefficients truth = truth_of(setup, c);
-    results.push_back({run, c, truth, estimates[c], judge_answer(estimates[c], truth, kind.words),
-                       timing_s.back().second});
+    results[c] = {run,
+                  c,
+                  truth,
+                  estimates[c],
+                  judge_answer(estimates[c], truth, kind.words),
+                  timing_s.back().second};
   }
+  return results;
 }
 
 }  // namespace
@@ -168,11 +169,23 @@ Rig stated_rig(const DeviationRun& run, int image_width_px) {
   rig.scene.camera.responsivity_relative_std = 0.02;
   rig.scene.camera.sensor.cfa = cfa_pattern_from_name(kPatterns[run.seed / 2 % kPatterns.size()]);
   rig.pose.options = {};
-  for (SceneLight& light : rig.scene.lights) {
-    light.led()->position_std_mm = std::max(0.2, light.led()->position_std_mm);
-    light.led()->intensity_relative_std = std::max(0.01, light.led()->intensity_relative_std);
-  }
+  for (SceneLight& light : rig.scene.lights) light.led()->position_std_mm = 0.2;
+  default_uncertainty::take_where_none(rig.scene);
   return rig;
+}
+
+TrueSetup true_setup(const Rig& stated, const std::string& body) {
+  TrueSetup setup;
+  setup.rig = stated;
+  setup.mesh = stated_mesh(body);
+  for (const SceneShot& shot : stated.scene.shots) {
+    TrueShot& true_shot = setup.shots.emplace_back();
+    for (std::size_t c = 0; c < 3; ++c) true_shot.media[c] = deviation_media()[c].medium;
+    for (const std::string& name : shot.lights) {
+      true_shot.lights.push_back(stated.scene.light(name));
+    }
+  }
+  return setup;
 }
 
 std::vector<DeviationRun> planned_runs(const DeviationOptions& options) {
@@ -185,7 +198,7 @@ std::vector<DeviationRun> planned_runs(const DeviationOptions& options) {
   std::vector<std::vector<DeviationRun>> strata;
   for (const Deviation* kind : kinds) {
     for (std::size_t s = 0; s < kind->sizes.size(); ++s) {
-      strata.push_back(combinations(*kind, s, options.rendering));
+      strata.push_back(combinations(*kind, s, options));
       if (strata.back().empty()) strata.pop_back();
     }
   }
@@ -200,7 +213,7 @@ std::vector<DeviationRun> planned_runs(const DeviationOptions& options) {
       out.push_back(stratum[i / strata.size() % stratum.size()]);
     }
   }
-  for (DeviationRun& run : out) run.seed = random() >> 16U;
+  for (DeviationRun& run : out) run.seed = options.run_seed.value_or(random() >> 16U);
   return out;
 }
 
@@ -210,7 +223,10 @@ std::vector<DeviationResult> bench_deviations(const DeviationOptions& options) {
   std::vector<DeviationResult> results;
   ProgressStage stage(options.progress, "runs", runs.size());
   for (const DeviationRun& run : runs) {
-    run_one(run, options, pictures, results);
+    for (const DeviationResult& result : run_one(run, options, pictures)) {
+      results.push_back(result);
+      if (options.on_result) options.on_result(result);
+    }
     stage.step();
   }
   return results;

@@ -1,7 +1,10 @@
 // Measuring the shots of deviating rigs with the rig that is stated.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,14 +25,28 @@ struct DeviationRun {
   bool within() const { return static_cast<int>(size_idx) < kind->within; }
 };
 
+// The answer in one channel.
+struct DeviationResult {
+  DeviationRun run;
+  std::size_t channel = 0;
+  TrueCoefficients truth;
+  Estimate estimate;  // with the reasons of a refusal
+  JudgedAnswer judged;
+  double seconds = 0;  // of the run, without the rendering
+};
+
 enum class DeviationRendering { kDipole, kVolume, kBoth };
 
 struct DeviationOptions {
   // Runs, drawn evenly from the kinds and sizes; 0: each combination of kind, size, body, number of
   // LEDs and rendering once.
   int runs = 400;
-  std::vector<std::string> kinds;  // names; empty: all
+  std::vector<std::string> kinds;   // names; empty: all
+  std::vector<std::string> bodies;  // names; empty: all
+  std::vector<int> sizes;           // indices of the kinds' sizes, from 0; empty: all
+  int leds = 0;                     // 1 or 2; 0: both
   DeviationRendering rendering = DeviationRendering::kBoth;
+  std::optional<std::uint64_t> run_seed = {};  // of every run, to repeat one; absent: drawn
   std::uint64_t seed = 1;
   int image_width_px = 484;
   // Of a volume rendering, for each light and channel.
@@ -38,15 +55,7 @@ struct DeviationOptions {
   std::int64_t measured_paths = 20'000'000;
   double time_limit_s = 50;  // of measuring by transport, for each channel
   Progress* progress = nullptr;
-};
-
-struct DeviationResult {
-  DeviationRun run;
-  std::size_t channel = 0;
-  TrueCoefficients truth;
-  Estimate estimate;  // with the reasons of a refusal
-  JudgedAnswer judged;
-  double seconds = 0;  // of the run, without the rendering
+  std::function<void(const DeviationResult&)> on_result = {};  // called for each as it comes
 };
 
 // Names of the media of R, G and B, and their coefficients.
@@ -62,6 +71,8 @@ std::vector<DeviationRun> planned_runs(const DeviationOptions& options);
 // The rig of a careful user, and its mesh: what measuring is told.
 Rig stated_rig(const DeviationRun& run, int image_width_px);
 TriangleMesh stated_mesh(const std::string& body);
+// What is true without a deviation.
+TrueSetup true_setup(const Rig& stated, const std::string& body);
 
 // Three results for each run, in their order.
 std::vector<DeviationResult> bench_deviations(const DeviationOptions& options);

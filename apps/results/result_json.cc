@@ -20,6 +20,18 @@ Json quantity(const Quantity& q, bool known) {
           {"interval95", {number(q.low95), number(q.high95)}}};
 }
 
+Json pulls_json(const Estimate& e) {
+  Json list = Json::array();
+  for (const PriorPull& p : e.pulls) {
+    list.push_back({{"quantity", p.name},
+                    {"cause", p.group},
+                    {"pull", p.pull},
+                    {"offset", p.offset},
+                    {"image_relative", p.image_relative}});
+  }
+  return list;
+}
+
 Json budget_json(const Estimate& e) {
   Json list = Json::array();
   for (const BudgetLine& line : e.budget) {
@@ -122,6 +134,7 @@ Json channel_json(const ChannelResult& r) {
   j["correlation"] = known ? number(e.correlation) : Json(nullptr);
   j["scale"] = quantity(e.scale, known);
   j["budget"] = budget_json(e);
+  j["pulls"] = pulls_json(e);
   j["verdict"] = r.refused() ? "refused" : "ok";
   j["reasons"] = e.reasons;
   j["residual"] = {{"rms_relative", known ? number(e.rms_relative) : Json(nullptr)},

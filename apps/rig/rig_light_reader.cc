@@ -15,6 +15,7 @@
 #include "core/base/input_error.h"
 #include "core/base/nearest_name.h"
 #include "core/light/environment.h"
+#include "core/scene/default_uncertainty.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -54,11 +55,15 @@ void read_led(const LightEntry& entry, SceneLight& light) {
   if (const auto f = field.find("exponent")) led.exponent = f->number(0.0, 1000.0);
   if (const auto f = field.find("radius_mm")) led.radius_mm = f->number(0.0, 1000.0);
   led.intensity_W_per_sr = some_light(field.at("intensity_W_per_sr"));
-  led_light.position_std_mm = field.number_or("position_std_mm", 0.3, 0.0, 1000.0);
+  led_light.position_std_mm =
+      field.number_or("position_std_mm", default_uncertainty::kLedPosition_mm, 0.0, 1000.0);
   led_light.axis_std_rad =
-      field.number_or("axis_std_deg", 1.0, 0.0, 180.0) * std::numbers::pi / 180.0;
-  led_light.exponent_std = field.number_or("exponent_std", 0.05, 0.0, 1000.0);
-  led_light.intensity_relative_std = field.number_or("intensity_relative_std", 0.01, 0.0, 10.0);
+      field.number_or("axis_std_deg", default_uncertainty::kLedAxis_deg, 0.0, 180.0) *
+      std::numbers::pi / 180.0;
+  led_light.exponent_std =
+      field.number_or("exponent_std", default_uncertainty::kLedExponent, 0.0, 1000.0);
+  led_light.intensity_relative_std =
+      field.number_or("intensity_relative_std", default_uncertainty::kLedIntensity, 0.0, 10.0);
   // An LED in the very origin of the world may be, but not one a millimetre beside it.
   require_mm(field.at("position_mm"), led.position_mm.norm(), 2.0);
 }

@@ -11,6 +11,7 @@
 #include "apps/rig/rig_sensor_truth.h"
 #include "apps/rig/rig_surroundings.h"
 #include "apps/rig/yaml_field.h"
+#include "core/scene/default_uncertainty.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -23,9 +24,11 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   object.line = field.line();
   object.mesh_path = beside(rig_path, field.at("mesh").text());
   object.eta_int_over_ext = field.at("eta").number(1.0, 4.0);
-  object.eta_std = field.number_or("eta_std", 0.01, 0.0, 1.0);
-  object.position_std_mm = field.number_or("position_std_mm", 0.1, 0.0, 1000.0);
-  object.scale_relative_std = field.number_or("scale_relative_std", 0.002, 0.0, 1.0);
+  object.eta_std = field.number_or("eta_std", default_uncertainty::kEta, 0.0, 1.0);
+  object.position_std_mm =
+      field.number_or("position_std_mm", default_uncertainty::kObjectPosition_mm, 0.0, 1000.0);
+  object.scale_relative_std =
+      field.number_or("scale_relative_std", default_uncertainty::kMeshScale, 0.0, 1.0);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   return object;
 }
@@ -168,7 +171,8 @@ Rig read_rig(const std::string& path, bool with_radiance) {
     rig.scene.objects.push_back(read_object(name, field, path));
   }
   const YamlField lights = top.at("lights");
-  rig.scene.even_light_share_std = top.number_or("even_light_share_std", 0.003, 0.0, 1.0);
+  rig.scene.even_light_share_std =
+      top.number_or("even_light_share_std", default_uncertainty::kEvenLight, 0.0, 1.0);
   for (const auto& [name, field] : lights.entries()) {
     rig.scene.lights.push_back(read_light(name, field, path, rig.limits));
   }

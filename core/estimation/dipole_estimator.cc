@@ -160,9 +160,8 @@ class DipoleEstimator {
       return ChannelImage(e.scene, e.channels[i], *rows, e.kept.weights, knots, first,
                           of_lights->of_channel[i]);
     };
-    (*systems_)[i] =
-        DipoleSystem{[image] { return stacked(image()); },
-                     [image] { return image().light_by_plane(); }, knots_, rows, image_in_std};
+    (*systems_)[i] = DipoleSystem{[image] { return stacked(image()); }, knots_, rows, image_in_std,
+                                  [image] { return image().light_by_plane(); }};
   }
 
   void final_fit(std::size_t i) {

@@ -56,12 +56,12 @@ ScalePrior scale_prior(const Scene& scene);
 struct DipoleSystem {
   // Of all shots; computed on each call, since it is large. Valid as long as the estimation exists.
   std::function<DenseSystem()> system;
-  // Of its rows: light by way of the plane below the objects, which the system's l is without
-  // because W r is.
-  std::function<Eigen::VectorXd()> light_by_plane;
   DistanceKnots knots;
   std::shared_ptr<const ChannelRows> rows;
   double image_in_std = 0;  // |l / std|
+  // Of its rows: light by way of the plane below the objects, which the system's l is without
+  // because W r is. May be empty: there is none.
+  std::function<Eigen::VectorXd()> light_by_plane = {};
 };
 
 // The estimators fill in the results' estimates. systems: if given, receives those of the channels

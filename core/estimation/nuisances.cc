@@ -60,16 +60,17 @@ void SceneNuisances::add_light(const SceneLight& light, const ChannelSensitivity
   }
 }
 
-// dl / d albedo, of all LEDs.
+// dl / d albedo, of all LEDs; empty if the plane changes nothing.
 Eigen::VectorXd SceneNuisances::change_by_albedo(const ObservedShot& shot,
                                                  const std::vector<Eigen::Index>& rows) const {
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+  Eigen::VectorXd change;
   for (const std::string& name : shot.stated->lights) {
     const SceneLight& light = scene_.light(name);
     const auto own = sensitivities_.find({shot.seen.get(), name, light.channel_of(channel_)});
     if (own == sensitivities_.end()) continue;
     const Eigen::MatrixXd& per_albedo = own->second.sensitivity->per_albedo;
     if (per_albedo.size() == 0) continue;
+    if (change.size() == 0) change.setZero(static_cast<Eigen::Index>(rows.size()));
     change +=
         light->power()[static_cast<Eigen::Index>(channel_)] * per_albedo(rows, own->second.medium);
   }
@@ -78,7 +79,9 @@ Eigen::VectorXd SceneNuisances::change_by_albedo(const ObservedShot& shot,
 
 Eigen::VectorXd SceneNuisances::light_by_plane(const ObservedShot& shot,
                                                const std::vector<Eigen::Index>& rows) const {
-  return plane_below(scene_, *shot.seen->object).in(channel_).albedo * change_by_albedo(shot, rows);
+  const Eigen::VectorXd change = change_by_albedo(shot, rows);
+  if (change.size() == 0) return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+  return plane_below(scene_, *shot.seen->object).in(channel_).albedo * change;
 }
 
 // The uncertainties of the radiance calibration: each shot's black, the glare, the shutter.
@@ -244,10 +247,11 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
     add_even_light(shot, columns);
     columns.add("eta", "eta", eta_std, per_eta);
   }
-  const double albedo_std =
-      plane_below(scene_, *shot.seen->object).albedo_std[static_cast<Eigen::Index>(channel_)];
-  if (albedo_std > 0.0) {
-    columns.add("plane albedo", "surroundings", albedo_std, change_by_albedo(shot, rows));
+  const Eigen::VectorXd by_albedo = change_by_albedo(shot, rows);
+  if (by_albedo.size() > 0) {
+    const ScenePlane plane = plane_below(scene_, *shot.seen->object);
+    const double std = plane.albedo_std[static_cast<Eigen::Index>(channel_)];
+    if (std > 0.0) columns.add("plane albedo", "surroundings", std, by_albedo);
   }
   add_radiance(shot, observed, predicted, columns);
   return columns.take();

@@ -34,6 +34,15 @@ ChangedImages images_of(const Estimation& e, const LightKey& key,
   return changed_images(*seen, *kept, knots, media);
 }
 
+// The light of an LED on an object above a plane that may change its image; else null. Not at the
+// same time as any other light.
+const IncidentLight* light_above_plane(const Estimation& e, const LightKey& key) {
+  const auto& [seen, name, channel] = key;
+  if (name.empty() || e.scene.light(name).led() == nullptr) return nullptr;
+  if (!plane_below(e.scene, *seen->object).matters()) return nullptr;
+  return &e.lit.light(seen->object->stated->name, name, channel);
+}
+
 }  // namespace
 
 std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
@@ -67,6 +76,7 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
     const std::vector<LitMedium>& media;
     ChangedWeights* kept;
     LightSensitivity& out;
+    const IncidentLight* direct;  // of an LED above a plane that matters; else null
   };
   std::vector<Item> alike, apart;  // in the channels
   for (const auto& [key, list] : media) {
@@ -74,7 +84,7 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
     const bool is_one = is_even || e.scene.light(std::get<1>(key))->channels() == 1;
     (is_one ? alike : apart)
         .push_back({key, list, !is_even && may_be_kept(key, knots) ? &e.kept.changed[key] : nullptr,
-                    all.by_light[key]});
+                    all.by_light[key], light_above_plane(e, key)});
   }
   const auto make = [&](const Item& item) {
     const SeenObject& seen = *std::get<0>(item.key);
@@ -84,11 +94,10 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
     }
     item.out = sensitivity(seen, e.kept.weights.at(item.key),
                            images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
-    if (const LedLight* led = e.scene.light(std::get<1>(item.key)).led()) {
-      const ScenePlane plane = plane_below(e.scene, *seen.object);
-      if (plane.matters()) {
-        item.out.per_albedo = change_by_plane(seen, led->led, plane, knots, item.media);
-      }
+    if (item.direct != nullptr) {
+      item.out.per_albedo =
+          change_by_plane(seen, e.scene.light(std::get<1>(item.key)).led()->led, *item.direct,
+                          plane_below(e.scene, *seen.object), knots, item.media);
     }
     stage.step();
   };

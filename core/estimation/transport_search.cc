@@ -97,7 +97,7 @@ class TransportSearch {
   // With the light by way of the plane, which paths simulate.
   static DenseSystem whole(const DipoleSystem& dipole) {
     DenseSystem system = dipole.system();
-    system.l += dipole.light_by_plane();
+    if (dipole.light_by_plane) system.l += dipole.light_by_plane();
     return system;
   }
 

@@ -22,12 +22,6 @@ namespace {
 // patch.
 constexpr double kLifted = 0.1;
 
-// A corner of patches of one facet.
-struct FacetCorner {
-  Eigen::Vector3d at_mm;
-  int facet_idx;
-};
-
 class PlaneView {
  public:
   PlaneView(const RayScene& scene, double z_mm, double least_height_mm, const OnPlane& irradiance,
@@ -81,14 +75,27 @@ class PlaneView {
 
 }  // namespace
 
+std::vector<double> irradiance_from_plane(const std::vector<SurfacePoint>& points,
+                                          const RayScene& scene, double z_mm,
+                                          double least_height_mm, double eta_int_over_ext,
+                                          const OnPlane& irradiance,
+                                          const PlaneIrradianceOptions& options) {
+  const TransmittedCosine transmitted(eta_int_over_ext);
+  const PlaneView view(scene, z_mm, least_height_mm, irradiance, transmitted, options);
+  std::vector<double> e(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+    // Turned by multiples of the golden angle.
+    constexpr double kGolden_rad = 2.399963229728653;
+    e[i] = view.at(points[i].at_mm, points[i].normal, kGolden_rad * static_cast<double>(i));
+  });
+  return e;
+}
+
 IncidentLight light_from_plane(const PatchMesh& patches, const RayScene& scene, double z_mm,
                                double eta_int_over_ext, const OnPlane& irradiance,
                                const PlaneIrradianceOptions& options) {
-  const TransmittedCosine transmitted(eta_int_over_ext);
-  const PlaneView view(scene, z_mm, kLifted * patches.patch_size_mm(), irradiance, transmitted,
-                       options);
   const double touching_mm = DiffusePlane::touching_mm(bounds(scene.mesh()).size_mm().maxCoeff());
-  std::vector<FacetCorner> corners;
+  std::vector<SurfacePoint> corners;                 // of the patches of one facet each
   std::map<std::pair<int, int>, std::size_t> known;  // by facet and vertex
   std::vector<std::pair<int, std::array<std::size_t, 3>>> lit;
   for (int k = 0; k < patches.size(); ++k) {
@@ -100,20 +107,15 @@ IncidentLight light_from_plane(const PatchMesh& patches, const RayScene& scene, 
       const int vertex = patches.vertex_idx(k)[i];
       const auto [it, is_new] = known.try_emplace({patches.facet_idx(k), vertex}, corners.size());
       if (is_new) {
-        corners.push_back(
-            {patches.vertices_mm()[static_cast<std::size_t>(vertex)], patches.facet_idx(k)});
+        corners.push_back({patches.vertices_mm()[static_cast<std::size_t>(vertex)], normal});
       }
       at[i] = it->second;
     }
     lit.emplace_back(k, at);
   }
-  std::vector<double> e(corners.size());
-  tbb::parallel_for(std::size_t{0}, corners.size(), [&](std::size_t i) {
-    // Turned by multiples of the golden angle.
-    constexpr double kGolden_rad = 2.399963229728653;
-    e[i] = view.at(corners[i].at_mm, patches.facet_normal(corners[i].facet_idx),
-                   kGolden_rad * static_cast<double>(i));
-  });
+  const std::vector<double> e =
+      irradiance_from_plane(corners, scene, z_mm, kLifted * patches.patch_size_mm(),
+                            eta_int_over_ext, irradiance, options);
   std::vector<LitTriangleRgb> triangles;
   for (const auto& [patch, at] : lit) {
     LitTriangleRgb t{patches.corners_mm(patch), {}, patch};

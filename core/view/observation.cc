@@ -88,7 +88,7 @@ SampleSums sum_samples(const CfaSamples& samples, const SampleMap& map, Observat
 // represents.
 RowMean mean_of_row(const SampleSums& sums, const SampleMap& map, std::size_t c, std::size_t row) {
   RowFit fit(sums.channel[c][row].l);
-  if (!map.adjacent_rows.empty()) {
+  if (!map.adjacent_rows.empty() && !fit.suffices()) {
     for (const std::int32_t k : map.adjacent_rows[row]) {
       const auto other = static_cast<std::size_t>(k);
       const Sum& s = sums.channel[c][other];

@@ -29,7 +29,7 @@ struct ExposurePart {
   std::size_t samples = 0;     // samples in rows to which it contributes
 };
 
-// One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), a quadratic fitted to the channel's
+// One channel of a shot: l_j = pi L_o / Ft (paper eq. 11), a cubic fitted to the channel's
 // samples on the patch and its neighbours, averaged over the positions of the samples of all
 // channels on the patch (those that SampleMap::mean_mm and spread_mm2 describe;
 // core/view/row_mean.h).

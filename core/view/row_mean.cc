@@ -1,54 +1,91 @@
 #include "core/view/row_mean.h"
 
+#include <array>
+#include <cstddef>
+
 #include <Eigen/Cholesky>
 
 namespace scattermeter {
 
-Monomials monomials_at(const Eigen::Vector2i& px) {
-  constexpr double kUnit = 1.0 / 16.0;  // squares stay near one
-  const double x = kUnit * px.x();
-  const double y = kUnit * px.y();
-  return (Monomials() << 1.0, x, y, x * x, x * y, y * y).finished();
-}
+namespace {
 
-Monomials moved(const Monomials& mean, const Eigen::Vector2i& by_px) {
-  const Monomials by = monomials_at(by_px);
-  Monomials out = mean;
-  out[1] += by[1];
-  out[2] += by[2];
-  out[3] += 2.0 * by[1] * mean[1] + by[3];
-  out[4] += by[1] * mean[2] + by[2] * mean[1] + by[4];
-  out[5] += 2.0 * by[2] * mean[2] + by[5];
+constexpr double kUnit = 1.0 / 16.0;  // powers stay near one
+
+// Place of x^a y^b among monomials by degree.
+constexpr int place(int a, int b) { return (a + b) * (a + b + 1) / 2 + b; }
+
+// Sums of monomials up to a degree, by degree, after all positions have shifted by (x, y).
+template <int kDegree, class Sums>
+Sums shifted(const Sums& sums, double x, double y) {
+  constexpr auto n = static_cast<std::size_t>(kDegree + 1);
+  // of(k, i): binomial coefficient times the power k - i of the shift.
+  using Table = std::array<std::array<double, n>, n>;
+  const auto table = [](double by) {
+    Table of{};
+    of[0][0] = 1.0;
+    for (std::size_t k = 1; k < n; ++k) {
+      of[k][0] = by * of[k - 1][0];
+      for (std::size_t i = 1; i <= k; ++i) of[k][i] = of[k - 1][i - 1] + by * of[k - 1][i];
+    }
+    return of;
+  };
+  const Table of_x = table(x), of_y = table(y);
+  Sums middle = Sums::Zero(), out = Sums::Zero();
+  for (int a = 0; a <= kDegree; ++a) {
+    for (int b = 0; a + b <= kDegree; ++b) {
+      for (int i = 0; i <= a; ++i) {
+        middle[place(a, b)] +=
+            of_x[static_cast<std::size_t>(a)][static_cast<std::size_t>(i)] * sums[place(i, b)];
+      }
+    }
+  }
+  for (int a = 0; a <= kDegree; ++a) {
+    for (int b = 0; a + b <= kDegree; ++b) {
+      for (int j = 0; j <= b; ++j) {
+        out[place(a, b)] +=
+            of_y[static_cast<std::size_t>(b)][static_cast<std::size_t>(j)] * middle[place(a, j)];
+      }
+    }
+  }
   return out;
 }
 
+}  // namespace
+
+Monomials monomials_at(const Eigen::Vector2i& px) {
+  const double x = kUnit * px.x();
+  const double y = kUnit * px.y();
+  return (Monomials() << 1.0, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y)
+      .finished();
+}
+
+Monomials moved(const Monomials& mean, const Eigen::Vector2i& by_px) {
+  return shifted<3>(mean, kUnit * by_px.x(), kUnit * by_px.y());
+}
+
 void RowSum::add(const Monomials& from_origin, double value, double variance) {
-  moments_.head<6>() += from_origin;
+  const auto cubes = from_origin.tail<4>();
+  const double xxx = cubes[0], yyy = cubes[3];
+  moments_.head<10>() += from_origin;
   const double x = from_origin[1], y = from_origin[2], xx = from_origin[3], xy = from_origin[4],
                yy = from_origin[5];
-  moments_.tail<9>() += (Eigen::Matrix<double, 9, 1>() << x * xx, y * xx, x * yy, y * yy, xx * xx,
-                         xx * xy, xx * yy, xy * yy, yy * yy)
-                            .finished();
+  moments_.segment<4>(10) += x * cubes;
+  moments_[14] += y * yyy;
+  moments_.segment<4>(15) += xx * cubes;
+  moments_[19] += xy * yyy;
+  moments_[20] += yy * yyy;
+  moments_.segment<4>(21) += xxx * cubes;
+  moments_.tail<3>() += yyy * cubes.tail<3>();
   value_ += value * from_origin;
   variance_ += variance;
 }
 
-RowFit::RowFit(const RowSum& row) : row_(row), moment_(row.value_), equations_(row.n()) {
-  // Index of the moment that is the product of two monomials.
-  constexpr int kProduct[6][6] = {{0, 1, 2, 3, 4, 5},    {1, 3, 4, 6, 7, 8},
-                                  {2, 4, 5, 7, 8, 9},    {3, 6, 7, 10, 11, 12},
-                                  {4, 7, 8, 11, 12, 13}, {5, 8, 9, 12, 13, 14}};
-  for (int i = 0; i < 6; ++i) {
-    for (int j = 0; j < 6; ++j) gram_(i, j) = row.moments_[kProduct[i][j]];
-  }
-}
+RowFit::RowFit(const RowSum& row) : row_(row), moments_(row.moments_), moment_(row.value_) {}
 
 void RowFit::add_neighbour(const RowSum& neighbour, const Eigen::Vector2i& shift_px) {
-  constexpr double kNeighbour = 0.3;
-  const Monomials monomials = moved(neighbour.mean_monomials(), shift_px);
-  gram_ += kNeighbour * neighbour.n() * monomials * monomials.transpose();
-  moment_ += kNeighbour * neighbour.value_[0] * monomials;
-  equations_ += 1.0;
+  const double x = kUnit * shift_px.x(), y = kUnit * shift_px.y();
+  moments_ += shifted<6>(neighbour.moments_, x, y);
+  moment_ += shifted<3>(neighbour.value_, x, y);
 }
 
 template <int kTerms>
@@ -57,10 +94,18 @@ bool RowFit::fitted_mean(const Monomials& step, RowMean& mean) const {
   // noise again.
   constexpr double kEquationsPerTerm = 1.5;
   constexpr double kMostSpread = 1.5;
-  if (equations_ < kEquationsPerTerm * kTerms) return false;
+  if (moments_[0] < kEquationsPerTerm * kTerms) return false;
   using Square = Eigen::Matrix<double, kTerms, kTerms>;
   using Vector = Eigen::Matrix<double, kTerms, 1>;
-  const Eigen::LDLT<Square> gram(gram_.topLeftCorner<kTerms, kTerms>());
+  Square products;  // the sum of the product of each two monomials
+  for (int p = 0, i = 0; i < kTerms; ++p) {
+    for (int b = 0; b <= p; ++b, ++i) {
+      for (int q = 0, j = 0; j < kTerms; ++q) {
+        for (int d = 0; d <= q; ++d, ++j) products(i, j) = moments_[place(p - b + q - d, b + d)];
+      }
+    }
+  }
+  const Eigen::LDLT<Square> gram(products);
   if (!(gram.rcond() > 1e-10)) return false;
   const Vector weight = gram.solve(Vector(step.head<kTerms>()));
   // The plain mean and the slopes of a least-squares fit do not share noise; neighbours only
@@ -74,7 +119,7 @@ bool RowFit::fitted_mean(const Monomials& step, RowMean& mean) const {
 RowMean RowFit::mean_over(const Monomials& target) const {
   RowMean mean{row_.mean(), row_.variance_of_mean(), 1.0};
   const Monomials step = target - row_.mean_monomials();
-  if (!fitted_mean<6>(step, mean)) fitted_mean<3>(step, mean);
+  if (!fitted_mean<10>(step, mean) && !fitted_mean<6>(step, mean)) fitted_mean<3>(step, mean);
   return mean;
 }
 

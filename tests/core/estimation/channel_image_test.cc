@@ -1,5 +1,6 @@
 #include "core/estimation/channel_image.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -99,6 +100,51 @@ TEST_F(ImageOfTheCube, NuisancesThatCannotMatterAreLeftOut) {
   EXPECT_EQ(image.negligible_nuisances(), 6U + 2U);  // with the exact pose's
   for (const Nuisance& nuisance : image.nuisances()) EXPECT_NE(nuisance.group, "LED power");
   EXPECT_EQ(image.shot(0).nuisances.front(), 0);
+}
+
+// Light by way of the plane is not in W r: l is without it, at the albedo stated, and the error of
+// the albedo is one nuisance of both shots.
+TEST_F(ImageOfTheCube, LightByWayOfThePlaneIsSubtracted) {
+  ScenePlane& plane = *cube_.scene.surroundings.plane;
+  plane.albedo = {0.1, 0.2, 0.3};
+  plane.albedo_std = {0.04, 0.05, 0.06};
+  find_sensitivities();
+  for (auto& [key, s] : by_light_) s.per_albedo = (std::get<1>(key) == "led" ? 0.3 : 0.6) * s.l;
+  const ChannelImage image(cube_.scene, channel_, rows_, cube_.weights, knots_, medium_,
+                           sensitivities_);
+  Eigen::Index of_albedo = -1;
+  for (std::size_t k = 0; k < image.nuisances().size(); ++k) {
+    const Nuisance& nuisance = image.nuisances()[k];
+    if (nuisance.group != "surroundings") continue;
+    EXPECT_EQ(of_albedo, -1);
+    EXPECT_EQ(nuisance.std, 0.05);
+    of_albedo = static_cast<Eigen::Index>(k);
+  }
+  ASSERT_GE(of_albedo, 0);
+  const Eigen::VectorXd by_plane = image.light_by_plane();
+  Eigen::Index at = 0;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const ShotSystem shot = image.shot(s);
+    const DenseSystem rows =
+        channel_system(cube_.scene, channel_, s, rows_[s], cube_.weights, 1.0 / 0.91);
+    const auto own = std::find(shot.nuisances.begin(), shot.nuisances.end(), of_albedo);
+    ASSERT_NE(own, shot.nuisances.end());
+    const Eigen::VectorXd column = shot.system->nuisance_columns.col(own - shot.nuisances.begin());
+    const LightSensitivity& light = by_light_.at({&seen(), s == 0 ? "led" : "led2", 0});
+    Eigen::Index row = 0;
+    for (std::size_t j = 0; j < rows_[s].l.size(); ++j) {
+      if (rows_[s].state[j] != RowState::kUsed) continue;
+      // 2 W/sr.
+      const double change = 2.0 * light.per_albedo(static_cast<Eigen::Index>(j), 0);
+      EXPECT_GT(change, 0.0);
+      EXPECT_NEAR(column[row], change, 1e-12 * change);
+      EXPECT_NEAR(by_plane[at], 0.2 * change, 1e-12 * change);
+      EXPECT_NEAR(shot.system->l[row], rows.l[row] - 0.2 * change, 1e-12 * rows.l[row]);
+      ++row;
+      ++at;
+    }
+  }
+  EXPECT_EQ(at, by_plane.size());
 }
 
 TEST_F(ImageOfTheCube, FirstImageHasNoNuisancesWithoutAmbientLight) {

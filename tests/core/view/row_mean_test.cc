@@ -7,6 +7,13 @@
 namespace scattermeter {
 namespace {
 
+double cubic(const Eigen::Vector2i& p) {
+  const double x = p.x() - 100.0;
+  const double y = p.y() - 50.0;
+  return 100.0 + 2.0 * x - 3.0 * y + 0.05 * x * x - 0.08 * x * y + 0.03 * y * y + 0.02 * x * x * x -
+         0.01 * x * x * y + 0.015 * x * y * y - 0.03 * y * y * y;
+}
+
 double quadratic(const Eigen::Vector2i& p) {
   const double x = p.x();
   const double y = p.y();
@@ -48,35 +55,51 @@ TEST(RowMean, MonomialsMoveWithTheirOrigin) {
   EXPECT_LT((moved_mean - mean_moved).norm(), 1e-12);
 }
 
-// Exact for a quadratic with the row's own samples, where they are enough.
-TEST(RowMean, QuadraticFromItsOwnSamples) {
-  const Block b = block({101, 50}, 9, 8, quadratic);
-  const RowMean mean = RowFit(b.own).mean_over(b.all);
+// Exact for a cubic with the row's own samples, where they are enough.
+TEST(RowMean, CubicFromItsOwnSamples) {
+  const Block b = block({101, 50}, 19, 17, cubic);
+  const RowFit fit(b.own);
+  EXPECT_TRUE(fit.suffices());
+  const RowMean mean = fit.mean_over(b.all);
   EXPECT_GT(std::abs(b.own.mean() - b.mean), 0.5);  // the plain mean is far off
-  EXPECT_NEAR(mean.value, b.mean, 1e-9);
+  EXPECT_NEAR(mean.value, b.mean, 1e-8);
   EXPECT_GT(mean.spread, 1.0);
   EXPECT_NEAR(mean.variance, mean.spread * 4.0 / b.own.n(), 1e-12);
 }
 
-// Four own samples and the rows around: neighbours take part by their means, over which a quadratic
-// is exact, too.
-TEST(RowMean, QuadraticFromNeighbours) {
+// Four own samples and those of the rows around.
+TEST(RowMean, CubicFromNeighbours) {
   const Eigen::Vector2i corner(101, 50);
-  const Block b = block(corner, 4, 4, quadratic);
+  const Block b = block(corner, 4, 4, cubic);
   ASSERT_EQ(b.own.n(), 4.0);
   RowFit fit(b.own);
+  EXPECT_FALSE(fit.suffices());
   std::vector<Block> around;
   for (int y = -4; y <= 4; y += 4) {
     for (int x = -4; x <= 4; x += 4) {
       if (x == 0 && y == 0) continue;
       // Uneven sizes: lattices that are not the row's own.
-      around.push_back(block(corner + Eigen::Vector2i(x, y), 4 + (x + y) / 4, 5, quadratic));
+      around.push_back(block(corner + Eigen::Vector2i(x, y), 4 + (x + y) / 4, 5, cubic));
       fit.add_neighbour(around.back().own, {x, y});
     }
   }
   const RowMean mean = fit.mean_over(b.all);
   EXPECT_NEAR(mean.value, b.mean, 1e-9);
   EXPECT_LT(mean.spread, 1.5);
+}
+
+// Seven samples give a plane, with those of one neighbour a quadratic.
+TEST(RowMean, LowerDegreesWhereSamplesAreFew) {
+  const auto plane = [](const Eigen::Vector2i& p) { return 5.0 + 2.0 * p.x() - 3.0 * p.y(); };
+  const Block few = block({101, 50}, 5, 5, plane);
+  ASSERT_LT(few.own.n(), 9.0);
+  EXPECT_NEAR(RowFit(few.own).mean_over(few.all).value, few.mean, 1e-9);
+  const Block b = block({101, 50}, 5, 5, quadratic);
+  RowFit fit(b.own);
+  const Block beside = block({106, 50}, 4, 5, quadratic);
+  fit.add_neighbour(beside.own, {5, 0});
+  ASSERT_LT(b.own.n() + beside.own.n(), 15.0);
+  EXPECT_NEAR(fit.mean_over(b.all).value, b.mean, 1e-9);
 }
 
 // One line of samples tells no slope across it, and none is made up.

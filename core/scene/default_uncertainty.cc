@@ -1,0 +1,27 @@
+#include "core/scene/default_uncertainty.h"
+
+#include <numbers>
+
+namespace scattermeter::default_uncertainty {
+
+void take_where_none(Scene& scene) {
+  const auto take = [](double& std, double otherwise) {
+    if (!(std > 0.0)) std = otherwise;
+  };
+  for (SceneObject& object : scene.objects) {
+    take(object.eta_std, kEta);
+    take(object.position_std_mm, kObjectPosition_mm);
+    take(object.scale_relative_std, kMeshScale);
+  }
+  for (SceneLight& light : scene.lights) {
+    LedLight* led = light.led();
+    if (led == nullptr || led->calibrated) continue;
+    take(led->position_std_mm, kLedPosition_mm);
+    take(led->axis_std_rad, kLedAxis_deg * std::numbers::pi / 180.0);
+    take(led->exponent_std, kLedExponent);
+    take(led->intensity_relative_std, kLedIntensity);
+  }
+  take(scene.even_light_share_std, kEvenLight);
+}
+
+}  // namespace scattermeter::default_uncertainty

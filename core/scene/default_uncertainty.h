@@ -1,0 +1,27 @@
+// Standard deviations of what a rig does not state: those of a careful user's rig.
+#pragma once
+
+#include "core/scene/scene.h"
+
+namespace scattermeter::default_uncertainty {
+
+// Handbook values of plastics differ by as much between grades and wavelengths.
+inline constexpr double kEta = 0.01;
+// An object put down at marks, or a mesh aligned by hand, mm.
+inline constexpr double kObjectPosition_mm = 0.1;
+// A machined or printed piece of 20 mm, measured to 0.04 mm.
+inline constexpr double kMeshScale = 0.002;
+// A position taken with a ruler, mm, and a direction by eye, degrees.
+inline constexpr double kLedPosition_mm = 0.3;
+inline constexpr double kLedAxis_deg = 1.0;
+// LEDs of one type, by their data sheets.
+inline constexpr double kLedExponent = 0.05;
+inline constexpr double kLedIntensity = 0.01;
+// Irradiance by the walls of a dark room or a lamp's standby light, as a share of the LEDs'.
+inline constexpr double kEvenLight = 0.003;
+
+// Gives every object and every LED without a calibration these deviations where it has none, and
+// the scene its even light.
+void take_where_none(Scene& scene);
+
+}  // namespace scattermeter::default_uncertainty

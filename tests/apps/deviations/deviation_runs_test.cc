@@ -1,0 +1,136 @@
+#include "apps/deviations/deviation_runs.h"
+
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "apps/deviations/deviation_report.h"
+
+namespace scattermeter::apps {
+namespace {
+
+TEST(DeviationRuns, WholeProduct) {
+  DeviationOptions options;
+  options.runs = 0;
+  options.kinds = {"none", "edges bevelled", "LEDs exchanged", "phase function"};
+  std::map<std::string, int> n;
+  for (const DeviationRun& run : planned_runs(options)) {
+    ++n[run.kind->name];
+    EXPECT_FALSE(run.kind->needs.edges && run.body == "sphere");
+    EXPECT_FALSE(run.kind->needs.two_leds && run.leds < 2);
+    EXPECT_FALSE(run.kind->needs.volume && !run.volume);
+  }
+  EXPECT_EQ(n["none"], 3 * 2 * 2);
+  EXPECT_EQ(n["edges bevelled"], 3 * 2 * 2 * 2);
+  EXPECT_EQ(n["LEDs exchanged"], 3 * 2);
+  EXPECT_EQ(n["phase function"], 3 * 3 * 2);
+  options.kinds = {"nonsense"};
+  EXPECT_THROW(planned_runs(options), std::invalid_argument);
+}
+
+// As many runs as wanted, the same for the same seed, and kinds and sizes in turn.
+TEST(DeviationRuns, DrawnEvenly) {
+  DeviationOptions options;
+  options.runs = 400;
+  options.rendering = DeviationRendering::kDipole;
+  const std::vector<DeviationRun> runs = planned_runs(options);
+  ASSERT_EQ(runs.size(), 400U);
+  std::map<std::pair<const Deviation*, std::size_t>, int> n;
+  std::set<std::string> bodies;
+  std::set<int> leds;
+  for (const DeviationRun& run : runs) {
+    ++n[{run.kind, run.size_idx}];
+    bodies.insert(run.body);
+    leds.insert(run.leds);
+    EXPECT_FALSE(run.volume);
+  }
+  int fewest = 400;
+  int most = 0;
+  for (const auto& [stratum, count] : n) {
+    fewest = std::min(fewest, count);
+    most = std::max(most, count);
+  }
+  EXPECT_LE(most - fewest, 1);
+  EXPECT_EQ(bodies.size(), 3U);
+  EXPECT_EQ(leds.size(), 2U);
+  const std::vector<DeviationRun> again = planned_runs(options);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    EXPECT_EQ(again[i].kind, runs[i].kind);
+    EXPECT_EQ(again[i].seed, runs[i].seed);
+  }
+  options.seed = 2;
+  EXPECT_NE(planned_runs(options)[0].seed, runs[0].seed);
+  options.rendering = DeviationRendering::kBoth;
+  int volumes = 0;
+  for (const DeviationRun& run : planned_runs(options)) volumes += run.volume ? 1 : 0;
+  EXPECT_GT(volumes, 20);
+  EXPECT_LT(volumes, 80);
+}
+
+TEST(DeviationRuns, OnlyWhatIsWanted) {
+  DeviationOptions options;
+  options.runs = 0;
+  options.kinds = {"veiling glare"};
+  options.bodies = {"sphere"};
+  options.sizes = {2};
+  options.leds = 1;
+  options.rendering = DeviationRendering::kVolume;
+  options.run_seed = 77;
+  const std::vector<DeviationRun> runs = planned_runs(options);
+  ASSERT_EQ(runs.size(), 1U);
+  EXPECT_EQ(runs[0].body, "sphere");
+  EXPECT_EQ(runs[0].size_idx, 2U);
+  EXPECT_EQ(runs[0].leds, 1);
+  EXPECT_TRUE(runs[0].volume);
+  EXPECT_EQ(runs[0].seed, 77U);
+}
+
+// A small bench of its own: no wrong answer is given as ok, the control is answered, and gross
+// deviations are refused.
+TEST(DeviationRuns, NoWrongOk) {
+  DeviationOptions options;
+  options.image_width_px = 320;
+  options.runs = 0;
+  options.rendering = DeviationRendering::kDipole;
+  options.bodies = {"cube"};
+  options.leds = 2;
+  options.kinds = {"none", "LEDs exchanged", "LED intensity in another unit", "hot pixels"};
+  int seen = 0;
+  options.on_result = [&](const DeviationResult& result) {
+    ++seen;
+    EXPECT_NE(result.judged.verdict, DeviationVerdict::kWrongOk) << deviation_line(result);
+    if (result.run.kind->name == "none") {
+      EXPECT_EQ(result.judged.verdict, DeviationVerdict::kRight) << deviation_line(result);
+    }
+    if (result.run.kind->name == "LED intensity in another unit") {
+      EXPECT_EQ(result.judged.verdict, DeviationVerdict::kRefused) << deviation_line(result);
+    }
+  };
+  const std::vector<DeviationResult> results = bench_deviations(options);
+  EXPECT_EQ(results.size(), 3U * (1 + 1 + 3 + 3));
+  EXPECT_EQ(seen, static_cast<int>(results.size()));
+}
+
+// A wrong answer would be noticed: the same answers, judged by another truth.
+TEST(DeviationRuns, WouldNotice) {
+  DeviationOptions options;
+  options.image_width_px = 320;
+  options.runs = 0;
+  options.rendering = DeviationRendering::kDipole;
+  options.bodies = {"cube"};
+  options.leds = 2;
+  options.kinds = {"none"};
+  std::vector<DeviationResult> results = bench_deviations(options);
+  EXPECT_EQ(summarise(results).total.wrong_ok, 0);
+  for (DeviationResult& r : results) {
+    r.truth.sigma_s_prime_per_mm.low *= 1.5;
+    r.truth.sigma_s_prime_per_mm.high *= 1.5;
+    r.judged = judge_answer(r.estimate, r.truth, r.run.kind->words);
+  }
+  EXPECT_EQ(summarise(results).total.wrong_ok, 3);
+}
+
+}  // namespace
+}  // namespace scattermeter::apps
