@@ -17,6 +17,7 @@
 #include "apps/rig/rig.h"
 #include "calib/lens/camera_calibration_file.h"
 #include "capture/raw/dng_writer.h"
+#include "capture/raw/nef_writer.h"
 #include "capture/shots/decoded_shot.h"
 #include "tests/fixtures/apps/made_result.h"
 
@@ -44,6 +45,7 @@ void raws(const fs::path& folder) {
     metadata.linearization_table.push_back(static_cast<std::uint16_t>(4 * i));
   }
   scattermeter::capture::write_dng(folder / "table.dng", kSide, kSide, codes, metadata);
+  scattermeter::capture::write_nef(folder / "nikon.nef", kSide, kSide, codes, metadata);
   metadata.make = "Hasselblad";  // refused before LibRaw reads it
   metadata.model = "Hasselblad H3D-39";
   scattermeter::capture::write_dng(folder / "hasselblad.dng", kSide, kSide, codes, metadata);
