@@ -1,6 +1,7 @@
 #include "apps/checking/check.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <fmt/core.h>
@@ -15,10 +16,10 @@ bool CheckReport::passed() const {
 }
 
 const std::vector<Check>& checks() {
-  static const std::vector<Check> kChecks = {check_settings, check_pose,       check_outline,
-                                             check_exposure, check_bracket,    check_noise,
-                                             check_black,    check_radiance,   check_identity,
-                                             check_light,    check_led_places, check_led_shots};
+  static const std::vector<Check> kChecks = {
+      check_first_look, check_settings,   check_pose,     check_outline,  check_exposure,
+      check_bracket,    check_noise,      check_black,    check_radiance, check_identity,
+      check_light,      check_led_places, check_led_shots};
   return kChecks;
 }
 
@@ -30,8 +31,13 @@ CheckReport check_report(const CheckedRig& checked) {
     report.notes.push_back(fmt::format(
         "camera centre known to {:.3f}, {:.3f}, {:.3f} mm (std in x, y, z)", s.x(), s.y(), s.z()));
   }
+  std::set<std::string> judged_materials;
   for (const CheckedChannel& fitted : checked.fit.channels) {
-    if (fitted.departures) continue;
+    if (fitted.departures) judged_materials.insert(fitted.material);
+  }
+  for (const CheckedChannel& fitted : checked.fit.channels) {
+    // Of the channels that need transport, one for each material is judged.
+    if (fitted.departures || judged_materials.contains(fitted.material)) continue;
     report.notes.push_back(fmt::format(
         "{} {}: no joint model, so its light is not judged{}", fitted.material,
         kRgbName.at(fitted.channel),
@@ -40,6 +46,9 @@ CheckReport check_report(const CheckedRig& checked) {
   for (const Check check : checks()) {
     for (CheckItem& item : check(checked)) report.items.push_back(std::move(item));
   }
+  std::stable_partition(report.items.begin(), report.items.end(),
+                        [](const CheckItem& i) { return !i.passed; });
+  report.cause = probable_cause(checked, report.items);
   return report;
 }
 

@@ -12,7 +12,10 @@
 namespace scattermeter::apps {
 
 struct CheckReport {
-  std::vector<CheckItem> items;
+  std::vector<CheckItem> items;  // failures first
+  // The one cause that explains most of the failures, as a sentence with advice; "" if none failed
+  // or none explains them. The failures are then its consequences.
+  std::string cause;
   std::vector<std::string> notes;
   bool passed() const;
 };
@@ -20,6 +23,9 @@ struct CheckReport {
 // One check of the rig, which reads no file. All limits are in CheckOptions.
 using Check = std::vector<CheckItem> (*)(const CheckedRig&);
 
+// What `measure` sees before any fit and refuses: outlines, exchanged lights and files, covered
+// objects, units.
+std::vector<CheckItem> check_first_look(const CheckedRig& checked);
 // Apertures and ISO settings in use: a rig has one of each, as they change responsivity and noise.
 std::vector<CheckItem> check_settings(const CheckedRig& checked);
 // Residuals of the points or boards, their outliers, and the camera's motion between shots.
@@ -47,6 +53,11 @@ std::vector<CheckItem> check_radiance(const CheckedRig& checked);
 
 // All of them in the order of the report. A new check is declared above and added to this table.
 const std::vector<Check>& checks();
+
+// The cause of the failures: the first finding of the looks before any fit; otherwise the single
+// change of the rig that explains at least half of what the joint model leaves of the images
+// (apps/checking/image_causes.h), if their check failed. "" if there is none.
+std::string probable_cause(const CheckedRig& checked, const std::vector<CheckItem>& items);
 
 // Runs every check on the shots of the rig.
 CheckReport check_report(const CheckedRig& checked);

@@ -3,27 +3,26 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
+#include <limits>
+#include <map>
+#include <string>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
+#include "apps/checking/edge_rows.h"
 #include "capture/shots/shot_samples.h"
 #include "core/base/progress.h"
 #include "core/base/stopwatch.h"
 #include "core/diffusion/dipole_curve.h"
 #include "core/estimation/estimation.h"
+#include "core/estimation/model_choice.h"
+#include "core/estimation/transport_search.h"
 #include "core/view/row_selection.h"
 
 namespace scattermeter::apps {
 namespace {
-
-// Media (sigma_s', sigma_a; 1/mm) that stand in for a material not yet known.
-constexpr std::array<std::pair<double, double>, 3> kMedia = {
-    {{0.4, 0.003}, {1.0, 0.003}, {3.0, 0.003}}};
-
-// A shot whose listed object and lights leave a larger relative misfit may show something else.
-constexpr double kDoubtful = 0.1;
 
 std::vector<MaterialChannel> useful_channels(const Rig& rig,
                                              const std::vector<ObservedShot>& shots) {
@@ -36,202 +35,192 @@ std::vector<MaterialChannel> useful_channels(const Rig& rig,
   return channels;
 }
 
-// Adds the departures of each shot from the joint model at its optimum.
-void add_departures(const Scene& scene, const DipoleSystem& of_dipole, double eta,
+// Transport is searched for this long in a channel: its errors need only be small compared with the
+// limits of the checks.
+constexpr double kTransport_s = 12.0;
+
+// l as predicted by the model that measures, on the rows of the dipole's system; NaN where it was
+// not used.
+Eigen::VectorXd predicted_by(const ChannelResult& result, const DipoleSystem& of_dipole) {
+  std::vector<double> out;
+  for (std::size_t s = 0; s < of_dipole.rows->size(); ++s) {
+    const ChannelObservation& o = (*of_dipole.rows)[s];
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (o.state[j] != RowState::kUsed) continue;
+      out.push_back(s < result.rows.size() ? static_cast<double>(result.rows[s].predicted[j])
+                                           : std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  return Eigen::Map<const Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
+}
+
+// rms of the residual beside the edges of the mesh over that elsewhere.
+double edge_excess(const std::vector<const ObservedShot*>& shots, const DipoleSystem& of_dipole,
+                   const std::vector<Eigen::Index>& kept, const DenseSystem& system,
+                   const LinearModel& model) {
+  double squares[2] = {0.0, 0.0};
+  double n[2] = {0.0, 0.0};
+  auto next = kept.begin();
+  Eigen::Index at = 0;
+  Eigen::Index row = 0;
+  for (std::size_t s = 0; s < of_dipole.rows->size(); ++s) {
+    const ChannelObservation& o = (*of_dipole.rows)[s];
+    const SeenObject& seen = *shots[s]->seen;
+    const std::vector<bool> beside =
+        beside_edges(seen.object->mesh(), seen.map.mean_mm, 2.0 * seen.patches->patch_size_mm());
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (o.state[j] != RowState::kUsed) continue;
+      if (next != kept.end() && *next == at++) {
+        ++next;
+        const std::size_t k = beside[j] ? 1 : 0;
+        squares[k] += std::pow((system.l[row] - model.predicted[row]) / system.l[row], 2);
+        n[k] += 1.0;
+        ++row;
+      }
+    }
+  }
+  constexpr double kLeastRows = 20.0;
+  if (n[0] < kLeastRows || n[1] < kLeastRows || !(squares[0] > 0.0)) return 0.0;
+  return std::sqrt(squares[1] / n[1] / (squares[0] / n[0]));
+}
+
+// Adds the departures of each shot from the joint model at its optimum, and their causes.
+void add_departures(const Scene& stated, const Scene& scene, const DipoleSystem& of_dipole,
+                    const MaterialChannel& channel, const ChannelResult& result,
                     CheckedChannel& fitted) {
   const Estimate& e = fitted.estimate;
   const double sigma_t = e.sigma_s_prime_per_mm.value + e.sigma_a_per_mm.value;
   const DipoleCurve curve =
-      dipole_curve(of_dipole.knots, std::log(sigma_t), e.sigma_a_per_mm.value / sigma_t, eta);
-  const auto model_of = [&](const DenseSystem& system) {
-    LinearModel model;
-    model.predicted = system.weights * (e.scale.value * curve.r);
-    model.jacobian.resize(system.l.size(), 2);
-    model.jacobian.col(0) = system.weights * (e.scale.value * curve.d_u);
-    model.jacobian.col(1) = system.weights * (e.scale.value * curve.d_q);
-    model.scale_relative_std = scale_prior(scene).relative_std;
-    return model;
-  };
+      dipole_curve(of_dipole.knots, std::log(sigma_t), e.sigma_a_per_mm.value / sigma_t,
+                   channel.eta_int_over_ext);
   const DenseSystem all = of_dipole.system();
-  const std::vector<Eigen::Index> far = outliers(all.l, model_of(all).predicted, all.std_l);
-  std::vector<Eigen::Index> kept;
+  const bool by_transport = result.model == "transport";
+  const Eigen::VectorXd predicted = by_transport
+                                        ? predicted_by(result, of_dipole)
+                                        : Eigen::VectorXd(all.weights * (e.scale.value * curve.r));
+  if (predicted.size() != all.l.size()) return;
+  std::vector<Eigen::Index> known;
   for (Eigen::Index j = 0; j < all.l.size(); ++j) {
-    if (!std::binary_search(far.begin(), far.end(), j)) kept.push_back(j);
+    if (std::isfinite(predicted[j])) known.push_back(j);
   }
+  const std::vector<Eigen::Index> far = outliers(all.l(known), predicted(known), all.std_l(known));
+  std::vector<Eigen::Index> kept;
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    if (!std::binary_search(far.begin(), far.end(), static_cast<Eigen::Index>(k))) {
+      kept.push_back(known[k]);
+    }
+  }
+  if (kept.empty()) return;
   const DenseSystem system = selected(all, kept);
-  fitted.departures = shot_departures(system, model_of(system));
+  LinearModel model;
+  model.predicted = predicted(kept);
+  model.jacobian.resize(system.l.size(), 2);
+  model.jacobian.col(0) = system.weights * (e.scale.value * curve.d_u);
+  model.jacobian.col(1) = system.weights * (e.scale.value * curve.d_q);
+  model.scale_relative_std = scale_prior(scene).relative_std;
+  fitted.departures = shot_departures(system, model);
   fitted.nuisances = system.nuisances;
+  std::vector<const SceneShot*> shots;
+  for (const ObservedShot* shot : channel.shots) shots.push_back(shot->stated);
+  fitted.causes = image_causes(stated, shots, system, model);
+  fitted.edge_excess = edge_excess(channel.shots, of_dipole, kept, system, model);
 }
 
-std::vector<CheckedChannel> fitted_channels(Estimation& e, const std::vector<ObservedShot>& shots) {
+// The result of transport where the dipole does not hold, in the channel of its material with the
+// most light; other such channels are not judged.
+std::vector<bool> judged_channels(Estimation& e,
+                                  const std::vector<std::optional<DipoleSystem>>& systems) {
+  std::vector<bool> judged(e.channels.size(), false);
+  std::map<std::string, std::size_t> best;
+  for (std::size_t i = 0; i < e.channels.size(); ++i) {
+    ChannelResult& result = e.results[i];
+    if (!systems[i] || !result.estimate.converged) continue;
+    result.why_transport = why_transport(result, systems[i]->image_in_std);
+    judged[i] = result.why_transport.empty();
+    if (judged[i]) continue;
+    const auto [at, is_new] = best.try_emplace(e.channels[i].material, i);
+    if (!is_new && systems[i]->image_in_std > systems[at->second]->image_in_std) at->second = i;
+  }
+  if (best.empty()) return judged;
+  ProgressStage stage(e.progress, "transport", best.size());
+  for (const auto& [material, i] : best) {
+    ChannelResult& result = e.results[i];
+    result.model = "transport";
+    result.dipole = result.estimate;
+    result.rows.clear();
+    search_by_transport(e.scene, e.channels[i], *systems[i], e.options, stage, result);
+    judged[i] = result.estimate.converged && !result.rows.empty();
+    stage.step();
+  }
+  return judged;
+}
+
+std::vector<CheckedChannel> fitted_channels(const Scene& stated, Estimation& e,
+                                            const std::vector<ObservedShot>& shots) {
   std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
   estimate_dipole(e, &systems);
+  const std::vector<bool> judged = judged_channels(e, systems);
   std::vector<CheckedChannel> out;
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
     CheckedChannel& fitted = out.emplace_back();
     fitted.material = e.channels[i].material;
     fitted.channel = e.channels[i].channel;
+    fitted.model = e.results[i].model;
     for (const ObservedShot* shot : e.channels[i].shots) {
       fitted.shots.push_back(static_cast<std::size_t>(shot - shots.data()));
     }
     fitted.estimate = e.results[i].estimate;
     fitted.singles = e.results[i].singles;
-    if (fitted.estimate.converged && systems[i]) {
-      add_departures(e.scene, *systems[i], e.channels[i].eta_int_over_ext, fitted);
+    if (judged[i]) {
+      add_departures(stated, e.scene, *systems[i], e.channels[i], e.results[i], fitted);
     }
   }
   return out;
 }
 
-// Compares a shot's image in its best channel with what other lights or objects would show.
-class Likeness {
- public:
-  Likeness(Estimation& e, const capture::ShotDecoding& decoding,
-           const std::vector<ObservedShot>& shots, const capture::ShotSource& source,
-           const std::optional<SharedView>& shared)
-      : e_(e),
-        decoding_(decoding),
-        shots_(shots),
-        source_(source),
-        shared_(shared),
-        knots_(smooth_knots(e.lit)) {
-    for (const auto& [s, a] : kMedia) {
-      curves_.push_back(dipole_curve(knots_, std::log(s + a), a / (s + a), 1.4).r);
-    }
-    for (const SceneShot& shot : e.scene.shots) {
-      std::vector<std::string> lights = shot.lights;
-      std::sort(lights.begin(), lights.end());
-      if (std::find(settings_.begin(), settings_.end(), lights) == settings_.end()) {
-        settings_.push_back(lights);
-      }
-    }
-    add_missing_weights();
+// Adds to a doubtful shot's likeness what other objects would show.
+void compare_objects(LightLook& look, const Estimation& e, const capture::ShotDecoding& decoding,
+                     const capture::ShotSource& source, const SharedView& view, std::size_t i,
+                     const ObservedShot& shot, ShotLikeness& likeness) {
+  const auto* frames = std::get_if<capture::FrameSource>(&source.open);
+  if (frames == nullptr) return;
+  const std::vector<capture::RawFrame> exposures =
+      capture::frames_of(*shot.stated, source.shot_idxs[i], *frames);
+  const auto responsivity =
+      e.scene.camera.responsivity.value_or(std::array<double, kRgb>{1.0, 1.0, 1.0});
+  for (const auto& [name, seen] : view.objects) {
+    if (name == shot.stated->object) continue;
+    const SampleMap& map = seen->map;
+    const capture::ShotSamples there =
+        capture::shot_samples(e.scene, decoding, *shot.stated, exposures, source.names.at(i),
+                              map.x0, map.y0, map.width, map.height);
+    look.compare_object(*seen, observe(there.samples, map, responsivity),
+                        LightLook::best_channel(shot.observation), likeness);
   }
-
-  ShotLikeness of(std::size_t i) {
-    const ObservedShot& shot = shots_[i];
-    const std::size_t c = best_channel(shot.observation);
-    ShotLikeness out;
-    if (!shot_problem(shot, c).empty()) return out;
-    std::vector<std::string> own = shot.stated->lights;
-    std::sort(own.begin(), own.end());
-    out.own = misfit(*shot.seen, shot.observation.channel[c], own, c);
-    for (const auto& lights : settings_) {
-      if (lights == own) continue;
-      offer(misfit(*shot.seen, shot.observation.channel[c], lights, c),
-            fmt::format("lit by {}", fmt::join(lights, " and ")), out);
-    }
-    if (!(out.own > kDoubtful) || !shared_) return out;
-    if (const capture::FrameSource* frames = std::get_if<capture::FrameSource>(&source_.open)) {
-      const std::vector<capture::RawFrame> exposures =
-          capture::frames_of(*shot.stated, source_.shot_idxs[i], *frames);
-      for (const auto& [name, seen] : shared_->objects) {
-        if (name == shot.stated->object) continue;
-        const Observation seen_there = observe_as(i, exposures, *seen);
-        for (const auto& lights : settings_) {
-          offer(misfit(*seen, seen_there.channel[c], lights, c),
-                fmt::format("of object {}, lit by {}", name, fmt::join(lights, " and ")), out);
-        }
-      }
-    }
-    return out;
-  }
-
- private:
-  static std::size_t best_channel(const Observation& o) {
-    std::size_t best = 0;
-    for (std::size_t c = 1; c < kRgb; ++c) {
-      if (o.channel[c].rows_used > o.channel[best].rows_used) best = c;
-    }
-    return best;
-  }
-
-  static void offer(double misfit, const std::string& what, ShotLikeness& out) {
-    if (!(misfit < out.best_other)) return;
-    out.best_other = misfit;
-    out.other = what;
-  }
-
-  // Adds the weights of every view under every light.
-  void add_missing_weights() {
-    std::deque<SceneShot> stated;
-    std::vector<ObservedShot> stubs;
-    std::vector<std::string> lights;
-    for (const auto& setting : settings_)
-      lights.insert(lights.end(), setting.begin(), setting.end());
-    for (const ObservedShot& shot : shots_) {
-      SceneShot& all = stated.emplace_back(*shot.stated);
-      all.lights = lights;
-      ObservedShot& stub = stubs.emplace_back();
-      stub.stated = &all;
-      stub.seen = shot.seen;
-    }
-    add_smooth_weights(e_.scene, stubs, e_.lit, nullptr, e_.kept.weights);
-  }
-
-  Observation observe_as(std::size_t i, const std::vector<capture::RawFrame>& exposures,
-                         const SeenObject& seen) const {
-    const SampleMap& map = seen.map;
-    return observe(capture::shot_samples(e_.scene, decoding_, *shots_[i].stated, exposures,
-                                         source_.names.at(i), map.x0, map.y0, map.width, map.height)
-                       .samples,
-                   map,
-                   e_.scene.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0}));
-  }
-
-  // rms of l minus the best multiple of a medium's image, over the rms of l; NaN for less than 20
-  // rows.
-  double misfit(const SeenObject& seen, const ChannelObservation& o,
-                const std::vector<std::string>& lights, std::size_t c) const {
-    double best = std::numeric_limits<double>::quiet_NaN();
-    if (o.rows_used < 20) return best;
-    for (const Eigen::VectorXd& r : curves_) {
-      Eigen::VectorXd image = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(o.l.size()));
-      for (const std::string& name : lights) {
-        const SceneLight& light = e_.scene.light(name);
-        image += light->power()[static_cast<Eigen::Index>(c)] *
-                 (e_.kept.weights.at({&seen, name, light.channel_of(c)}) * r);
-      }
-      double ll = 0.0;
-      double lm = 0.0;
-      double mm = 0.0;
-      for (std::size_t j = 0; j < o.l.size(); ++j) {
-        if (o.state[j] != RowState::kUsed) continue;
-        const double m = image[static_cast<Eigen::Index>(j)];
-        ll += o.l[j] * o.l[j];
-        lm += o.l[j] * m;
-        mm += m * m;
-      }
-      const double rest = std::sqrt(std::max(0.0, 1.0 - lm * lm / (ll * mm)));
-      if (!(best <= rest)) best = rest;
-    }
-    return best;
-  }
-
-  Estimation& e_;
-  const capture::ShotDecoding& decoding_;
-  const std::vector<ObservedShot>& shots_;
-  const capture::ShotSource& source_;
-  const std::optional<SharedView>& shared_;
-  DistanceKnots knots_;
-  std::vector<Eigen::VectorXd> curves_;
-  std::vector<std::vector<std::string>> settings_;  // of lights, sorted
-};
+}
 
 }  // namespace
 
-CheckFit fit_for_check(const Rig& rig, const capture::ShotSource& source,
+CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotSource& source,
                        const std::vector<ObservedShot>& shots, LitObjects& lit,
                        const std::optional<SharedView>& shared, Progress* progress) {
-  const EstimateOptions options;
+  EstimateOptions options;
+  options.keep_rows = true;
+  options.time_limit_s = kTransport_s;
   std::vector<std::pair<std::string, double>> timing_s;
   Stopwatch watch(timing_s);
   KeptLight kept;
   Estimation e(rig.scene, lit, shots, useful_channels(rig, shots), options, kept, watch, progress);
   CheckFit out;
-  out.channels = fitted_channels(e, shots);
-  Likeness likeness(e, rig.decoding, shots, source, shared);
-  for (std::size_t i = 0; i < shots.size(); ++i) out.likeness.push_back(likeness.of(i));
+  out.channels = fitted_channels(stated, e, shots);
+  LightLook look(e.scene, lit, shots, kept.weights);
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    ShotLikeness& likeness = out.likeness.emplace_back(look.likeness(i));
+    if (likeness.own > kDoubtfulImage && shared) {
+      compare_objects(look, e, rig.decoding, source, *shared, i, shots[i], likeness);
+    }
+  }
+  out.findings = look.findings();
   return out;
 }
 

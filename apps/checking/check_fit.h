@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/checking/image_causes.h"
+#include "apps/instrument/finding.h"
+#include "apps/instrument/light_look.h"
 #include "apps/instrument/measure.h"
 #include "apps/instrument/open_shots.h"
 #include "capture/shots/shot_source.h"
@@ -20,30 +23,29 @@ struct CheckedChannel {
   std::string material;
   std::size_t channel = 0;
   std::vector<std::size_t> shots;  // indices into the opened shots, without unusable ones
+  std::string model;               // "dipole" or "transport"
   Estimate estimate;
   std::vector<ShotResult> singles;  // of the same shots, each alone; empty for a single shot
   // Present if the joint fit converged.
   std::optional<ShotDepartures> departures;
   std::vector<Nuisance> nuisances;  // of departures->nuisances
-};
-
-// How well lights and objects of the rig explain a shot: rms of the residual over rms of the image,
-// with a free scale, for the best of a few media.
-struct ShotLikeness {
-  double own =
-      std::numeric_limits<double>::quiet_NaN();  // as listed in the rig; NaN: the shot is unusable
-  double best_other = std::numeric_limits<double>::infinity();
-  std::string other;  // "lit by led2", "of object pyramid, lit by led1"
+  std::vector<ImageCause> causes;   // of the image's departures; the best first
+  // rms of the residual in patches beside the mesh's edges over that of the others, both relative
+  // to l; 0 if unknown.
+  double edge_excess = 0;
 };
 
 struct CheckFit {
   std::vector<CheckedChannel> channels;
   std::vector<ShotLikeness> likeness;  // by opened shot
+  std::vector<Finding> findings;       // of the light (apps/instrument/light_look.h)
 };
 
-// Fits the dipole to all shots of the source, which were opened for `rig` with `lit` and `shared`;
-// entirely dark or clipped shots are left out.
-CheckFit fit_for_check(const Rig& rig, const capture::ShotSource& source,
+// Fits the material to all shots of the source by the model that would measure it (the dipole where
+// the shots show that it holds, else transport in one channel of the material), which were opened
+// for `rig` with `lit` and `shared`; entirely dark or clipped shots are left out. stated: the scene
+// before the positions of its LEDs were loosened for `rig`.
+CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotSource& source,
                        const std::vector<ObservedShot>& shots, LitObjects& lit,
                        const std::optional<SharedView>& shared, Progress* progress);
 

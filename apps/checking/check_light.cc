@@ -52,6 +52,23 @@ std::vector<CheckDetail> drifts(const CheckedRig& checked, const std::vector<Sho
   return out;
 }
 
+// Where the residual lies along the edges of the mesh, these are the cause.
+std::string residual_advice(const CheckedRig& checked) {
+  constexpr double kOfEdges = 2.5;
+  double excess = 0.0;
+  for (const CheckedChannel& fitted : checked.fit.channels) {
+    excess = std::max(excess, fitted.edge_excess);
+  }
+  if (excess > kOfEdges) {
+    return fmt::format(
+        "beside the edges of the mesh it is {:.1f} times that elsewhere: the object's edges are "
+        "not "
+        "as sharp; give the mesh their chamfer or radius",
+        excess);
+  }
+  return "look at the shot: object moved, wrong mesh, wrong lights, or other light";
+}
+
 }  // namespace
 
 std::vector<CheckItem> check_light(const CheckedRig& checked) {
@@ -80,8 +97,8 @@ std::vector<CheckItem> check_light(const CheckedRig& checked) {
   }
   // If the residual of the image reaches its limit, the other values of the model mean little.
   return {
-      judged("image residual", "% of the image", {o.max_residual_percent},
-             "look at the shot: object moved, wrong mesh, wrong lights, or other light", residual),
+      judged("image residual", "% of the image", {o.max_residual_percent}, residual_advice(checked),
+             residual),
       judged("light of shot", "% off the joint model",
              {o.max_power_percent, false, false, o.least_stds},
              "check whether aperture, exposure or LED current changed in this shot", power),

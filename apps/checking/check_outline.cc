@@ -1,6 +1,41 @@
+#include <limits>
+#include <string>
+#include <vector>
+
 #include "apps/checking/check.h"
 
 namespace scattermeter::apps {
+namespace {
+
+// Where no outline has enough straight edges, by the quick look at the whole contour, which needs
+// none. An outline that is not seen at all fails: nothing says then that pose and mesh are right.
+CheckItem judged_by_look(const CheckedRig& checked, const CheckItem& unjudged) {
+  if (!checked.shared_pose) return unjudged;  // before a board
+  std::vector<CheckDetail> details;
+  std::string advice = "the outline contradicts pose and mesh";
+  if (checked.looks && checked.looks->diagnosis) {
+    const calib::OutlineDiagnosis& d = *checked.looks->diagnosis;
+    for (const std::size_t idx : checked.looks->looked_at) {
+      CheckDetail shift = checked.of_shot(idx, d.shift_px.norm());
+      shift.std = d.shift_std_px;
+      details.push_back(shift);
+    }
+    const double beyond = checked.options.max_outline_px + 4.0 * d.shift_std_px;
+    CheckItem item = judged("outline", "px of shift", {beyond}, advice, details);
+    item.passed = d.agrees;
+    if (!d.agrees) item.advice = d.explanations.at(1).text;
+    return item;
+  }
+  for (std::size_t i = 0; i < checked.shots.size(); ++i) {
+    details.push_back(checked.of_shot(i, std::numeric_limits<double>::quiet_NaN()));
+  }
+  return judged("outline", "px of shift", {checked.options.max_outline_px},
+                "the object's outline is not found near where pose and mesh put it: look at pose, "
+                "mesh and shots, or use a darker background",
+                details);
+}
+
+}  // namespace
 
 std::vector<CheckItem> check_outline(const CheckedRig& checked) {
   if (!checked.outline) return {};
@@ -15,7 +50,7 @@ std::vector<CheckItem> check_outline(const CheckedRig& checked) {
   }
   CheckItem item = judged("outline", "px of shift", {checked.options.max_outline_px},
                           "pose, meshes or lens differ from the rig", shifts);
-  if (outline.shots_found == 0) return {item};
+  if (outline.shots_found == 0) return {judged_by_look(checked, item)};
   // The verdict is that of the silhouettes' own test, which accounts for the uncertainty of the
   // pose; the limit is for what it cannot see. Shifts below these limits do not affect a
   // measurement, however significant.

@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/instrument/calibration_inputs.h"
+#include "apps/instrument/first_look.h"
 #include "apps/instrument/open_objects.h"
 #include "apps/instrument/open_shots.h"
 #include "calib/pose/shot_pose.h"
@@ -129,6 +130,10 @@ calib::SilhouetteCheck checked_outline(const CheckedGeometry& geometry,
 
 }  // namespace
 
+std::vector<Finding> CheckedRig::findings() const {
+  return in_order(looks ? looks->findings : std::vector<Finding>(), fit.findings);
+}
+
 CheckDetail CheckedRig::of_shot(std::size_t shot_idx, double value) const {
   CheckDetail out;
   out.where = rig.scene.shots.at(shot_idx).file;
@@ -165,17 +170,25 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
       capture::shots_in_files(loose.scene, loose.decoding, folder.paths);
   out.shots = open_shots(loose, source, geometry->objects, *geometry->lit, view, options.progress);
   out.frames.resize(out.shots.size());
+  std::optional<OutlineWatch> watch;
+  if (out.shared_pose) watch.emplace(loose, geometry->objects, *out.shared_pose);
   ProgressStage stage(options.progress, "looking at shots", out.shots.size());
   tbb::parallel_for(std::size_t{0}, out.shots.size(), [&](std::size_t i) {
     const capture::RawFrame frame =
         std::get<capture::FrameSource>(source.open)(source.shot_idxs[i], 0);
     out.frames[i] = checked_frame(frame, loose, out.shots[i], options);
+    if (watch) watch->look(source.shot_idxs[i], frame);
     stage.step();
   });
+  if (watch) {
+    out.looks = watch->findings(source);
+    out.notes.insert(out.notes.end(), out.looks->notes.begin(), out.looks->notes.end());
+  }
   if (rig.lens) out.lens = *rig.lens;
   out.outline = checked_outline(*geometry, source, out);
   out.leds = checked_leds(rig, shots_folder);
-  out.fit = fit_for_check(loose, source, out.shots, *geometry->lit, view, options.progress);
+  out.fit =
+      fit_for_check(rig.scene, loose, source, out.shots, *geometry->lit, view, options.progress);
   if (!rig.scene.camera.responsivity) {
     out.notes.emplace_back(
         "no responsivity in the rig: the scale is free, sigma_a will be uncertain");

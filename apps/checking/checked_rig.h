@@ -10,8 +10,10 @@
 
 #include "apps/checking/check_fit.h"
 #include "apps/checking/check_item.h"
+#include "apps/instrument/finding.h"
 #include "apps/instrument/measure.h"
 #include "apps/instrument/open_shots.h"
+#include "apps/instrument/outline_watch.h"
 #include "apps/rig/rig.h"
 #include "calib/led/led_check.h"
 #include "calib/lens/camera_calibration_file.h"
@@ -82,6 +84,12 @@ struct CheckedRig {
   std::optional<calib::CameraCalibrationFile> lens;
   std::optional<calib::SilhouetteCheck> outline;
   std::vector<calib::LedCheck> leds;  // those whose calibration shots are all in the folder
+  // What `measure` would see before any fit: for a camera that does not move.
+  std::optional<OutlineFindings> looks = {};
+
+  // What is wrong according to the looks before any fit, the most probable first: `measure` refuses
+  // these shots.
+  std::vector<Finding> findings() const;
 
   CheckDetail of_shot(std::size_t shot_idx, double value) const;
   CheckDetail of_channel(std::size_t shot_idx, std::size_t channel, double value) const;

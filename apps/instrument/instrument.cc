@@ -12,6 +12,7 @@
 #include "apps/instrument/outline_watch.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/shots/shot_cache.h"
+#include "core/base/input_error.h"
 #include "core/base/progress.h"
 
 namespace scattermeter::apps {
@@ -102,6 +103,17 @@ std::vector<ObservedShot> open_and_light(const Rig& rig, const capture::ShotSour
   return shots;
 }
 
+// The pose improved by the outlines: by the careful search where it succeeds, otherwise by the
+// quick look.
+PoseResult pose_with_outlines(const Rig& rig, const ObjectScenes& objects, const PoseResult& quick,
+                              const PoseResult& prior, const capture::ShotSource& source) {
+  try {
+    return calib::pose_from_silhouettes(rig.scene, rig.pose, objects, prior, source);
+  } catch (const InputError&) {
+    return quick;
+  }
+}
+
 // The estimate of all channels but those that the findings refuse.
 std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
                                            const std::vector<ObservedShot>& shots,
@@ -184,7 +196,8 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     if (!outlines.findings.empty() && source.cache != nullptr) source.cache->forget();
     if (outlines.pose) {
       kept = &of_improved_pose;
-      view = see_all(rig_.scene, objects_, lit_, *outlines.pose);
+      view = see_all(rig_.scene, objects_, lit_,
+                     pose_with_outlines(rig_, objects_, *outlines.pose, *outlines.prior, source));
       shots = open(source);
     }
   } else {

@@ -1,6 +1,7 @@
 // What the light of the shots says about lights, files and units: LightLook::findings().
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -140,6 +141,8 @@ void LightLook::find_factors(const std::vector<ShotLikeness>& likeness,
     std::size_t images = 0;
     std::vector<double> logs;
     std::set<std::size_t> shots;
+    // Factors that some medium allows.
+    double low = std::numeric_limits<double>::infinity(), high = 0.0;
   };
   std::map<Lights, Setting> settings;
   for (std::size_t i = 0; i < shots_.size(); ++i) {
@@ -158,6 +161,8 @@ void LightLook::find_factors(const std::vector<ShotLikeness>& likeness,
       }
       Setting& setting = settings[shot.stated->lights];
       ++setting.images;
+      setting.low = std::min(setting.low, low);
+      setting.high = std::max(setting.high, high);
       setting.shots.insert(index_of(i));
       if (low > least || high * least < 1.0) {
         setting.logs.push_back(0.5 * (std::log(low) + std::log(high)));
@@ -177,7 +182,10 @@ void LightLook::find_factors(const std::vector<ShotLikeness>& likeness,
   }
   if (off.empty()) return;
   const double factor = std::exp(sum / n);
-  const bool all = off.size() == settings.size();
+  // Other lights for which some medium allows the same factor are most likely off as well.
+  const bool all = std::all_of(settings.begin(), settings.end(), [&](const auto& setting) {
+    return factor > setting.second.low / kFactor && factor < setting.second.high * kFactor;
+  });
   const bool thousand = std::abs(std::abs(std::log10(factor)) - 3.0) < kPower;
   finding.cause = thousand ? "unit: mW for W" : "light off by a factor";
   finding.text = fmt::format(

@@ -245,6 +245,8 @@ void OutlineWatch::conclude(OutlineFindings& out) const {
   if (d.agrees) {
     if (!d.improves_pose) return;
     out.pose = d.pose;
+    out.prior = pose_;
+    out.prior->covariance.diagonal().tail<3>().array() += kPlaceStd_mm * kPlaceStd_mm;
     out.notes.push_back(fmt::format(
         "outline {:.1f} px {} and {:.1f} px {} of where the pose puts it (± {:.1f}), within the "
         "stated uncertainty: the pose was corrected by it",

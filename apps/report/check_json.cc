@@ -20,6 +20,7 @@ CheckJson or_null(double value) {
 std::string check_json(const CheckReport& report, const std::string& command_line) {
   CheckJson j;
   j["passed"] = report.passed();
+  j["most_probable_cause"] = report.cause;
   j["checks"] = CheckJson::array();
   for (const CheckItem& item : report.items) {
     CheckJson details = CheckJson::array();

@@ -254,6 +254,9 @@ std::string check_page(const CheckedRig& checked, const CheckReport& report,
       html_text(failed == 0 ? fmt::format("All {} checks passed.", report.items.size())
                             : fmt::format("{} of {} checks failed.", failed, report.items.size())),
       failed == 0 ? "pass" : "fail");
+  if (!report.cause.empty()) {
+    body += html_element("p", html_text("Most probable cause: " + report.cause), "fail");
+  }
   body += html_element("p",
                        html_text(fmt::format("{}, {} shots. {} (scattermeter {})", checked.rig.path,
                                              checked.shots.size(), command_line, kVersion)),

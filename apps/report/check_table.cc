@@ -38,7 +38,11 @@ std::string check_table(const CheckReport& report) {
       advice += fmt::format("FAIL {}: {}: {}\n", item.what, item.where, item.advice);
     }
   }
-  std::string out = table.text() + advice;
+  std::string out;
+  if (!report.cause.empty()) {
+    out = "most probable cause: " + report.cause + "\n" + "the failures below may follow from it\n";
+  }
+  out += table.text() + advice;
   for (const std::string& note : report.notes) out += "note: " + note + "\n";
   const auto failed = std::count_if(report.items.begin(), report.items.end(),
                                     [](const CheckItem& i) { return !i.passed; });

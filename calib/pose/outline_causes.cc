@@ -91,6 +91,8 @@ class Causes {
       known_.segment<3>(model.place(b)).setConstant(options.place_std_mm);
       known_[model.scale(b)] = options.scale_relative_std;
       known_[model.growth(b)] = kGrowth * model.cell_px();
+      known_.segment(model.harmonics(b), OutlineModel::kHarmonics)
+          .setConstant(kShotShift * model.cell_px());
     }
     for (std::size_t s = 0; s < shots.size(); ++s) {
       known_.segment<2>(model.shift(s)).setConstant(kShotShift * model.cell_px());

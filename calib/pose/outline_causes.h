@@ -62,7 +62,8 @@ struct OutlineOptions {
 
 // Least squares of all offsets. Besides the causes, the model has the errors of a quick look: the
 // contour lies up to half a cell (standard deviation) farther out or in, and each shot's contour is
-// shifted by 0.3 cells, since the brighter side of a translucent body has another edge. The scatter
+// shifted by 0.3 cells and each body's bent by as much, since the brighter side of a translucent
+// body has another edge. The scatter
 // of the points is that of a fit of all causes at once, and neighbours are taken as correlated over
 // four points. Bodies: their names and centres (world, mm), by index. Precondition: at least ten
 // offsets in all.

@@ -69,6 +69,11 @@ void OutlineModel::fill(const OutlineShot& shot, std::size_t shot_idx, const Out
   a_.block<1, 3>(row, turn(body)) = arm.cross(by_world).transpose();
   a_(row, scale(body)) = by_world.dot(arm);
   a_(row, growth(body)) = 1.0;
+  const double direction = std::atan2(p.outward.y(), p.outward.x());
+  for (Eigen::Index k = 0; k < kHarmonics / 2; ++k) {
+    a_(row, harmonics(body) + 2 * k) = std::cos(static_cast<double>(k + 2) * direction);
+    a_(row, harmonics(body) + 2 * k + 1) = std::sin(static_cast<double>(k + 2) * direction);
+  }
   a_.block<1, 2>(row, shift(shot_idx)) = p.outward.transpose();
   // Of the body's place in the rig.
   offset_px_[row] = offset.px + by_world.dot(shot.assumed_mm);
@@ -129,6 +134,7 @@ Eigen::VectorXd OutlineModel::all_free() const {
     std.segment<3>(turn(b)).setConstant(kFreeTurn_rad);
     std[scale(b)] = kFreeScale;
     std[growth(b)] = kFreeGrowth * cell_px_;
+    std.segment(harmonics(b), kHarmonics).setConstant(kFreeGrowth * cell_px_);
   }
   return std;
 }

@@ -31,11 +31,14 @@ inline constexpr double kFreeScale = 0.3;
 inline constexpr double kFreeShift_px = 300.0;
 
 // Columns: the pose's correction (6, as PoseResult::covariance); for each body place (3, mm,
-// world), turn about its centre (3, rad, world), scale about its centre (ln) and growth of the
-// contour (px); for each shot the shift of its picture (2, px, right and down).
+// world), turn about its centre (3, rad, world), scale about its centre (ln), growth of the
+// contour (px) and the second to fourth harmonics of the direction of its normal (6, px): an edge
+// seen from the lit side lies elsewhere than one in the shade; for each shot the shift of its
+// picture (2, px, right and down).
 class OutlineModel {
  public:
   static constexpr Eigen::Index kPose = 6;
+  static constexpr Eigen::Index kHarmonics = 6;
 
   // Points off the fit of all columns by more than four robust standard deviations are left out;
   // the others have the scatter of that fit, at least 0.15 cells, and share it with their three
@@ -50,6 +53,7 @@ class OutlineModel {
   Eigen::Index turn(std::size_t body) const { return place(body) + 3; }
   Eigen::Index scale(std::size_t body) const { return place(body) + 6; }
   Eigen::Index growth(std::size_t body) const { return place(body) + 7; }
+  Eigen::Index harmonics(std::size_t body) const { return place(body) + 8; }
   Eigen::Index shift(std::size_t shot) const {
     return kPose + kPerBody * bodies_ + 2 * static_cast<Eigen::Index>(shot);
   }
@@ -69,7 +73,7 @@ class OutlineModel {
   Fit fit(const Eigen::VectorXd& std, bool own_pose) const;
 
  private:
-  static constexpr Eigen::Index kPerBody = 8;
+  static constexpr Eigen::Index kPerBody = 8 + kHarmonics;
 
   void fill(const OutlineShot& shot, std::size_t shot_idx, const OutlineOffset& offset,
             const Eigen::Matrix<double, 2, 3>& jacobian, const Eigen::Vector3d& center_mm,

@@ -69,10 +69,27 @@ TEST_F(CheckOutline, NoneFound) {
   outline_->shots_found = 0;
   outline_->shots[0].found = false;
   outline_->diagnosis.agrees = false;
-  const std::vector<CheckItem> items = check_outline(made_.checked);
+  std::vector<CheckItem> items = check_outline(made_.checked);
   ASSERT_EQ(items.size(), 1U);
-  EXPECT_TRUE(items[0].details.empty());
+  EXPECT_FALSE(items[0].passed);
+  EXPECT_THAT(items[0].advice, HasSubstr("not found"));
+  // Not enough straight edges, but the contour was seen where it belongs, or elsewhere.
+  OutlineFindings& looks = made_.checked.looks.emplace();
+  looks.diagnosis.emplace();
+  looks.diagnosis->shift_px = {0.3, 0.4};
+  looks.diagnosis->shift_std_px = 0.2;
+  looks.diagnosis->explanations.resize(2);
+  looks.diagnosis->explanations[1].text = "mesh of cube displaced";
+  looks.looked_at = {0, 1};
+  items = check_outline(made_.checked);
   EXPECT_TRUE(items[0].passed);
+  EXPECT_NEAR(items[0].worst, 0.5, 1e-12);
+  looks.diagnosis->agrees = false;
+  EXPECT_FALSE(check_outline(made_.checked)[0].passed);
+  EXPECT_EQ(check_outline(made_.checked)[0].advice, "mesh of cube displaced");
+  // Before a board the outline is not judged.
+  made_.checked.shared_pose.reset();
+  EXPECT_TRUE(check_outline(made_.checked)[0].passed);
 }
 
 }  // namespace
