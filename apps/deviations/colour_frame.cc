@@ -96,10 +96,14 @@ void blur(ColourFrame& frame, double std_px, bool rows_only) {
 }
 
 void smear(ColourFrame& frame, double length_px) {
-  const int reach = static_cast<int>(std::ceil(0.5 * length_px + 0.5));
-  std::vector<double> kernel;
-  for (int k = -reach; k <= reach; ++k) {  // the part of pixel k that the path covers
-    kernel.push_back(std::clamp(0.5 * length_px + 0.5 - std::abs(k), 0.0, 1.0));
+  const int reach = static_cast<int>(std::ceil(0.5 * length_px)) + 1;
+  std::vector<double> kernel(static_cast<std::size_t>(2 * reach + 1));
+  constexpr int kSteps = 1000;
+  for (int s = 0; s < kSteps; ++s) {  // linear between the pixels at each step of the path
+    const double at = reach + length_px * ((s + 0.5) / kSteps - 0.5);
+    const auto below = static_cast<std::size_t>(at);
+    kernel[below] += 1.0 - (at - std::floor(at));
+    kernel[below + 1] += at - std::floor(at);
   }
   normalise(kernel);
   for (std::vector<float>& plane : frame.counts) {

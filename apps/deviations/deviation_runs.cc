@@ -20,8 +20,8 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr double kEta = 1.49;
-// A volume rendering takes as long as several of the dipole's; a draw has one in so many.
-constexpr std::size_t kDipolePerVolume = 9;
+// A run by volume takes as long as so many by the dipole; a draw spends the same time on both.
+constexpr std::size_t kDipolePerVolume = 29;
 
 const std::vector<std::string> kBodies = {"cube", "pyramid", "sphere"};
 const std::vector<std::string> kPatterns = {"RGGB", "GRBG", "GBRG", "BGGR"};

@@ -40,7 +40,7 @@ enum class DeviationRendering { kDipole, kVolume, kBoth };
 struct DeviationOptions {
   // Runs, drawn evenly from the kinds and sizes; 0: each combination of kind, size, body, number of
   // LEDs and rendering once.
-  int runs = 400;
+  int runs = 150;
   std::vector<std::string> kinds;   // names; empty: all
   std::vector<std::string> bodies;  // names; empty: all
   std::vector<int> sizes;           // indices of the kinds' sizes, from 0; empty: all
@@ -50,9 +50,9 @@ struct DeviationOptions {
   std::uint64_t seed = 1;
   int image_width_px = 484;
   // Of a volume rendering, for each light and channel.
-  std::int64_t rendered_paths = 3'000'000;
+  std::int64_t rendered_paths = 2'000'000;
   // Of measuring by transport, for each light and view.
-  std::int64_t measured_paths = 20'000'000;
+  std::int64_t measured_paths = 5'000'000;
   double time_limit_s = 50;  // of measuring by transport, for each channel
   Progress* progress = nullptr;
   std::function<void(const DeviationResult&)> on_result = {};  // called for each as it comes

@@ -37,6 +37,10 @@ TEST(ColourFrame, SmearCoversItsLength) {
   EXPECT_NEAR(frame.at(1, 18, 15), 125.0, 1e-3);
   EXPECT_EQ(frame.at(1, 17, 15), 0.0F);
   EXPECT_EQ(frame.at(1, 20, 16), 0.0F);
+  ColourFrame little = point();
+  smear(little, 0.8);
+  EXPECT_NEAR(little.at(1, 19, 15), 100.0, 0.01);  // 0.8 / 8
+  EXPECT_NEAR(little.at(1, 20, 15), 800.0, 0.01);
 }
 
 TEST(ColourFrame, Discs) {

@@ -65,8 +65,8 @@ TEST(DeviationRuns, DrawnEvenly) {
   options.rendering = DeviationRendering::kBoth;
   int volumes = 0;
   for (const DeviationRun& run : planned_runs(options)) volumes += run.volume ? 1 : 0;
-  EXPECT_GT(volumes, 20);
-  EXPECT_LT(volumes, 80);
+  EXPECT_GT(volumes, 5);
+  EXPECT_LT(volumes, 40);
 }
 
 TEST(DeviationRuns, OnlyWhatIsWanted) {
@@ -91,7 +91,7 @@ TEST(DeviationRuns, OnlyWhatIsWanted) {
 // deviations are refused.
 TEST(DeviationRuns, NoWrongOk) {
   DeviationOptions options;
-  options.image_width_px = 320;
+  options.image_width_px = 484;
   options.runs = 0;
   options.rendering = DeviationRendering::kDipole;
   options.bodies = {"cube"};
@@ -116,7 +116,7 @@ TEST(DeviationRuns, NoWrongOk) {
 // A wrong answer would be noticed: the same answers, judged by another truth.
 TEST(DeviationRuns, WouldNotice) {
   DeviationOptions options;
-  options.image_width_px = 320;
+  options.image_width_px = 484;
   options.runs = 0;
   options.rendering = DeviationRendering::kDipole;
   options.bodies = {"cube"};

@@ -17,13 +17,13 @@ DeviationRun run_of(const Deviation& kind, std::size_t size_idx) {
 
 // A grey object on black, two shots that differ.
 std::vector<ColourFrame> some_frames() {
-  std::vector<ColourFrame> frames(2, black_frame(60, 40, 4000.0));
+  std::vector<ColourFrame> frames(2, black_frame(300, 200, 4000.0));
   for (std::size_t f = 0; f < 2; ++f) {
-    frames[f].object = {10, 10, 40, 20};
+    frames[f].object = {50, 50, 200, 100};
     for (std::size_t c = 0; c < 3; ++c) {
-      for (int y = 11; y < 29; ++y) {
-        for (int x = 11; x < 49; ++x) {
-          frames[f].at(c, x, y) = 1000.0F + 10.0F * static_cast<float>(x + f) + 5.0F * c;
+      for (int y = 51; y < 149; ++y) {
+        for (int x = 51; x < 249; ++x) {
+          frames[f].at(c, x, y) = 1000.0F + 2.0F * static_cast<float>(x + f) + 5.0F * c;
         }
       }
     }
