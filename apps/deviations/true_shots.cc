@@ -39,20 +39,6 @@ double range_of(const Rig& stated) {
 // Share of the pixels that are samples of the channel.
 double samples_per_px(std::size_t channel) { return channel == 1 ? 0.5 : 0.25; }
 
-// Independent noise of so much variance per count.
-void add_noise(std::vector<float>& raw, int width_px, const CfaPattern& cfa,
-               const std::array<double, 3>& counts2_per_count, std::uint64_t stream) {
-  std::mt19937_64 generator(stream);
-  std::normal_distribution<double> normal;
-  for (std::size_t i = 0; i < raw.size(); ++i) {
-    const auto x = static_cast<int>(i % static_cast<std::size_t>(width_px));
-    const auto y = static_cast<int>(i / static_cast<std::size_t>(width_px));
-    const double variance = counts2_per_count[static_cast<std::size_t>(cfa.at(x, y))] *
-                            std::max(0.0, static_cast<double>(raw[i]));
-    raw[i] += static_cast<float>(std::sqrt(variance) * normal(generator));
-  }
-}
-
 }  // namespace
 
 ExpectedShots expected_shots(const TrueSetup& setup, const Rig& stated, bool volume,
