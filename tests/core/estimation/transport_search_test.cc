@@ -15,11 +15,6 @@ DipoleSystem handed_over(const test_support::DipoleCube& cube, const MaterialCha
   return {[&cube, &channel, rows] {
             return channel_system(cube.scene, channel, *rows, cube.weights, 0.0);
           },
-          [rows] {
-            Eigen::Index n = 0;
-            for (const ChannelObservation& o : *rows) n += static_cast<Eigen::Index>(o.rows_used);
-            return Eigen::VectorXd(Eigen::VectorXd::Zero(n));
-          },
           smooth_knots(cube.lit), rows, 1e4};
 }
 
