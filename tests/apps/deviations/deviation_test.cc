@@ -104,7 +104,9 @@ TEST(Deviation, EveryRowChangesSomething) {
           EXPECT_NE(numbers(truth), numbers(true_setup(stated, "cube"))) << kind.name;
           EXPECT_EQ(mesh_problem(truth.mesh), "") << kind.name;
         }
-        if (kind.frames) EXPECT_TRUE(changes_frames(kind, draw)) << kind.name;
+        if (kind.frames) {
+          EXPECT_TRUE(changes_frames(kind, draw)) << kind.name;
+        }
         if (kind.stated) {
           Rig other = stated;
           kind.stated(other, draw);

@@ -5,7 +5,7 @@
 namespace scattermeter::apps {
 namespace {
 
-TrueSetup deviating(const char* kind, const DeviationDraw& draw) {
+TrueSetup deviating_object(const char* kind, const DeviationDraw& draw) {
   const DeviationRun run{.kind = &deviation_named(kind), .body = "cube"};
   TrueSetup setup = true_setup(stated_rig(run, 320), "cube");
   run.kind->truth(setup, draw);
@@ -13,15 +13,15 @@ TrueSetup deviating(const char* kind, const DeviationDraw& draw) {
 }
 
 TEST(ObjectDeviations, Materials) {
-  EXPECT_NEAR(deviating("eta off", {0.09, 1, 1}).rig.scene.objects.front().eta_int_over_ext, 1.40,
+  EXPECT_NEAR(deviating_object("eta off", {0.09, 1, 1}).rig.scene.objects.front().eta_int_over_ext, 1.40,
               1e-12);
-  EXPECT_EQ(deviating("phase function", {0.8, 1, 1}).phase_mean_cosine, 0.8);
-  const TrueSetup halves = deviating("halves of different material", {50, 1, 1});
+  EXPECT_EQ(deviating_object("phase function", {0.8, 1, 1}).phase_mean_cosine, 0.8);
+  const TrueSetup halves = deviating_object("halves of different material", {50, 1, 1});
   for (const TrueShot& shot : halves.shots) {
     EXPECT_NEAR((*shot.right_half)[1].sigma_s_prime_per_mm, 1.5 * 1.3, 1e-12);
     EXPECT_NEAR(shot.media[1].sigma_s_prime_per_mm, 1.3, 1e-12);
   }
-  const TrueSetup one = deviating("another material in one shot", {100, 1, 1});
+  const TrueSetup one = deviating_object("another material in one shot", {100, 1, 1});
   EXPECT_NEAR(one.shots[0].media[0].sigma_s_prime_per_mm, 0.6, 1e-12);
   EXPECT_NEAR(one.shots[1].media[0].sigma_s_prime_per_mm, 1.2, 1e-12);
 }

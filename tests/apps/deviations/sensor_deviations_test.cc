@@ -7,7 +7,7 @@
 namespace scattermeter::apps {
 namespace {
 
-TrueSetup deviating(const char* kind, const DeviationDraw& draw) {
+TrueSetup deviating_sensor(const char* kind, const DeviationDraw& draw) {
   const DeviationRun run{.kind = &deviation_named(kind), .body = "cube"};
   TrueSetup setup = true_setup(stated_rig(run, 320), "cube");
   run.kind->truth(setup, draw);
@@ -26,19 +26,19 @@ ColourFrame changed(const char* kind, const DeviationDraw& draw) {
 }
 
 TEST(SensorDeviations, Truths) {
-  const SceneSensor& clipped = deviating("clips early", {60, 1, 1}).rig.scene.camera.sensor;
+  const SceneSensor& clipped = deviating_sensor("clips early", {60, 1, 1}).rig.scene.camera.sensor;
   EXPECT_EQ(clipped.white_counts, 64 + static_cast<int>(0.4 * (4095 - 64)));
   const SensorNoise stated;
-  const SceneSensor noisy = deviating("noise underestimated", {2, 1, 1}).rig.scene.camera.sensor;
+  const SceneSensor noisy = deviating_sensor("noise underestimated", {2, 1, 1}).rig.scene.camera.sensor;
   EXPECT_NEAR(noisy.noise.gain_e_per_count, 1.5, 1e-12);  // a quarter of 6
   EXPECT_NEAR(noisy.noise.read_noise_counts, 2.4, 1e-12);
-  const Rig green = deviating("responsivity of G off", {20, -1, 1}).rig;
+  const Rig green = deviating_sensor("responsivity of G off", {20, -1, 1}).rig;
   EXPECT_NEAR((*green.scene.camera.responsivity)[1], 0.8 * 2.9e10, 1.0);
   EXPECT_NEAR((*green.scene.camera.responsivity)[0], 2.4e10, 1.0);
-  const CfaPattern before = deviating("clips early", {20, 1, 1}).rig.scene.camera.sensor.cfa;
+  const CfaPattern before = deviating_sensor("clips early", {20, 1, 1}).rig.scene.camera.sensor.cfa;
   for (const double size : {1.0, 2.0}) {
     const CfaPattern after =
-        deviating("colour filters exchanged", {size, 1, 1}).rig.scene.camera.sensor.cfa;
+        deviating_sensor("colour filters exchanged", {size, 1, 1}).rig.scene.camera.sensor.cfa;
     const int dx = size == 1.0 ? 1 : 0;
     const int dy = size == 2.0 ? 1 : 0;
     EXPECT_EQ(after.at(0, 0), before.at(dx, dy)) << size;

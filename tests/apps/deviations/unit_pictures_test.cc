@@ -9,13 +9,13 @@
 namespace scattermeter::apps {
 namespace {
 
-TrueSetup small_setup() {
+TrueSetup pictured_setup() {
   const DeviationRun run{.kind = &deviation_named("none"), .body = "cube"};
   return true_setup(stated_rig(run, 240), "cube");
 }
 
 TEST(UnitPictures, RendersWhatIsNewAndNothingTwice) {
-  const TrueSetup setup = small_setup();
+  const TrueSetup setup = pictured_setup();
   UnitPictures pictures(10'000);
   const TrueShot& shot = setup.shots[0];
   const auto first = pictures.of(setup, shot.lights[0], shot.media, false);
@@ -46,7 +46,7 @@ TEST(UnitPictures, RendersWhatIsNewAndNothingTwice) {
 
 // The Monte Carlo's variance falls with the number of paths, and its picture is like the dipole's.
 TEST(UnitPictures, Volume) {
-  const TrueSetup setup = small_setup();
+  const TrueSetup setup = pictured_setup();
   const TrueShot& shot = setup.shots[0];
   UnitPictures few(10'000), more(90'000);
   const auto a = few.of(setup, shot.lights[0], shot.media, true);
@@ -69,7 +69,7 @@ TEST(UnitPictures, Volume) {
 }
 
 TEST(UnitPictures, ForgetsWhatWasUsedLeast) {
-  const TrueSetup setup = small_setup();
+  const TrueSetup setup = pictured_setup();
   UnitPictures pictures(10'000, 2);
   const auto of = [&](std::size_t shot, bool bright) {
     std::array<Medium, 3> media = setup.shots[0].media;
