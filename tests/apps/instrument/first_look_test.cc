@@ -1,0 +1,41 @@
+#include "apps/instrument/first_look.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/core/cube_estimation.h"
+
+namespace scattermeter::apps {
+namespace {
+
+Finding finding(const std::string& cause, std::vector<std::size_t> shots) {
+  return {cause, cause + " seen", "mend it", std::move(shots)};
+}
+
+TEST(FirstLook, LightOfAWrongOutlineIsItsConsequence) {
+  const std::vector<Finding> all =
+      in_order({finding("mesh displaced", {0, 1})},
+               {finding("image not explained", {1}), finding("object covered", {2}),
+                finding("LEDs exchanged", {0, 1}), finding("unit: mW for W", {0, 1})});
+  ASSERT_EQ(all.size(), 4U);
+  EXPECT_EQ(all[0].cause, "mesh displaced");
+  EXPECT_EQ(all[1].cause, "object covered");
+  EXPECT_EQ(all[2].cause, "LEDs exchanged");
+  EXPECT_EQ(all[3].cause, "unit: mW for W");
+  EXPECT_EQ(all[0].sentence(), "mesh displaced seen; mend it");
+}
+
+// The most probable two, and only of the channels whose shots they concern.
+TEST(FirstLook, RefusesItsChannels) {
+  test_support::DipoleCube cube(2);
+  cube.show({1.0, 0.01, 1.0});
+  test_support::CubeEstimation e(cube, "G");
+  refuse(cube.scene, {finding("unit", {7})}, e.estimation);
+  EXPECT_TRUE(e.estimation.results.at(0).estimate.reasons.empty());
+  refuse(cube.scene, {finding("a", {1}), finding("b", {0, 1}), finding("c", {0})}, e.estimation);
+  const std::vector<std::string>& reasons = e.estimation.results.at(0).estimate.reasons;
+  ASSERT_EQ(reasons.size(), 2U);
+  EXPECT_EQ(reasons[0], "a seen; mend it");
+}
+
+}  // namespace
+}  // namespace scattermeter::apps

@@ -1,0 +1,91 @@
+// LightLook::findings()
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apps/instrument/light_look.h"
+#include "tests/fixtures/apps/lit_shots.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using ::testing::HasSubstr;
+
+class LightFindings : public ::testing::Test {
+ protected:
+  std::vector<Finding> findings() {
+    return LightLook(lit_.rig.scene, *lit_.lit, lit_.shots, lit_.weights).findings();
+  }
+  void scale_light(std::size_t light, double factor) {
+    lit_.rig.scene.lights[light].led()->led.intensity_W_per_sr *= factor;
+  }
+  LitShots lit_{"cube"};
+};
+
+TEST_F(LightFindings, GoodRig) {
+  for (const Finding& f : findings()) ADD_FAILURE() << f.text;
+}
+
+TEST_F(LightFindings, LedsExchanged) {
+  std::swap(lit_.shots[0].observation, lit_.shots[1].observation);
+  const auto found = findings();
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].cause, "LEDs exchanged");
+  EXPECT_EQ(found[0].shots.size(), 2U);
+}
+
+TEST_F(LightFindings, OneFileExchanged) {
+  lit_.shots[0].observation = lit_.shots[1].observation;
+  const auto found = findings();
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].cause, "file exchanged");
+  EXPECT_THAT(found[0].text, HasSubstr("plastic_cube_1.dng looks lit by led2"));
+  EXPECT_EQ(found[0].shots, std::vector<std::size_t>{0});
+}
+
+TEST_F(LightFindings, MilliwattsForWatts) {
+  scale_light(0, 1000);
+  scale_light(1, 1000);
+  const auto found = findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].text, HasSubstr("mW for W"));
+  EXPECT_THAT(found[0].text, HasSubstr("the shots hold 1000 times less"));
+  // One of them alone.
+  scale_light(0, 1e-3);
+  EXPECT_THAT(findings().at(0).text, HasSubstr("lit by led2"));
+}
+
+// A free scale says nothing about units; a factor of two is left to the fit.
+TEST_F(LightFindings, FactorsThatAreAllowed) {
+  scale_light(0, 2);
+  scale_light(1, 2);
+  EXPECT_TRUE(findings().empty());
+  scale_light(0, 500);
+  scale_light(1, 500);
+  lit_.rig.scene.camera.responsivity.reset();
+  EXPECT_TRUE(findings().empty());
+}
+
+// Half of the picture shows nothing of the object.
+TEST_F(LightFindings, ObjectCovered) {
+  ObservedShot& shot = lit_.shots[0];
+  for (ChannelObservation& o : shot.observation.channel) {
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (shot.seen->map.mean_mm[j].x() > 0) o.l[j] *= 1e-3;
+    }
+  }
+  const auto found = findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].cause, "object covered");
+  EXPECT_EQ(found[0].shots, std::vector<std::size_t>{0});
+}
+
+// True transport instead of the dipole: the looks leave a good rig alone.
+TEST(LightFindingsOfTransport, GoodRig) {
+  LitShots lit("cube", true);
+  for (const Finding& f : LightLook(lit.rig.scene, *lit.lit, lit.shots, lit.weights).findings()) {
+    ADD_FAILURE() << f.text;
+  }
+}
+
+}  // namespace
+}  // namespace scattermeter::apps

@@ -1,0 +1,49 @@
+#include "apps/instrument/light_look.h"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "apps/instrument/open_shots.h"
+#include "apps/simulation/virtual_shots.h"
+#include "calib/pose/shot_pose.h"
+#include "tests/fixtures/apps/lit_shots.h"
+
+namespace scattermeter::apps {
+namespace {
+
+TEST(LightLook, TheListedLightsExplainAGoodShot) {
+  LitShots lit("cube");
+  LightLook look(lit.rig.scene, *lit.lit, lit.shots, lit.weights);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ShotLikeness like = look.likeness(i);
+    EXPECT_LT(like.own, 0.05);
+    // No other is tried where there is no doubt.
+    EXPECT_TRUE(std::isinf(like.best_other));
+  }
+}
+
+TEST(LightLook, OtherLightsExplainAnExchangedShot) {
+  LitShots lit("cube");
+  std::swap(lit.shots[0].observation, lit.shots[1].observation);
+  LightLook look(lit.rig.scene, *lit.lit, lit.shots, lit.weights);
+  const ShotLikeness like = look.likeness(0);
+  EXPECT_GT(like.own, 0.2);
+  EXPECT_LT(like.best_other, 0.05);
+  EXPECT_EQ(like.other, "lit by led2");
+  EXPECT_EQ(like.other_lights, std::vector<std::string>{"led2"});
+}
+
+TEST(LightLook, AnotherView) {
+  LitShots lit("cube");
+  LightLook look(lit.rig.scene, *lit.lit, lit.shots, lit.weights);
+  ShotLikeness like;
+  look.compare_object(*lit.shots[0].seen, lit.shots[1].observation, 1, like);
+  EXPECT_LT(like.best_other, 0.05);
+  EXPECT_EQ(like.other, "of object cube, lit by led2");
+}
+
+}  // namespace
+}  // namespace scattermeter::apps
