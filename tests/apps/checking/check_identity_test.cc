@@ -47,7 +47,7 @@ TEST(CheckIdentity, MaterialsExchanged) {
 
 TEST(CheckIdentity, LightsExplainTheirShots) {
   MadeCheckedRig made(2);
-  made.checked.fit.likeness = {{0.05, 0.01, "lit by led2"}, {0.02, 0.5, ""}};
+  made.checked.fit.likeness = {{0.05, 0.01, "lit by led2", {}}, {0.02, 0.5, "", {}}};
   // Others explain a.dng five times better, but its own do well enough.
   CheckItem item = check_identity(made.checked)[0];
   EXPECT_EQ(item.what, "light in shot");
