@@ -33,8 +33,9 @@ Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& k
   std::vector<ExitSite> sites;
   sites.reserve(seen.sites.size());
   for (const ExitSite& site : seen.sites) sites.push_back(exit_point(site.center_mm));
-  return smooth_images(sites, sources, coarse_knots(knots), coarse_pair_options(knots),
-                       scaled_curves(media, knots, eta));
+  // By W, so that the digits of a medium do not depend on the others.
+  return smooth_weights(sites, sources, coarse_knots(knots), coarse_pair_options(knots)) *
+         scaled_curves(media, knots, eta);
 }
 
 double facing_irradiance_W_per_mm2(const Scene& scene, const ObservedShot& shot,

@@ -29,7 +29,8 @@ TEST(SensorDeviations, Truths) {
   const SceneSensor& clipped = deviating_sensor("clips early", {60, 1, 1}).rig.scene.camera.sensor;
   EXPECT_EQ(clipped.white_counts, 64 + static_cast<int>(0.4 * (4095 - 64)));
   const SensorNoise stated;
-  const SceneSensor noisy = deviating_sensor("noise underestimated", {2, 1, 1}).rig.scene.camera.sensor;
+  const SceneSensor noisy =
+      deviating_sensor("noise underestimated", {2, 1, 1}).rig.scene.camera.sensor;
   EXPECT_NEAR(noisy.noise.gain_e_per_count, 1.5, 1e-12);  // a quarter of 6
   EXPECT_NEAR(noisy.noise.read_noise_counts, 2.4, 1e-12);
   const Rig green = deviating_sensor("responsivity of G off", {20, -1, 1}).rig;

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/scene/default_uncertainty.h"
 #include "tests/fixtures/apps/yaml_text.h"
 
 namespace scattermeter::apps {
@@ -45,13 +46,13 @@ TEST(RigLightReader, Led) {
   EXPECT_FALSE(led.calibrated || led.calibrated_for);
 }
 
-TEST(RigLightReader, AnLedIsAPointThatIsExactlyKnown) {
+TEST(RigLightReader, AnLedIsAPointKnownToACarefulUser) {
   const SceneLight light = light_of(kLed);
   EXPECT_EQ(light.led()->led.exponent, 1.0);
   EXPECT_EQ(light.led()->led.radius_mm, 0.0);
-  EXPECT_EQ(light.led()->position_std_mm, 0.0);
-  EXPECT_EQ(light.led()->exponent_std, 0.0);
-  EXPECT_EQ(light.led()->intensity_relative_std, 0.0);
+  EXPECT_EQ(light.led()->position_std_mm, default_uncertainty::kLedPosition_mm);
+  EXPECT_EQ(light.led()->exponent_std, default_uncertainty::kLedExponent);
+  EXPECT_EQ(light.led()->intensity_relative_std, default_uncertainty::kLedIntensity);
 }
 
 // The picture is not opened before it is needed.

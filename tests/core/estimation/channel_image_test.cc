@@ -56,12 +56,13 @@ TEST_F(ImageOfTheCube, ShotsHaveTheirRowsAndTheNuisancesOfTheirLight) {
   // The six combinations of an exact pose change nothing.
   EXPECT_EQ(image.negligible_nuisances(), 6U);
   const std::vector<Nuisance>& all = image.nuisances();
-  // Three coordinates of each LED, then errors of the method: shared octaves, one of each shot.
-  const Eigen::Index octaves = static_cast<Eigen::Index>(all.size()) - 6 - 2;
+  // Three coordinates of each LED; eta, which is exact and only tested; then errors of the method:
+  // shared octaves, one of each shot.
+  const Eigen::Index octaves = static_cast<Eigen::Index>(all.size()) - 7 - 2;
   ASSERT_GT(octaves, 2);
   for (std::size_t k = 0; k < all.size(); ++k) {
     EXPECT_EQ(all[k].fitted, k < 6);
-    EXPECT_EQ(all[k].group, k < 6 ? "LED position" : "numerics");
+    EXPECT_EQ(all[k].group, k < 6 ? "LED position" : k == 6 ? "eta" : "numerics");
   }
   for (std::size_t s = 0; s < 2; ++s) {
     const ShotSystem shot = image.shot(s);
@@ -72,8 +73,8 @@ TEST_F(ImageOfTheCube, ShotsHaveTheirRowsAndTheNuisancesOfTheirLight) {
     EXPECT_EQ(shot.system->weights, rows.weights);
     std::vector<Eigen::Index> expected;
     for (Eigen::Index i = 0; i < 3; ++i) expected.push_back(3 * static_cast<Eigen::Index>(s) + i);
-    for (Eigen::Index o = 0; o < octaves; ++o) expected.push_back(6 + o);
-    expected.push_back(6 + octaves + static_cast<Eigen::Index>(s));
+    for (Eigen::Index o = 0; o <= octaves; ++o) expected.push_back(6 + o);
+    expected.push_back(7 + octaves + static_cast<Eigen::Index>(s));
     EXPECT_EQ(shot.nuisances, expected);
     ASSERT_EQ(shot.system->nuisances.size(), expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {

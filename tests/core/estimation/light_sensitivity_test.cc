@@ -144,7 +144,7 @@ TEST_F(LightSensitivityOfTheCube, WhatIsExactIsNotChanged) {
   cube_.scene.lights[0].led()->exponent_std = 0.0;
   const LightSensitivity s = sensitivity_of_medium();
   EXPECT_TRUE(s.per_change.empty());
-  EXPECT_EQ(s.per_eta.size(), 0);
+  EXPECT_EQ(s.per_eta.rows(), s.l.rows());            // eta is tested even if it is exact
   EXPECT_EQ(s.per_tangent_mm[0].rows(), s.l.rows());  // poses are always uncertain
 }
 

@@ -1,0 +1,55 @@
+#include "core/fit/rig_priors.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/fit/dipole_fit.h"
+#include "tests/fixtures/core/half_lit_plate.h"
+
+namespace scattermeter {
+namespace {
+
+TEST(RigPriors, DoubtfulOnesGrowByTheirPulls) {
+  RigPriors priors{
+      {{"eta", 0.01, true, "eta"}, {"pose", 1.0, true, "pose0"}, {"numerics", 1e-5, false, ""}},
+      {0.02}};
+  EXPECT_EQ(priors.fitted().size(), 2U);
+  EXPECT_FALSE(widen_doubtful({{"eta", "eta", 1.9, 0, 0}, {"scale", "scale", -1.5, 0, 0}}, priors));
+  EXPECT_EQ(priors.nuisances[0].std, 0.01);
+  EXPECT_TRUE(widen_doubtful(
+      {{"eta", "eta", 1.0, 0, 0}, {"pose0", "pose", -3.0, 0, 0}, {"scale", "scale", 4.0, 0, 0}},
+      priors));
+  EXPECT_EQ(priors.nuisances[0].std, 0.01);
+  EXPECT_EQ(priors.nuisances[1].std, 3.0);
+  EXPECT_EQ(priors.nuisances[2].std, 1e-5);
+  EXPECT_EQ(priors.scale.relative_std, 0.08);
+  RigPriors exact{{}, {0.0}};
+  EXPECT_FALSE(widen_doubtful({{"scale", "scale", 9.0, 0, 0}}, exact));
+}
+
+// A plate whose light falls off across it by four deviations of what is stated: the pull finds it,
+// and the estimate is nearer to the truth than its prior alone would leave it.
+TEST(RigPriors, PullsFindWhatIsOff) {
+  const Medium truth{1.2, 0.004, 1.3};
+  const test_support::HalfLitPlate plate(1.0);
+  const DistanceKnots knots = plate.knots();
+  const WeightMatrix w = plate.weights(knots);
+  const Eigen::VectorXd l = plate.image(Dipole(truth));
+  DenseSystem system = test_support::noisy_system(w, l, 0.005, 1);
+  const Eigen::VectorXd slope = Eigen::VectorXd::LinSpaced(l.size(), -1.0, 1.0);
+  system.nuisance_columns = slope.cwiseProduct(l);
+  system.nuisances = {{"tilt", 0.01, true, "tilt"}};
+  system.l += 0.04 * system.nuisance_columns;
+  DipoleFitOptions options;
+  options.eta_int_over_ext = truth.eta_int_over_ext;
+  const Estimate e = fit_dipole(system, knots, options).estimate;
+  ASSERT_EQ(e.pulls.size(), 2U);
+  EXPECT_EQ(e.pulls[0].name, "tilt");
+  EXPECT_NEAR(e.pulls[0].pull, 4.0, 1.0);
+  EXPECT_EQ(e.pulls[1].name, "scale");
+  EXPECT_NEAR(e.sigma_s_prime_per_mm.value, 1.2, 3.0 * e.sigma_s_prime_per_mm.std + 0.0024);
+}
+
+}  // namespace
+}  // namespace scattermeter
