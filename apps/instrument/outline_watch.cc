@@ -25,8 +25,9 @@ constexpr double kPlaceStd_mm = 0.2;
 constexpr double kLeastShare = 0.5;
 // Another object explains a shot if this share of its outline fits, and so much more than of the
 // stated object's.
-constexpr double kOtherShare = 0.85;
+constexpr double kOtherShare = 0.8;
 constexpr double kOtherGain = 0.2;
+constexpr double kOnPlace_cells = 2.0;
 constexpr std::size_t kLeastPoints = 30;
 constexpr int kLooksAgain = 2;
 constexpr std::size_t kShotsAgain = 4;  // of each object
@@ -38,7 +39,7 @@ double share_alone(const calib::OutlineLook& look, const std::vector<calib::Cont
   if (look.offsets.size() < kLeastPoints) return 0.0;
   const calib::OutlineModel model({{"", 0, &contour, look, Eigen::Vector3d::Zero()}}, intrinsics,
                                   pose, {center_mm});
-  return static_cast<double>(model.kept(0)) / static_cast<double>(look.points);
+  return model.share_on_place(0, kOnPlace_cells) * look.found_share();
 }
 
 std::string advice_for(const calib::OutlineExplanation& e, const std::string& object) {

@@ -92,6 +92,23 @@ std::size_t OutlineModel::kept(std::size_t shot) const {
   return n;
 }
 
+double OutlineModel::share_on_place(std::size_t shot, double cells) const {
+  Eigen::VectorXd deviation = Eigen::VectorXd::Zero(columns_);
+  for (std::size_t b = 0; b < static_cast<std::size_t>(bodies_); ++b) {
+    deviation.segment<3>(place(b)).setConstant(kFreePlace_mm);
+    deviation.segment(growth(b), 1 + kHarmonics).setConstant(kAbsolute * cell_px_);
+  }
+  const Eigen::VectorXd residual = offset_px_ - a_ * fit(deviation, false).value;
+  double all = 0.0;
+  double within = 0.0;
+  for (std::size_t i = 0; i < shot_of_row_.size(); ++i) {
+    if (shot_of_row_[i] != shot) continue;
+    all += 1.0;
+    within += std::abs(residual[static_cast<Eigen::Index>(i)]) < cells * cell_px_ ? 1.0 : 0.0;
+  }
+  return all > 0.0 ? within / all : 0.0;
+}
+
 OutlineModel::Fit OutlineModel::fit(const Eigen::VectorXd& std, bool own_pose) const {
   std::vector<Eigen::Index> used;
   for (Eigen::Index i = 0; i < columns_; ++i) {

@@ -63,6 +63,10 @@ class OutlineModel {
   // Number of the shot's points that were not left out.
   std::size_t kept(std::size_t shot) const;
 
+  // Share of the shot's offsets within `cells` of a fit of the bodies' places and the contours'
+  // errors (std 0.3 cells) alone: whether it is this body that is seen, wherever it stands.
+  double share_on_place(std::size_t shot, double cells) const;
+
   struct Fit {
     Eigen::VectorXd value;       // of all columns
     Eigen::MatrixXd covariance;  // likewise; zero for columns that are fixed at 0

@@ -98,6 +98,17 @@ TEST_F(OutlineModelTest, OutliersAreLeftOut) {
   EXPECT_LT(fitted(model, model.place(0), 3).norm(), 0.03);
 }
 
+// A body that stands elsewhere is seen all the same; one of another shape is not.
+TEST_F(OutlineModelTest, ShareOnPlace) {
+  const OutlineShot moved =
+      shot([](const Eigen::Vector3d& x) { return (x + Eigen::Vector3d(1, 0, 0)).eval(); });
+  EXPECT_GT(OutlineModel({moved}, lens_, pose_, centers_).share_on_place(0, 2.0), 0.99);
+  const OutlineShot bent = shot([](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(x.x() * (1.0 + 0.05 * x.z()), x.y(), x.z());
+  });
+  EXPECT_LT(OutlineModel({bent}, lens_, pose_, centers_).share_on_place(0, 2.0), 0.7);
+}
+
 // Priors: a stated std holds a column back; the pose's own covariance counts.
 TEST_F(OutlineModelTest, Priors) {
   const Eigen::Vector3d d(0.3, 0, 0);
