@@ -25,9 +25,9 @@ constexpr double kPlaceStd_mm = 0.2;
 constexpr double kLeastShare = 0.5;
 // Another object explains a shot if this share of its outline fits, and so much more than of the
 // stated object's.
-constexpr double kOtherShare = 0.8;
-constexpr double kOtherGain = 0.2;
-constexpr double kOnPlace_cells = 2.0;
+constexpr double kOtherShare = 0.9;
+constexpr double kOtherGain = 0.1;
+constexpr double kOnPlace_cells = 1.5;
 constexpr std::size_t kLeastPoints = 30;
 constexpr int kLooksAgain = 2;
 constexpr std::size_t kShotsAgain = 4;  // of each object
@@ -148,7 +148,7 @@ void OutlineWatch::find_other_objects(const capture::FrameSource& frames, Looks&
         share_alone(it->second.look, *it->second.contour, lens, pose_, centers_mm_[body]);
     double best = 0.0;
     std::string other;
-    if (own < kOtherShare && contours_.size() > 1) {
+    if (contours_.size() > 1) {
       const capture::RawFrame frame = frames(idx, 0);
       for (const auto& [name, contour] : contours_) {
         if (name == names_[body]) continue;
