@@ -19,6 +19,7 @@
 #include "core/estimation/estimation.h"
 #include "core/estimation/model_choice.h"
 #include "core/estimation/transport_search.h"
+#include "core/fit/prior_pulls.h"
 #include "core/view/row_selection.h"
 
 namespace scattermeter::apps {
@@ -127,7 +128,8 @@ void add_departures(const Scene& stated, const Scene& scene, const DipoleSystem&
 }
 
 // The result of transport where the dipole does not hold, in the channel of its material with the
-// most light; other such channels are not judged.
+// most light; other such channels are not judged. Where a quantity of the rig is contradicted, or
+// transport does not explain the shots either, the dipole's departures say more than none.
 std::vector<bool> judged_channels(Estimation& e,
                                   const std::vector<std::optional<DipoleSystem>>& systems) {
   std::vector<bool> judged(e.channels.size(), false);
@@ -136,7 +138,8 @@ std::vector<bool> judged_channels(Estimation& e,
     ChannelResult& result = e.results[i];
     if (!systems[i] || !result.estimate.converged) continue;
     result.why_transport = why_transport(result, systems[i]->image_in_std);
-    judged[i] = result.why_transport.empty();
+    judged[i] = result.why_transport.empty() ||
+                contradiction(result.estimate.pulls, kMostPull, kLeastPullImage) != nullptr;
     if (judged[i]) continue;
     const auto [at, is_new] = best.try_emplace(e.channels[i].material, i);
     if (!is_new && systems[i]->image_in_std > systems[at->second]->image_in_std) at->second = i;
@@ -144,12 +147,13 @@ std::vector<bool> judged_channels(Estimation& e,
   if (best.empty()) return judged;
   ProgressStage stage(e.progress, "transport", best.size());
   for (const auto& [material, i] : best) {
-    ChannelResult& result = e.results[i];
+    ChannelResult result = e.results[i];
     result.model = "transport";
     result.dipole = result.estimate;
     result.rows.clear();
     search_by_transport(e.scene, e.channels[i], *systems[i], e.options, stage, result);
-    judged[i] = result.estimate.converged && !result.rows.empty();
+    judged[i] = true;
+    if (!result.refused() && !result.rows.empty()) e.results[i] = std::move(result);
     stage.step();
   }
   return judged;

@@ -229,10 +229,13 @@ Eigen::MatrixXd change_by_plane(const SeenObject& seen, const Led& led, const In
   const PairSumOptions pairs = coarse_pair_options(knots);
   const DistanceKnots few = knots.with_fine_bits(4);
   const Eigen::MatrixXd r = scaled_curves(media, knots, eta);
-  // The scale is that of the measurement, not of the light itself.
-  Eigen::MatrixXd l = smooth_images(sites, SourceCloud(direct, center_mm), few, pairs, r);
-  for (std::size_t m = 0; m < media.size(); ++m) {
-    l.col(static_cast<Eigen::Index>(m)) /= media[m].scale;
+  // One medium at a time: its digits do not depend on the others. The scale is that of the
+  // measurement, not of the light itself.
+  const SourceCloud direct_light(direct, center_mm);
+  Eigen::MatrixXd l(static_cast<Eigen::Index>(sites.size()), r.cols());
+  for (Eigen::Index m = 0; m < l.cols(); ++m) {
+    l.col(m) = smooth_images(sites, direct_light, few, pairs, r.col(m)) /
+               media[static_cast<std::size_t>(m)].scale;
   }
   const Eigen::MatrixXd back = OwnLight(seen, places, plane).coming_back(l);
   Eigen::MatrixXd change(l.rows(), l.cols());

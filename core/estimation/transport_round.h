@@ -62,7 +62,7 @@ class TransportRound {
   // parts, and in total (a misfit of the parts less probable than 1 in 100 widens it by Birge's
   // ratio). The former is limited: rows may scatter by kMostRowScatter of the image beyond noise
   // and Monte Carlo, cells by kMostCellScatter, so that no residual excuses itself.
-  static constexpr double kMostRowScatter = 0.01;
+  static constexpr double kMostRowScatter = 0.03;
   static constexpr double kMostCellScatter = 0.005;
   // Root mean square of the rows' residual beyond noise and Monte Carlo, nuisances fitted, relative
   // to the image.

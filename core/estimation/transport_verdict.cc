@@ -15,12 +15,9 @@ namespace {
 // With a misfit this improbable and this large, the result is refused.
 constexpr double kMisfitPValue = 1e-6;
 constexpr double kMisfit = 0.003;
-// A residual that exceeds noise and Monte Carlo by this share of the image is refused: twice what
-// rows may scatter.
-constexpr double kUnexplained = 0.02;
-// A quantity of the rig contradicted by so many deviations, and by that share of the image.
-constexpr double kMostPull = 5.0;
-constexpr double kLeastPullImage = 1e-3;
+// A residual that exceeds noise and Monte Carlo by this share of the image is refused: more than
+// what rows may scatter.
+constexpr double kUnexplained = 0.05;
 // The same for the stated scale, a single direction: an offset of three standard deviations widens
 // the result by it, one of 4.4 that exceeds a per cent refuses it.
 constexpr double kWideningScalePValue = 3e-3;

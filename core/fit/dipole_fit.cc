@@ -178,8 +178,7 @@ void solve_with_doubt(const RecoveredReflectance& recovered, const DistanceKnots
 void add_contradictions(const DipoleFit& fit, const Solved& solved, const DipoleFitOptions& options,
                         Estimate& estimate) {
   estimate.pulls = solved.pulls;
-  if (const PriorPull* worst =
-          contradiction(estimate.pulls, options.max_pull, options.min_pull_relative)) {
+  if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
     estimate.reasons.push_back(contradiction_sentence(*worst));
   }
   const LackOfFit parts =

@@ -25,11 +25,6 @@ struct DipoleFitOptions {
   double max_unexplained_relative = 0.01;
   // The same for the light of the parts into which the image is divided.
   double max_parts_relative = 3e-3;
-  // The result is refused where the image contradicts what the rig states about an uncertain
-  // quantity: by more than max_pull standard deviations, which happens to one quantity in 1.7
-  // million by chance, and by more than min_pull_relative of the image.
-  double max_pull = 5.0;
-  double min_pull_relative = 1e-3;
   // A misfit is significant if it is less probable than misfit_p_value under the dipole. A
   // significant misfit counts `misfit_margin` times as an error of the method (nuisances that are
   // not fitted), and the dipole is refused if it exceeds max_misfit_relative.

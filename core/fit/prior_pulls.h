@@ -37,6 +37,12 @@ struct ModelJudgement {
 // pull. Those that the unknowns imitate to rounding have pull 0.
 ModelJudgement judge(const WhitenedModel& model);
 
+// Results are refused where the image contradicts what the rig states about a quantity by more than
+// kMostPull standard deviations, which happens to one quantity in 1.7 million by chance, and by
+// more than kLeastPullImage of the image.
+inline constexpr double kMostPull = 5.0;
+inline constexpr double kLeastPullImage = 1e-3;
+
 // The largest contradiction that is both significant (|pull| > most_pull) and visible
 // (image_relative > least_image); null if there is none.
 const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_pull,

@@ -53,6 +53,21 @@ std::pair<double, double> worst_errors(const Json& result) {
   return worst;
 }
 
+// The largest error, in stated deviations.
+double worst_deviation(const Json& result) {
+  double worst = 0.0;
+  for (const Json& r : result["results"]) {
+    const std::size_t c = std::string("RGB").find(r["channel"].get<std::string>());
+    const Truth& truth = kTruth.at(r["material"]);
+    const auto off = [&](const char* key, double true_value) {
+      return std::abs(r[key]["value"].get<double>() - true_value) / r[key]["std"].get<double>();
+    };
+    worst = std::max(
+        {worst, off("sigma_s_prime_per_mm", truth.s[c]), off("sigma_a_per_mm", truth.a[c])});
+  }
+  return worst;
+}
+
 // The results alone, without times and counts.
 Json answers(const SmallRig& rig) { return Json::parse(rig.result())["results"]; }
 
@@ -132,9 +147,11 @@ TEST(Road, TwelveSmallShotsWithNoise) {
   const Json result = Json::parse(rig.result());
   ASSERT_EQ(result["results"].size(), 9U);
   const auto [s, a] = worst_errors(result);
-  // At this resolution a patch has some 12 samples of a colour; the pose is known to 0.02 px.
-  EXPECT_LT(s, 0.02) << r.out;
-  EXPECT_LT(a, 0.05) << r.out;
+  // At this resolution a patch has some 12 samples of a colour; the pose is known to 0.02 px. One
+  // of 18 quantities is 3.6 deviations off in one of 200 runs.
+  EXPECT_LT(s, 0.03) << r.out;
+  EXPECT_LT(a, 0.1) << r.out;
+  EXPECT_LT(worst_deviation(result), 3.6) << r.out;
   for (const Json& x : result["results"]) {
     EXPECT_EQ(x["verdict"], "ok");
     EXPECT_EQ(x["shots"].size(), 4U);
@@ -193,7 +210,8 @@ TEST(Road, DiscLed) {
   rig.simulate();
   const Answer r = rig.measure();
   EXPECT_EQ(r.status, 0) << r.out << r.err;
-  EXPECT_LT(worst_errors(Json::parse(rig.result())).first, 0.02) << r.out;
+  EXPECT_LT(worst_errors(Json::parse(rig.result())).first, 0.04) << r.out;
+  EXPECT_LT(worst_deviation(Json::parse(rig.result())), 3.3) << r.out;
 }
 
 // Without a responsivity the scale is free; a shadow edge still tells sigma_s'.
@@ -319,10 +337,12 @@ TEST(Road, MisplacedLedIsInTheUncertainty) {
                      "[-70.4, -19.5, 60.6]"));
   rig.simulate();
   std::string honest = nominal;
+  std::string exact = nominal;
   for (const char* axis : {"axis: [-30, 60, -70]", "axis: [70, 20, -50]"}) {
     honest = replaced(honest, axis, std::string("position_std_mm: 0.5, ") + axis);
+    exact = replaced(exact, axis, std::string("position_std_mm: 0, axis_std_deg: 0, ") + axis);
   }
-  rig.write(nominal);
+  rig.write(exact);
   rig.measure({"--model", "dipole"});
   const Json blind = Json::parse(rig.result())["results"];
   rig.write(honest);
