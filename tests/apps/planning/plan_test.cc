@@ -32,7 +32,8 @@ TEST(Plan, AgreesWithMeasure) {
     const std::vector<PlanBenchRow> rows = plan_and_measure(rigs[i], scenes, 7);
     ASSERT_EQ(rows.size(), 3U);
     for (const PlanBenchRow& row : rows) {
-      EXPECT_EQ(row.planned, row.measured) << i << row.channel;
+      EXPECT_EQ(row.planned, row.measured)
+          << i << row.channel << ::testing::PrintToString(row.reasons);
       EXPECT_TRUE(row.planned) << i << row.channel;
       EXPECT_NEAR(std::log(row.forecast_sigma_s_prime / row.stated_sigma_s_prime), 0.0,
                   std::log(1.25))

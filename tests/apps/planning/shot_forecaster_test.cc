@@ -17,6 +17,7 @@ class ShotForecasterTest : public ::testing::Test {
  protected:
   static constexpr double kRangeCounts = 4031.0;
   ShotForecasterTest() {
+    rig_.scene.surroundings.plane.emplace();  // exactly black
     rig_.truth.materials["plastic"].fill({0.5, 0.004, 1.0});
     const VirtualShots shots(rig_, objects_, {.noise = false});
     Instrument instrument(rig_, objects_, {});
