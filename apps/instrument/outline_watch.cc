@@ -88,7 +88,7 @@ OutlineWatch::OutlineWatch(const Rig& rig, const ObjectScenes& objects, const Po
     const auto scene = objects.find(object.name);
     centers_mm_.push_back(scene == objects.end() ? Eigen::Vector3d(Eigen::Vector3d::Zero())
                                                  : scene->second.box.center_mm());
-    if (scene == objects.end()) continue;
+    if (scene == objects.end() || !calib::has_sharp_edges(scene->second.mesh())) continue;
     contours_[object.name] = calib::contour_points(
         *scene->second.rays, lens, pose.camera_from_world, calib::outline_cell_px(lens.width_px));
   }

@@ -119,10 +119,11 @@ class RoundBodyWatchTest : public OutlineWatchTest {
   RoundBodyWatchTest() : OutlineWatchTest({"sphere", "scan"}) {}
 };
 
-TEST_F(RoundBodyWatchTest, GoodRig) {
+// Their limb is as dark as the lamp leaves it, so they are not judged by their outline.
+TEST_F(RoundBodyWatchTest, AreNotJudged) {
   const OutlineFindings found = findings(shots({0, 0, 0}));
-  for (const Finding& f : found.findings) ADD_FAILURE() << f.text;
-  EXPECT_TRUE(found.diagnosis);
+  EXPECT_TRUE(found.findings.empty());
+  EXPECT_FALSE(found.diagnosis);
 }
 
 }  // namespace
