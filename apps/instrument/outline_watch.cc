@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/mesh/creases.h"
 #include "core/view/camera_view.h"
 
 namespace scattermeter::apps {
@@ -29,6 +30,8 @@ constexpr double kOtherShare = 0.9;
 constexpr double kOtherGain = 0.1;
 constexpr double kOnPlace_cells = 1.5;
 constexpr std::size_t kLeastPoints = 30;
+constexpr double kSharp_rad =
+    0.6435;  // without such edges the limb is as dark as the lamp leaves it
 constexpr int kLooksAgain = 2;
 constexpr std::size_t kShotsAgain = 4;  // of each object
 
@@ -88,7 +91,7 @@ OutlineWatch::OutlineWatch(const Rig& rig, const ObjectScenes& objects, const Po
     const auto scene = objects.find(object.name);
     centers_mm_.push_back(scene == objects.end() ? Eigen::Vector3d(Eigen::Vector3d::Zero())
                                                  : scene->second.box.center_mm());
-    if (scene == objects.end() || !calib::has_sharp_edges(scene->second.mesh())) continue;
+    if (scene == objects.end() || creases(scene->second.mesh(), kSharp_rad).empty()) continue;
     contours_[object.name] = calib::contour_points(
         *scene->second.rays, lens, pose.camera_from_world, calib::outline_cell_px(lens.width_px));
   }

@@ -3,11 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
-#include <utility>
-
-#include <Eigen/Geometry>
 
 #include "core/camera/lens.h"
 
@@ -148,24 +144,6 @@ class ContourFinder {
 std::vector<ContourPoint> contour_points(const RayScene& scene, const CameraIntrinsics& intrinsics,
                                          const Rigid3d& camera_from_world, int cell_px) {
   return ContourFinder(scene, intrinsics, camera_from_world, cell_px).points();
-}
-
-bool has_sharp_edges(const TriangleMesh& mesh) {
-  constexpr double kLeastCos = 0.8;
-  std::map<std::pair<int, int>, Eigen::Vector3d> normal_at;  // by the vertices of an edge
-  for (const auto& t : mesh.triangles) {
-    const auto corner = [&](std::size_t k) -> const Eigen::Vector3d& {
-      return mesh.vertices_mm[static_cast<std::size_t>(t[k % 3])];
-    };
-    const Eigen::Vector3d normal =
-        (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::pair<int, int> edge = std::minmax<int>({t[k], t[(k + 1) % 3]});
-      const auto [it, is_new] = normal_at.try_emplace(edge, normal);
-      if (!is_new && it->second.dot(normal) < kLeastCos) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace scattermeter::calib

@@ -24,8 +24,4 @@ struct ContourPoint {
 std::vector<ContourPoint> contour_points(const RayScene& scene, const CameraIntrinsics& intrinsics,
                                          const Rigid3d& camera_from_world, int cell_px);
 
-// Whether faces of the mesh meet at more than 37 degrees anywhere. On a body without such edges the
-// light falls off towards the limb, so that what looks like its outline depends on the lamp.
-bool has_sharp_edges(const TriangleMesh& mesh);
-
 }  // namespace scattermeter::calib

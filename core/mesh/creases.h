@@ -1,0 +1,20 @@
+// The sharp edges of a mesh.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/mesh/triangle_mesh.h"
+
+namespace scattermeter {
+
+struct Crease {
+  Eigen::Vector3d from_mm, to_mm;
+};
+
+// Edges at which the normals of two facets differ by more than `least_rad`, in the order of the
+// facets. Vertices at one place count as one. Domain: 0 <= least_rad <= pi.
+std::vector<Crease> creases(const TriangleMesh& mesh, double least_rad);
+
+}  // namespace scattermeter
