@@ -30,16 +30,8 @@ class SiteSum {
         near_ratio2_(static_cast<float>(options.near_ratio * options.near_ratio)),
         floor_mm_(static_cast<float>(options.floor_mm)),
         few_points_ratio_(static_cast<float>(options.few_points_ratio)) {
-    // Of six points the last three are in the directions of the rule of three, but farther out.
-    constexpr TriangleOrbit kSix = kCowper[1], kThree = kThreePoints[0];
-    constexpr double kCloser = (kThree.a - kThree.b()) / (kSix.a - kSix.b());
-    const bool six = near_.n_points == 6;
-    n_few_ = six ? 3 : near_.n_points;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(n_few_); ++i) {
-      const Eigen::Vector3d& p = near_.points_mm[six ? i + 3 : i];
-      few_points_[i] =
-          (near_.center_mm + (six ? kCloser : 1.0) * (p - near_.center_mm)).template cast<float>();
-      few_weights_[i] = static_cast<float>(six ? kThree.weight : near_.weights[i]);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(near_.n_few); ++i) {
+      few_points_[i] = near_.few_mm[i].template cast<float>();
     }
   }
 
@@ -65,10 +57,9 @@ class SiteSum {
     const SourceCloud::Rule& rule = cloud_.rules()[static_cast<std::size_t>(triangle)];
     const float few = few_points_ratio_ * (rule.edge + radius_);
     if ((rule.center - at_).squaredNorm() >= few * few) {
-      for (int i = 0; i < n_few_; ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        add_points<3>(rule.three, rule.center - few_points_[k], 1.0F,
-                      few_weights_[k] * rule.three.power);
+      const float weight = 1.0F / static_cast<float>(near_.n_few);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(near_.n_few); ++i) {
+        add_points<3>(rule.three, rule.center - few_points_[i], 1.0F, weight * rule.three.power);
       }
       return;
     }
@@ -185,10 +176,7 @@ class SiteSum {
   Eigen::Vector3f at_;
   Eigen::Matrix3f covariance_;
   float radius_, near_ratio2_, floor_mm_, few_points_ratio_;
-  // The site as fewer points.
-  int n_few_;
-  std::array<Eigen::Vector3f, ExitSite::kMaxPoints> few_points_;
-  std::array<float, ExitSite::kMaxPoints> few_weights_;
+  std::array<Eigen::Vector3f, 3> few_points_;  // the site as fewer points
   // Pairs waiting to be binned: more room than pairs, since whole lanes are written.
   int pairs_ = 0;
   alignas(16) std::array<float, kPairsAtOnce + kClusters> d2_, power_;

@@ -144,13 +144,34 @@ struct SeenPatches {
   std::vector<double> area_mm2;
   std::vector<Eigen::Vector3d> mean_mm;  // of its samples, from the patch's centre
   std::vector<Eigen::Matrix3d> spread_mm2;
+  std::vector<std::optional<LatticeShares>> shares;
 };
 
+// Mean over the samples of a patch.
+LatticeShares mean_shares(const Mapper& mapper, std::span<const std::uint32_t> samples,
+                          const std::array<Eigen::Vector3d, 3>& corners_mm) {
+  const Eigen::Vector3d b = corners_mm[1] - corners_mm[0], c = corners_mm[2] - corners_mm[0];
+  const double bb = b.dot(b), bc = b.dot(c), cc = c.dot(c);
+  LatticeShares mean{};
+  for (const std::uint32_t i : samples) {
+    const Eigen::Vector3d p = mapper.point(i) - corners_mm[0];
+    const double v = (cc * p.dot(b) - bc * p.dot(c)) / (bb * cc - bc * bc);
+    const double w = (bb * p.dot(c) - bc * p.dot(b)) / (bb * cc - bc * bc);
+    const LatticeShares shares = lattice_shares({1.0 - v - w, v, w});
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      mean[k] += shares[k] / static_cast<double>(samples.size());
+    }
+  }
+  return mean;
+}
+
 SeenPatches seen_patches(const Mapper& mapper, const SamplesByPatch& samples,
-                         const PatchMesh& patches, std::size_t width) {
+                         const std::vector<std::size_t>& guarded, const PatchMesh& patches,
+                         std::size_t width) {
   const auto n_patches = static_cast<std::size_t>(patches.size());
   SeenPatches out{std::vector<double>(n_patches, 0.0), std::vector<Eigen::Vector3d>(n_patches),
-                  std::vector<Eigen::Matrix3d>(n_patches)};
+                  std::vector<Eigen::Matrix3d>(n_patches),
+                  std::vector<std::optional<LatticeShares>>(n_patches)};
   tbb::parallel_for(std::size_t{0}, n_patches, [&](std::size_t k) {
     const Eigen::Vector3d center_mm = patches.center_mm(static_cast<int>(k));
     Eigen::Vector3d sum_mm = Eigen::Vector3d::Zero();
@@ -168,6 +189,12 @@ SeenPatches seen_patches(const Mapper& mapper, const SamplesByPatch& samples,
     if (!(count > 0.0)) return;
     out.mean_mm[k] = sum_mm / count;
     out.spread_mm2[k] = square_mm2 / count - out.mean_mm[k] * out.mean_mm[k].transpose();
+    if (guarded[k] == 0) return;
+    out.shares[k] = mean_shares(
+        mapper,
+        std::span(samples.in_order)
+            .subspan(samples.begin_of[k], samples.begin_of[k + 1] - samples.begin_of[k]),
+        patches.corners_mm(static_cast<int>(k)));
   });
   return out;
 }
@@ -190,6 +217,7 @@ std::vector<std::int32_t> add_rows(const SeenPatches& seen, const std::vector<st
     map.guarded_of_row.push_back(guarded[idx]);
     map.mean_mm.push_back(patches.center_mm(k) + seen.mean_mm[idx]);
     map.spread_mm2.push_back(seen.spread_mm2[idx]);
+    map.shares.push_back(seen.shares[idx]);
   }
   return row_of_patch;
 }
@@ -247,8 +275,8 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
     ++map.samples_guarded;
     ++guarded[static_cast<std::size_t>(mapper.seen(i).patch)];
   }
-  const SeenPatches seen = seen_patches(mapper, by_patch(patch_of_sample, n_patches), patches,
-                                        static_cast<std::size_t>(rays.width));
+  const SeenPatches seen = seen_patches(mapper, by_patch(patch_of_sample, n_patches), guarded,
+                                        patches, static_cast<std::size_t>(rays.width));
   const std::vector<std::int32_t> row_of_patch =
       add_rows(seen, guarded, patches, options.min_coverage, map);
   map.row_of_sample.assign(n, -1);

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/mesh/exit_site.h"
 #include "core/mesh/patch_mesh.h"
 #include "core/mesh/ray_scene.h"
 
@@ -50,6 +52,8 @@ struct SampleMap {
   std::size_t samples_on_object = 0;
   std::size_t samples_guarded = 0;
   std::size_t patches_partly_seen = 0;  // seen, but for less than min_coverage
+  // Of rows with guarded samples: the mean lattice shares of the others; else absent.
+  std::vector<std::optional<LatticeShares>> shares;
 };
 
 SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMesh& patches,
