@@ -18,6 +18,7 @@ std::string on_one_line(std::string text) {
 // "1.4 +- 0.002"; the method of the paper yields no standard deviation.
 std::string with_std(const Quantity& q) {
   if (!std::isfinite(q.std)) return fmt::format("{:.6g} (standard deviation not known)", q.value);
+  if (is_upper_limit(q)) return fmt::format("{:.6g} (an upper limit of {:.2g})", q.value, q.high95);
   return fmt::format("{:.6g} +- {:.2g}", q.value, q.std);
 }
 

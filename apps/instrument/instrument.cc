@@ -125,7 +125,7 @@ std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
   refuse(scene, findings, estimation);
   const bool any = std::any_of(estimation.results.begin(), estimation.results.end(),
                                [](const ChannelResult& r) { return !r.refused(); });
-  if (any || findings.empty()) estimator(options.model).estimate(estimation);
+  if (any || findings.empty()) run(estimator(options.model), estimation);
   return std::move(estimation.results);
 }
 

@@ -12,6 +12,7 @@
 namespace scattermeter::apps {
 
 std::string value_with_deviation(const Quantity& q) {
+  if (is_upper_limit(q)) return fmt::format("< {:.2g}", q.high95);
   int decimals = 4;
   if (q.std > 0.0 && std::isfinite(q.std)) {
     decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(q.std))), 0, 8);

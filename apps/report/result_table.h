@@ -12,7 +12,8 @@ namespace scattermeter::apps {
 // then the reasons of refusals.
 std::string result_table(const Measurement& measurement);
 
-// "2.193 ± 0.012", with two significant digits of the standard deviation.
+// "2.193 ± 0.012", with two significant digits of the standard deviation; "< 0.0031" for an upper
+// limit.
 std::string value_with_deviation(const Quantity& q);
 
 // "PE_1.dng: 2 files merged, PE_1.dng (0.2 s) in 43 % of the samples on the object, PE_1b.dng ...;

@@ -10,6 +10,7 @@
 
 #include "core/fit/dipole_misfit.h"
 #include "core/fit/estimate.h"
+#include "core/fit/prior_pulls.h"
 #include "core/fit/shot_agreement.h"
 #include "core/fit/smooth_reflectance.h"
 #include "core/view/observation.h"
@@ -54,6 +55,7 @@ struct ChannelResult {
   // the dipole is inadequate.
   std::optional<SmoothReflectance> recovered;
   std::optional<DipoleMisfit> misfit;
+  RigEvidence evidence;  // of this channel's model
   // Of transport only: the dipole's estimate, and why --model auto rejected it.
   std::optional<Estimate> dipole;
   std::string why_transport;

@@ -9,6 +9,7 @@
 
 #include "core/estimation/channel_image.h"
 #include "core/estimation/estimation.h"
+#include "core/estimation/joint_evidence.h"
 #include "core/estimation/mesh_scale.h"
 #include "core/estimation/nuisances.h"
 #include "core/estimation/sensitivities.h"
@@ -76,9 +77,30 @@ class DipoleEstimator {
       }
       if (!again) break;
     }
+    fit_with_joint_pulls();
+    e_.watch.lap("fit");
   }
 
  private:
+  // Once more those channels that doubt a quantity of the rig that all share, or of which all
+  // together doubt one.
+  void fit_with_joint_pulls() {
+    const auto is_doubted = [](double pull) { return std::abs(pull) > kDoubtfulPull; };
+    for (const PriorPull& p : joint_pulls(e_.results)) fit_.joint_pulls[p.name] = p.pull;
+    tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
+      const Estimate& estimate = e_.results[i].estimate;
+      if (!work_[i].estimated || !estimate.converged) return;
+      const std::vector<PriorPull> own = estimate.pulls;
+      if (std::any_of(own.begin(), own.end(), [&](const PriorPull& p) {
+            const auto joint = fit_.joint_pulls.find(p.name);
+            return joint != fit_.joint_pulls.end() &&
+                   (is_doubted(p.pull) || is_doubted(joint->second));
+          })) {
+        final_fit(i);
+      }
+    });
+  }
+
   DipoleFitOptions options_of(const MaterialChannel& channel) const {
     DipoleFitOptions own = fit_;
     own.eta_int_over_ext = channel.eta_int_over_ext;
@@ -186,6 +208,7 @@ class DipoleEstimator {
     if (leave_outliers_out(fit.image, work_[i].rows)) fit = fitted();
     report_rows(channel, work_[i].rows, result);
     result.estimate = fit.estimate;
+    result.evidence = fit.evidence;
     if (!fit.estimate.converged) return;
     if (e_.options.keep_rows) {
       result.rows = shot_rows(channel, work_[i].rows, fit.image.predicted + image.light_by_plane(),
@@ -213,6 +236,7 @@ class DipoleEstimator {
         shot_agreement(shots, image.nuisances(), knots_, fit.optimum, channel.eta_int_over_ext,
                        options.scale, std::max(1.0, fit.estimate.reduced_chi2));
     widen_by_disagreement(result.agreement, result.estimate);
+    refuse_undetermined(result.estimate);
   }
 
   Estimation& e_;

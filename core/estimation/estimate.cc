@@ -8,6 +8,7 @@
 #include "core/base/nearest_name.h"
 #include "core/base/progress.h"
 #include "core/estimation/estimation.h"
+#include "core/estimation/joint_evidence.h"
 
 namespace scattermeter {
 
@@ -36,6 +37,11 @@ const Estimator& estimator(const std::string& name) {
   return *it;
 }
 
+void run(const Estimator& chosen, Estimation& estimation) {
+  chosen.estimate(estimation);
+  refuse_contradicted(estimation.results);
+}
+
 std::vector<ChannelResult> estimate(const Scene& scene, LitObjects& lit,
                                     std::span<const ObservedShot> shots,
                                     const EstimateOptions& options, Progress* progress) {
@@ -52,7 +58,7 @@ std::vector<ChannelResult> estimate(const Scene& scene, LitObjects& lit,
   const Estimator& chosen = estimator(options.model);
   Estimation estimation(scene, lit, shots, material_channels(scene, shots, options.channels),
                         options, kept, watch, progress);
-  chosen.estimate(estimation);
+  run(chosen, estimation);
   return std::move(estimation.results);
 }
 

@@ -41,6 +41,9 @@ std::span<const Estimator> estimators();
 // Throws std::invalid_argument for an unknown name.
 const Estimator& estimator(const std::string& name);
 
+// Fills in the results' estimates, and refuses those of channels that contradict the rig together.
+void run(const Estimator& chosen, Estimation& estimation);
+
 // Returns the materials in the scene's order, R G B each. The shots must refer to `scene` and
 // `lit`. The same digits for any number of threads. Throws InputError if the shots of one material
 // show objects with different eta, std::invalid_argument for an unknown model, Cancelled.

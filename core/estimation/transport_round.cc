@@ -7,7 +7,6 @@
 #include "core/base/dense_solve.h"
 #include "core/fit/excess_scatter.h"
 #include "core/fit/part_light.h"
-#include "core/fit/prior_pulls.h"
 
 namespace scattermeter {
 namespace {
@@ -205,7 +204,7 @@ LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
   return lack_of_fit(light * rest, covariance_of_parts(light), free, fitted);
 }
 
-std::vector<PriorPull> TransportRound::pulls() const {
+ModelJudgement TransportRound::judgement() const {
   if (blocks_ < kLeastBlocks) return {};
   const Eigen::MatrixXd light = shots_.parts.parts() * shots_.parts.cells();
   const Eigen::MatrixXd root = cholesky_lower(covariance_of_parts(light));
@@ -226,7 +225,7 @@ std::vector<PriorPull> TransportRound::pulls() const {
     model.nuisances.push_back({"scale", scale_.relative_std, true, "scale"});
   }
   model.data_length = whitened(shots_.system.l).norm();
-  return judge(model).pulls;
+  return judge(model);
 }
 
 }  // namespace scattermeter

@@ -12,6 +12,7 @@
 #include "core/fit/estimate.h"
 #include "core/fit/lack_of_fit.h"
 #include "core/fit/linear_shot.h"
+#include "core/fit/prior_pulls.h"
 #include "core/fit/scattering_equation.h"
 #include "core/fit/shot_agreement.h"
 #include "core/fit/shot_parts.h"
@@ -84,8 +85,8 @@ class TransportRound {
   // The misfit of the light of the shots' parts, with free coefficients. Empty (dof 0) for fewer
   // than kLeastBlocks blocks.
   const LackOfFit& misfit() const { return misfit_; }
-  // Of the rig's uncertain quantities, from the light of the parts; none for fewer blocks.
-  std::vector<PriorPull> pulls() const;
+  // On the rig's uncertain quantities, from the light of the parts; empty for fewer blocks.
+  ModelJudgement judgement() const;
 
  private:
   struct Single {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -56,6 +57,7 @@ class TransportSearch {
                        has_free_scale() ? estimate.scale.value : 1.0};
     result.singles.clear();
     result.agreement = {};
+    result.evidence = {};
     estimate.converged = false;
     estimate.rows = static_cast<std::size_t>(system_.l.size());
     if (system_.l.size() < TransportRound::kLeastRows) {
@@ -222,10 +224,13 @@ class TransportSearch {
     if (options_.keep_rows) {
       result.rows = shot_rows(channel_, rows_, system_.l - rest, variance.cwiseSqrt());
     }
-    add_refusals(round.misfit(), round.unexplained(), round.pulls(), scale_test, round.blocks(),
-                 estimate);
+    ModelJudgement judgement = round.judgement();
+    add_refusals(round.misfit(), round.unexplained(), std::move(judgement.pulls), scale_test,
+                 round.blocks(), estimate);
+    result.evidence = std::move(judgement.evidence);
     widen_by_mesh_scale(channel_, estimate);
     report_shots(round, result);
+    refuse_undetermined(estimate);
   }
 
   void report_shots(const TransportRound& round, ChannelResult& result) const {

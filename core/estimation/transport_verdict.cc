@@ -116,14 +116,6 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
         100.0 * std::abs(std::expm1(scale.offset)), 100.0 * scale.std,
         scale.offset > 0.0 ? "larger" : "smaller"));
   }
-  constexpr double kUndetermined = 0.5;
-  const double relative = estimate.sigma_s_prime_per_mm.std / estimate.sigma_s_prime_per_mm.value;
-  if (!std::isfinite(relative) || relative > kUndetermined) {
-    estimate.reasons.push_back("these shots do not determine sigma_s'");
-  }
-  if (!std::isfinite(estimate.sigma_a_per_mm.std)) {
-    estimate.reasons.push_back("these shots set no upper limit to sigma_a");
-  }
 }
 
 }  // namespace scattermeter

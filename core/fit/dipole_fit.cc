@@ -9,11 +9,9 @@
 #include "core/base/chi_square.h"
 #include "core/diffusion/dipole_curve.h"
 #include "core/fit/fit_uncertainty.h"
-#include "core/fit/prior_pulls.h"
 #include "core/fit/profile_interval.h"
 #include "core/fit/recovered_reflectance.h"
 #include "core/fit/residual.h"
-#include "core/fit/rig_priors.h"
 #include "core/fit/score_tests.h"
 
 namespace scattermeter {
@@ -102,16 +100,7 @@ void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOpt
     e.reasons.push_back(sentence("the albedo alpha' = ", 1.0 - p.q,
                                  " is too low for the dipole, which requires alpha' near 1"));
   }
-  const double relative_std = e.sigma_s_prime_per_mm.std / e.sigma_s_prime_per_mm.value;
-  if (!std::isfinite(relative_std) || relative_std > options.max_relative_std_sigma_s) {
-    e.reasons.push_back(
-        "these shots do not determine sigma_s' (no absolute scale and no light edge "
-        "on the object, or too little light)");
-  }
-  if (!std::isfinite(e.sigma_a_per_mm.std) || !std::isfinite(e.sigma_a_per_mm.high95) ||
-      !std::isfinite(e.sigma_s_prime_per_mm.high95)) {
-    e.reasons.push_back("these shots set no upper limit to a coefficient");
-  }
+  refuse_undetermined(e);
   const double unexplained = e.rms_relative * std::sqrt(std::max(0.0, 1.0 - 1.0 / e.reduced_chi2));
   const auto rows = static_cast<double>(e.rows);
   if (unexplained > options.max_unexplained_relative &&
@@ -150,13 +139,13 @@ double set_misfit(const RecoveredReflectance& recovered, double l2,
 }
 
 // The optimum under the rig's priors, once more with wider ones where the image doubts them. The
-// pulls are those of the priors as stated.
+// judgement is on the priors as stated.
 struct Solved {
   RigPriors priors;
   std::vector<Nuisance> fitted;
   std::unique_ptr<DipoleSolver> solver;  // refers to `fitted`
   Point optimum;
-  std::vector<PriorPull> pulls;
+  ModelJudgement judgement;
 };
 
 void solve(const RecoveredReflectance& recovered, const DistanceKnots& knots, double eta,
@@ -166,18 +155,21 @@ void solve(const RecoveredReflectance& recovered, const DistanceKnots& knots, do
   out.optimum = out.solver->best();
 }
 
-void solve_with_doubt(const RecoveredReflectance& recovered, const DistanceKnots& knots, double eta,
-                      Solved& out) {
+void solve_with_doubt(const RecoveredReflectance& recovered, const DistanceKnots& knots,
+                      const DipoleFitOptions& options, Solved& out) {
+  const double eta = options.eta_int_over_ext;
   solve(recovered, knots, eta, out);
   const Point& p = out.optimum;
-  out.pulls = pulls_of(out.priors, recovered, dipole_curve(knots, p.u, p.q, eta), p);
-  if (widen_doubtful(out.pulls, out.priors)) solve(recovered, knots, eta, out);
+  out.judgement = judgement_of(out.priors, recovered, dipole_curve(knots, p.u, p.q, eta), p);
+  if (widen_doubtful(out.judgement.pulls, options.joint_pulls, out.priors)) {
+    solve(recovered, knots, eta, out);
+  }
 }
 
 // Refusals by the quantities of the rig and by the light of the parts.
 void add_contradictions(const DipoleFit& fit, const Solved& solved, const DipoleFitOptions& options,
                         Estimate& estimate) {
-  estimate.pulls = solved.pulls;
+  estimate.pulls = solved.judgement.pulls;
   if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
     estimate.reasons.push_back(contradiction_sentence(*worst));
   }
@@ -230,7 +222,8 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
   }
   Solved solved;
   solved.priors = {rows.nuisances(), options.scale};
-  solve_with_doubt(recovered, knots, options.eta_int_over_ext, solved);
+  solve_with_doubt(recovered, knots, options, solved);
+  fit.evidence = solved.judgement.evidence;
   const ScalePrior& scale = solved.priors.scale;
   fit.optimum = solved.optimum;
   const Point& p = fit.optimum;

@@ -10,7 +10,9 @@
 #include "core/fit/image_information.h"
 #include "core/fit/image_rows.h"
 #include "core/fit/linear_shot.h"
+#include "core/fit/prior_pulls.h"
 #include "core/fit/recovered_reflectance.h"
+#include "core/fit/rig_priors.h"
 
 namespace scattermeter {
 
@@ -19,7 +21,6 @@ struct DipoleFitOptions {
   ScalePrior scale;
   // Verdict limits.
   std::size_t min_rows = 20;
-  double max_relative_std_sigma_s = 0.5;
   // The dipole is refused when its residual exceeds the noise significantly (misfit_p_value) and by
   // more than this, relative to the image. Below, the excess widens the errors.
   double max_unexplained_relative = 0.01;
@@ -39,7 +40,8 @@ struct DipoleFitOptions {
   // widening of errors by it, and verdicts are then those expected with that noise (chi-square
   // increased by one per degree of freedom).
   bool without_noise = false;
-  void Check() const;  // std::invalid_argument naming the field
+  JointPulls joint_pulls = {};  // known from other channels
+  void Check() const;           // std::invalid_argument naming the field
 };
 
 struct DipoleFit {
@@ -48,6 +50,7 @@ struct DipoleFit {
   // Predicted at the optimum, and observed. Empty if there is no optimum.
   ComparedImage image;
   RecoveredReflectance recovered;
+  RigEvidence evidence;  // under the priors as stated
 };
 
 // The dipole of least chi-square on the image (DipoleSolver). Standard deviations from the Jacobian

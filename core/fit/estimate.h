@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -19,6 +20,14 @@ struct Quantity {
 // at 0.
 inline Quantity normal_quantity(double value, double std) {
   return {value, std, std::max(0.0, value - 1.96 * std), value + 1.96 * std};
+}
+
+// Whether the standard deviation exceeds half the value (or either is not a number).
+inline bool is_undetermined(const Quantity& q) { return !(q.std <= 0.5 * q.value); }
+// Undetermined, but with an interval that reaches 0: what is known is that the quantity is below
+// high95. A deviation that is not known (the paper's method) sets no limit.
+inline bool is_upper_limit(const Quantity& q) {
+  return is_undetermined(q) && q.low95 <= 0.0 && std::isfinite(q.std) && std::isfinite(q.high95);
 }
 
 // The contribution of one cause to the uncertainty: the standard deviation whose square would
@@ -58,6 +67,10 @@ struct Estimate {
   // Why the numbers must not be trusted, as whole sentences; empty: they may be trusted.
   std::vector<std::string> reasons;
 };
+
+// Adds a reason to refuse for sigma_s' if it is undetermined (an upper limit is stated in it), and
+// for sigma_a if it is undetermined and not an upper limit; none that is there already.
+void refuse_undetermined(Estimate& estimate);
 
 // Prior of the scale (LED power x camera gain x exposure).
 struct ScalePrior {

@@ -121,6 +121,14 @@ ModelJudgement judge(const WhitenedModel& model) {
   std::vector<PriorPull> pulls(model.nuisances.size());
   std::vector<bool> has_pull(model.nuisances.size());
   const double length = std::max(model.data_length, 1e-300);
+  out.evidence.information = information;
+  out.evidence.score = b.transpose() * rest.residual;
+  out.evidence.image_relative.resize(b.cols());
+  for (std::size_t k = 0; k < moving.size(); ++k) {
+    out.evidence.nuisances.push_back(model.nuisances[static_cast<std::size_t>(moving[k])]);
+    out.evidence.image_relative[static_cast<Eigen::Index>(k)] =
+        std[k] * model.columns.col(moving[k]).norm() / length;
+  }
   const auto report = [&](Eigen::Index i, double offset, double pull) {
     const Nuisance& nuisance = model.nuisances[static_cast<std::size_t>(i)];
     has_pull[static_cast<std::size_t>(i)] = true;

@@ -21,11 +21,22 @@ struct WhitenedModel {
   double data_length = 0;           // |data|, to which changes of the image are compared
 };
 
+// What the data say about the nuisances that vary, all unknowns eliminated: with their values v in
+// deviations of their priors, chi2 = v^T information v - 2 score^T v + constant, and the priors add
+// v^T v.
+struct RigEvidence {
+  std::vector<Nuisance> nuisances;
+  Eigen::MatrixXd information;
+  Eigen::VectorXd score;
+  Eigen::VectorXd image_relative;  // change of the image by one deviation, relative to the image
+};
+
 struct ModelJudgement {
   double chi2 = 0;  // of the residual with nuisances and unknowns at their most probable values
   double dof = 0;   // rows minus free unknowns
   double p_value = 1;
   std::vector<PriorPull> pulls;  // of the nuisances that are fitted or exact, in their order
+  RigEvidence evidence;
 };
 
 // The pull of a nuisance is its most probable value over the standard deviation that this value has

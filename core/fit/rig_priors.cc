@@ -4,8 +4,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/fit/prior_pulls.h"
-
 namespace scattermeter {
 
 std::vector<Nuisance> RigPriors::fitted() const {
@@ -15,8 +13,8 @@ std::vector<Nuisance> RigPriors::fitted() const {
   return out;
 }
 
-std::vector<PriorPull> pulls_of(const RigPriors& priors, const RecoveredReflectance& recovered,
-                                const DipoleCurve& curve, const DipoleSolver::Point& optimum) {
+ModelJudgement judgement_of(const RigPriors& priors, const RecoveredReflectance& recovered,
+                            const DipoleCurve& curve, const DipoleSolver::Point& optimum) {
   const double s = std::exp(optimum.log_s);
   const double per_noise = 1.0 / std::sqrt(recovered.noise_excess());
   const auto n = static_cast<Eigen::Index>(priors.nuisances.size());
@@ -33,13 +31,15 @@ std::vector<PriorPull> pulls_of(const RigPriors& priors, const RecoveredReflecta
   model.nuisances = priors.nuisances;
   if (!is_free) model.nuisances.push_back({"scale", priors.scale.relative_std, true, "scale"});
   model.data_length = per_noise * recovered.whitened.norm();
-  return judge(model).pulls;
+  return judge(model);
 }
 
-bool widen_doubtful(const std::vector<PriorPull>& pulls, RigPriors& priors) {
+bool widen_doubtful(const std::vector<PriorPull>& pulls, const JointPulls& joint,
+                    RigPriors& priors) {
   bool any = false;
   for (const PriorPull& p : pulls) {
-    const double size = std::abs(p.pull);
+    const auto known = joint.find(p.name);
+    const double size = std::abs(known == joint.end() ? p.pull : known->second);
     if (!(size > kDoubtfulPull)) continue;
     if (p.group == "scale") {
       priors.scale.relative_std *= size;

@@ -16,7 +16,8 @@ class Result(Mapping[str, Any]):
     """The content of a result.json: a read-only mapping of plain dictionaries, lists and numbers.
 
     `results` has one entry per material and channel; sigma_s_prime_per_mm and sigma_a_per_mm in it
-    have value, std and interval95, all in 1/mm; unknown numbers are None.
+    have value, std and interval95, all in 1/mm, and upper_limit: whether only the upper end of the
+    interval is of use; unknown numbers are None.
     """
 
     def __init__(self, content: Dict[str, Any]) -> None:
@@ -41,7 +42,10 @@ class Result(Mapping[str, Any]):
             for key in ("sigma_s_prime_per_mm", "sigma_a_per_mm"):
                 q = e[key]
                 known = q["value"] is not None and q["std"] is not None
-                cells.append(f"{q['value']:.5g} +- {q['std']:.2g}" if known else "-")
+                if known and q.get("upper_limit"):
+                    cells.append(f"< {q['interval95'][1]:.2g}")
+                else:
+                    cells.append(f"{q['value']:.5g} +- {q['std']:.2g}" if known else "-")
             lines.append(
                 f"{e['material']:<9} {e['channel']:<8} {cells[0]:<21} {cells[1]:<22} "
                 f"{e['model']:<10} {e['verdict']}"

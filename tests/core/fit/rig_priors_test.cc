@@ -15,17 +15,26 @@ TEST(RigPriors, DoubtfulOnesGrowByTheirPulls) {
       {{"eta", 0.01, true, "eta"}, {"pose", 1.0, true, "pose0"}, {"numerics", 1e-5, false, ""}},
       {0.02}};
   EXPECT_EQ(priors.fitted().size(), 2U);
-  EXPECT_FALSE(widen_doubtful({{"eta", "eta", 1.9, 0, 0}, {"scale", "scale", -1.5, 0, 0}}, priors));
+  EXPECT_FALSE(widen_doubtful({{"eta", "eta", 1.9, 0, 0}, {"scale", "scale", -1.5, 0, 0}}, {}, priors));
   EXPECT_EQ(priors.nuisances[0].std, 0.01);
   EXPECT_TRUE(widen_doubtful(
-      {{"eta", "eta", 1.0, 0, 0}, {"pose0", "pose", -3.0, 0, 0}, {"scale", "scale", 4.0, 0, 0}},
+      {{"eta", "eta", 1.0, 0, 0}, {"pose0", "pose", -3.0, 0, 0}, {"scale", "scale", 4.0, 0, 0}}, {},
       priors));
   EXPECT_EQ(priors.nuisances[0].std, 0.01);
   EXPECT_EQ(priors.nuisances[1].std, 3.0);
   EXPECT_EQ(priors.nuisances[2].std, 1e-5);
   EXPECT_EQ(priors.scale.relative_std, 0.08);
   RigPriors exact{{}, {0.0}};
-  EXPECT_FALSE(widen_doubtful({{"scale", "scale", 9.0, 0, 0}}, exact));
+  EXPECT_FALSE(widen_doubtful({{"scale", "scale", 9.0, 0, 0}}, {}, exact));
+}
+
+// What the channels say together counts, not what one of them says.
+TEST(RigPriors, JointPullsReplaceTheChannelsOwn) {
+  RigPriors priors{{{"pose", 1.0, true, "pose0"}, {"pose", 1.0, true, "pose1"}}, {0.02}};
+  EXPECT_TRUE(widen_doubtful({{"pose0", "pose", -3.0, 0, 0}, {"pose1", "pose", 1.0, 0, 0}},
+                             {{"pose0", 1.5}, {"pose1", -2.5}}, priors));
+  EXPECT_EQ(priors.nuisances[0].std, 1.0);
+  EXPECT_EQ(priors.nuisances[1].std, 2.5);
 }
 
 // A plate whose light falls off across it by four deviations of what is stated: the pull finds it,

@@ -56,7 +56,7 @@ LongSums long_sums(const Medium& m, const Points& points, const std::vector<doub
   return out;
 }
 
-struct Scene {
+struct CloudAndSites {
   std::string name;
   Points points;
   std::vector<double> weights;
@@ -64,7 +64,7 @@ struct Scene {
 };
 
 // Largest errors relative to the parts' sizes; fails where one is over what is certified.
-void expect_certified(const Scene& scene, const std::vector<Medium>& media, double tolerance,
+void expect_certified(const CloudAndSites& scene, const std::vector<Medium>& media, double tolerance,
                       std::size_t direct_up_to = 0) {
   const SourceClusters sources(scene.points, scene.weights);
   const RowBlocks rows(scene.rows);
@@ -96,11 +96,11 @@ void expect_certified(const Scene& scene, const std::vector<Medium>& media, doub
 const std::vector<Medium> kMedia = {{2.19, 0.002, 1.3}, {0.5, 0.01, 1.49}, {20.0, 0.0, 1.3}};
 
 // Half lit, every hundredth point is a row.
-Scene surface(const std::string& name, std::size_t n, double size,
+CloudAndSites surface(const std::string& name, std::size_t n, double size,
               const std::function<Eigen::Vector3d(std::mt19937&)>& on) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> uniform(0.0, 2.0);
-  Scene s{name, {}, {}, {}};
+  CloudAndSites s{name, {}, {}, {}};
   const Eigen::Vector3d away(30.0 * size, -500.0 * size, 100.0 * size);
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3d p = on(random);
@@ -147,16 +147,16 @@ TEST(DipoleSums, CertifiedForAdversaries) {
     const double x = uniform(random), y = uniform(random), z = uniform(random);
     return Eigen::Vector3d(x, y, z);
   };
-  std::vector<Scene> scenes;
+  std::vector<CloudAndSites> scenes;
   {
-    Scene s{"coincident points", {}, {}, {}};
+    CloudAndSites s{"coincident points", {}, {}, {}};
     for (int i = 0; i < 1000; ++i)
       s.points.push_back(i < 600 ? Eigen::Vector3d(1, 1, 1) : vector());
     s.rows = {{1, 1, 1}, {1, 1, 1.0001}, {0, 0, 0}, {5, 5, 5}};
     scenes.push_back(s);
   }
   {
-    Scene s{"needles", {}, {}, {}};
+    CloudAndSites s{"needles", {}, {}, {}};
     for (int i = 0; i < 1500; ++i) {
       s.points.emplace_back(20.0 * uniform(random), 1e-5 * uniform(random), 1e-9 * uniform(random));
     }
@@ -164,7 +164,7 @@ TEST(DipoleSums, CertifiedForAdversaries) {
     scenes.push_back(s);
   }
   {
-    Scene s{"clusters 10^6 apart in scale", {}, {}, {}};
+    CloudAndSites s{"clusters 10^6 apart in scale", {}, {}, {}};
     for (int i = 0; i < 2000; ++i) {
       const double scale = i % 2 == 0 ? 1e-3 : 1e3;
       s.points.push_back(Eigen::Vector3d(7, 0, 0) + scale * vector());
@@ -174,7 +174,7 @@ TEST(DipoleSums, CertifiedForAdversaries) {
     scenes.push_back(s);
   }
   {
-    Scene s{"halving distances", {}, {}, {}};
+    CloudAndSites s{"halving distances", {}, {}, {}};
     for (int i = 0; i < 900; ++i) {
       s.points.push_back(std::exp2(-0.1 * i) * 1e4 * vector());
     }
@@ -182,14 +182,14 @@ TEST(DipoleSums, CertifiedForAdversaries) {
     scenes.push_back(s);
   }
   {
-    Scene s{"a few points far apart", {}, {}, {}};
+    CloudAndSites s{"a few points far apart", {}, {}, {}};
     for (int i = 0; i < 20; ++i) s.points.push_back(1e5 * vector());
     s.rows = {s.points[0], s.points[1] + Eigen::Vector3d(0.1, 0, 0), {0, 0, 0}};
     scenes.push_back(s);
   }
   // About as far from a plane as tells a planar cluster from another, and less.
   for (const double off : {1e-5, 1e-7, 1e-9, 1e-12}) {
-    Scene s{"off a plane by " + std::to_string(off), {}, {}, {}};
+    CloudAndSites s{"off a plane by " + std::to_string(off), {}, {}, {}};
     const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, 3).normalized();
     for (int i = 0; i < 1500; ++i) {
       const Eigen::Vector3d p = 10.0 * vector();
@@ -200,7 +200,7 @@ TEST(DipoleSums, CertifiedForAdversaries) {
   }
   {
     // Blocks of rows and clusters that hold parts of both.
-    Scene s{"two faces", {}, {}, {}};
+    CloudAndSites s{"two faces", {}, {}, {}};
     for (int i = 0; i < 2000; ++i) {
       const double u = 5.0 * std::abs(uniform(random)), v = 10.0 * uniform(random);
       s.points.emplace_back(i % 2 == 0 ? Eigen::Vector3d(u, v, 0) : Eigen::Vector3d(0, v, u));
@@ -211,7 +211,7 @@ TEST(DipoleSums, CertifiedForAdversaries) {
     }
     scenes.push_back(s);
   }
-  for (Scene& s : scenes) {
+  for (CloudAndSites& s : scenes) {
     for (std::size_t i = 0; i < s.points.size(); ++i) {
       s.weights.push_back(i % 7 == 0 ? 0.0 : std::exp(4.0 * uniform(random)));
     }
@@ -221,7 +221,7 @@ TEST(DipoleSums, CertifiedForAdversaries) {
 
 // Weights of any ratio: rows by the weak ones, out of the strong ones' light.
 TEST(DipoleSums, CertifiedInTheShadowOfStrongLight) {
-  Scene s = surface("strong and weak", 3000, 10.0, on_cube);
+  CloudAndSites s = surface("strong and weak", 3000, 10.0, on_cube);
   for (std::size_t i = 0; i < s.points.size(); ++i) s.weights[i] = i % 50 == 0 ? 1e8 : 1e-3;
   expect_certified(s, kMedia, 1e-4);
 }
@@ -235,7 +235,7 @@ TEST(DipoleSums, CertifiedWhereLightDies) {
 
 // Any rows will do: few, far away, inside.
 TEST(DipoleSums, CertifiedForRowsAnywhere) {
-  Scene s = surface("sphere", 5000, 10.0, on_sphere);
+  CloudAndSites s = surface("sphere", 5000, 10.0, on_sphere);
   const Eigen::Vector3d center = Eigen::Vector3d(300.0, -5000.0, 1000.0);
   s.rows = {center, center + Eigen::Vector3d(0, 0, 50), center + Eigen::Vector3d(1e4, 0, 0)};
   expect_certified(s, kMedia, 1e-4);
@@ -243,7 +243,7 @@ TEST(DipoleSums, CertifiedForRowsAnywhere) {
 
 // Few points, or a high limit: all pairs, nothing left out.
 TEST(DipoleSums, DirectForFewPoints) {
-  const Scene s = surface("cube", 200, 10.0, on_cube);
+  const CloudAndSites s = surface("cube", 200, 10.0, on_cube);
   const SourceClusters sources(s.points, s.weights);
   std::vector<std::vector<DipoleSum>> out(1, std::vector<DipoleSum>(s.rows.size()));
   const DipoleSumsCount count = sum_dipoles(sources, RowBlocks(s.rows), {kMedia.data(), 1}, out);

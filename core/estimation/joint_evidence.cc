@@ -1,0 +1,127 @@
+#include "core/estimation/joint_evidence.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "core/base/dense_solve.h"
+
+namespace scattermeter {
+namespace {
+
+// The nuisances of one channel that are shared, and its evidence about them.
+struct Shared {
+  std::vector<Eigen::Index> at;  // in the channel's evidence
+  Eigen::MatrixXd information;
+  Eigen::VectorXd score;
+};
+
+Shared shared_part(const RigEvidence& e) {
+  Shared out;
+  std::vector<Eigen::Index> own;
+  for (std::size_t k = 0; k < e.nuisances.size(); ++k) {
+    (is_shared(e.nuisances[k]) ? out.at : own).push_back(static_cast<Eigen::Index>(k));
+  }
+  out.information = e.information(out.at, out.at);
+  out.score = e.score(out.at);
+  if (own.empty() || out.at.empty()) return out;
+  const auto n = static_cast<Eigen::Index>(own.size());
+  const SymmetricSolver solver(Eigen::MatrixXd::Identity(n, n) + e.information(own, own));
+  const Eigen::MatrixXd across = e.information(own, out.at);
+  out.information -= across.transpose() * solver.solve_columns(across);
+  out.score -= across.transpose() * solver.solve(Eigen::VectorXd(e.score(own)));
+  return out;
+}
+
+bool explains_its_image(const ChannelResult& r) {
+  constexpr double kPValue = 1e-6;
+  constexpr double kMisfit = 1e-3;
+  return r.estimate.converged &&
+         !(r.estimate.misfit_p_value < kPValue && r.estimate.misfit_relative > kMisfit);
+}
+
+}  // namespace
+
+bool is_shared(const Nuisance& nuisance) {
+  constexpr std::array<std::string_view, 6> kGroups = {"pose",         "lens",     "mesh position",
+                                                       "LED position", "LED axis", "LED exponent"};
+  return nuisance.fitted && !nuisance.name.empty() &&
+         std::find(kGroups.begin(), kGroups.end(), nuisance.group) != kGroups.end();
+}
+
+std::vector<PriorPull> joint_pulls(const std::vector<const RigEvidence*>& channels) {
+  std::vector<PriorPull> out;
+  std::map<std::string, Eigen::Index> index;
+  std::vector<Shared> parts;
+  std::vector<double> image;  // by one deviation
+  std::vector<double> std;
+  for (const RigEvidence* e : channels) {
+    const Shared& part = parts.emplace_back(shared_part(*e));
+    for (const Eigen::Index k : part.at) {
+      const Nuisance& n = e->nuisances[static_cast<std::size_t>(k)];
+      const auto [it, is_new] = index.try_emplace(n.name, static_cast<Eigen::Index>(out.size()));
+      if (is_new) {
+        out.push_back({n.name, n.group});
+        image.push_back(0.0);
+        std.push_back(n.std);
+      }
+      double& most = image[static_cast<std::size_t>(it->second)];
+      most = std::max(most, e->image_relative[k]);
+    }
+  }
+  const auto n = static_cast<Eigen::Index>(out.size());
+  if (n == 0) return out;
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd score = Eigen::VectorXd::Zero(n);
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    std::vector<Eigen::Index> to;
+    for (const Eigen::Index k : parts[c].at) {
+      to.push_back(index.at(channels[c]->nuisances[static_cast<std::size_t>(k)].name));
+    }
+    information(to, to) += parts[c].information;
+    score(to) += parts[c].score;
+  }
+  const Eigen::MatrixXd posterior =
+      SymmetricSolver(Eigen::MatrixXd::Identity(n, n) + information).inverse();
+  const Eigen::VectorXd v = posterior * score;
+  // The variance that v has if all statements hold.
+  const Eigen::MatrixXd told = information * posterior;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    constexpr double kRounding = 1e-12;
+    PriorPull& pull = out[static_cast<std::size_t>(k)];
+    pull.pull = told(k, k) > kRounding ? v[k] / std::sqrt(told(k, k)) : 0.0;
+    pull.offset = v[k] * std[static_cast<std::size_t>(k)];
+    pull.image_relative = std::abs(v[k]) * image[static_cast<std::size_t>(k)];
+  }
+  return out;
+}
+
+std::vector<PriorPull> joint_pulls(const std::vector<ChannelResult>& results) {
+  std::vector<const RigEvidence*> all;
+  for (const ChannelResult& r : results) {
+    if (!r.evidence.nuisances.empty() && explains_its_image(r)) all.push_back(&r.evidence);
+  }
+  return joint_pulls(all);
+}
+
+void refuse_contradicted(std::vector<ChannelResult>& results) {
+  const std::vector<PriorPull> pulls = joint_pulls(results);
+  const PriorPull* worst = contradiction(pulls, kMostPull, kLeastPullImage);
+  if (worst == nullptr) return;
+  for (ChannelResult& r : results) {
+    std::vector<std::string>& reasons = r.estimate.reasons;
+    const auto& own = r.evidence.nuisances;
+    const auto it = std::find_if(own.begin(), own.end(),
+                                 [&](const Nuisance& n) { return n.name == worst->name; });
+    // A reason of its own tells as much.
+    if (it == own.end() || !reasons.empty()) continue;
+    const double by_std = r.evidence.image_relative[it - own.begin()];
+    if (!(by_std * std::abs(worst->offset) / it->std > kLeastPullImage)) continue;
+    reasons.push_back("all channels together: " + contradiction_sentence(*worst));
+  }
+}
+
+}  // namespace scattermeter

@@ -1,0 +1,26 @@
+// What all channels together say about the quantities of the rig that they share.
+#pragma once
+
+#include <vector>
+
+#include "core/estimation/channel_result.h"
+#include "core/fit/prior_pulls.h"
+
+namespace scattermeter {
+
+// Whether a nuisance is one and the same for all channels: positions and directions of lights,
+// camera and objects are; intensities, refractive index and levels may differ between them.
+bool is_shared(const Nuisance& nuisance);
+
+// The pulls of the shared nuisances, from the sum of the channels' evidence with the other
+// nuisances of each eliminated, in the order of their first occurrence. image_relative is that of
+// the channel in which it is largest.
+std::vector<PriorPull> joint_pulls(const std::vector<const RigEvidence*>& channels);
+// Of the results whose model explains their image.
+std::vector<PriorPull> joint_pulls(const std::vector<ChannelResult>& results);
+
+// If all channels together contradict the rig (core/fit/prior_pulls.h), adds that as a reason to
+// every result whose image the offset changes visibly.
+void refuse_contradicted(std::vector<ChannelResult>& results);
+
+}  // namespace scattermeter

@@ -1,0 +1,60 @@
+#include "core/fit/estimate.h"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace scattermeter {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+Estimate with(const Quantity& s, const Quantity& a) {
+  Estimate e;
+  e.sigma_s_prime_per_mm = s;
+  e.sigma_a_per_mm = a;
+  return e;
+}
+
+std::vector<std::string> reasons_of(const Quantity& s, const Quantity& a) {
+  Estimate e = with(s, a);
+  refuse_undetermined(e);
+  return e.reasons;
+}
+
+TEST(FitEstimate, AnIntervalThatReachesZeroIsALimitIfTheDeviationIsLarge) {
+  EXPECT_FALSE(is_upper_limit({1.0, 0.5, 0.0, 2.0}));  // half the value is still a value
+  EXPECT_TRUE(is_upper_limit({1.0, 0.51, 0.0, 2.0}));
+  EXPECT_FALSE(is_upper_limit({1.0, 0.51, 0.1, 2.0}));
+  EXPECT_TRUE(is_upper_limit({0.0, 0.1, 0.0, 0.2}));
+  EXPECT_FALSE(is_upper_limit({0.0, 0.0, 0.0, 0.0}));
+  EXPECT_FALSE(is_upper_limit({1.0, kUnknown, 0.0, kUnknown}));
+  EXPECT_FALSE(is_upper_limit({1.0, 0.6, 0.0, kUnknown}));
+}
+
+TEST(FitEstimate, AnUpperLimitOfAbsorptionIsNoReasonToRefuse) {
+  EXPECT_TRUE(reasons_of({1.0, 0.1, 0.8, 1.2}, {1e-3, 9e-4, 0.0, 3e-3}).empty());
+  EXPECT_TRUE(reasons_of({1.0, 0.1, 0.8, 1.2}, {1e-3, 4e-4, 2e-4, 2e-3}).empty());
+}
+
+TEST(FitEstimate, UndeterminedCoefficientsAreRefusedWithTheirReason) {
+  EXPECT_EQ(reasons_of({1.0, 0.1, 0.8, 1.2}, {1e-3, 6e-4, 1e-4, 3e-3}),
+            std::vector<std::string>{"these shots do not determine sigma_a: 0.001 +- 0.0006 per mm "
+                                     "(expose longer, or add shots under another LED)"});
+  EXPECT_EQ(reasons_of({1.0, 0.6, 0.0, 2.5}, {1e-3, 1e-4, 8e-4, 1e-2}),
+            std::vector<std::string>{"these shots do not determine sigma_s': it is below 2.5 per "
+                                     "mm, and may be 0 (use more light, or a smaller piece)"});
+  EXPECT_EQ(reasons_of({1.0, 0.6, 0.1, 2.5}, {1e-3, 1e-4, 8e-4, 1e-2}).size(), 1U);
+  EXPECT_EQ(reasons_of({1.0, 0.1, 0.8, 1.2}, {1e-3, 1e-4, 8e-4, kUnknown}),
+            std::vector<std::string>{"these shots set no upper limit to a coefficient"});
+}
+
+TEST(FitEstimate, AReasonIsGivenOnce) {
+  Estimate e = with({1.0, 0.6, 0.1, 2.5}, {1e-3, 6e-4, 1e-4, 3e-3});
+  refuse_undetermined(e);
+  refuse_undetermined(e);
+  EXPECT_EQ(e.reasons.size(), 2U);
+}
+
+}  // namespace
+}  // namespace scattermeter
