@@ -67,8 +67,10 @@ double edge_excess(const std::vector<const ObservedShot*>& shots, const DipoleSy
   for (std::size_t s = 0; s < of_dipole.rows->size(); ++s) {
     const ChannelObservation& o = (*of_dipole.rows)[s];
     const SeenObject& seen = *shots[s]->seen;
+    std::vector<Eigen::Vector3d> centers_mm;
+    for (const ExitSite& site : seen.sites) centers_mm.push_back(site.center_mm);
     const std::vector<bool> beside =
-        beside_edges(seen.object->mesh(), seen.map.mean_mm, 2.0 * seen.patches->patch_size_mm());
+        beside_edges(seen.object->mesh(), centers_mm, 2.0 * seen.patches->patch_size_mm());
     for (std::size_t j = 0; j < o.l.size(); ++j) {
       if (o.state[j] != RowState::kUsed) continue;
       if (next != kept.end() && *next == at++) {

@@ -1,12 +1,15 @@
 #include "apps/instrument/instrument.h"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <set>
 
+#include <fmt/core.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include "apps/instrument/first_look.h"
+#include "apps/instrument/frame_watch.h"
 #include "apps/instrument/light_look.h"
 #include "apps/instrument/open_shots.h"
 #include "apps/instrument/outline_watch.h"
@@ -104,14 +107,34 @@ std::vector<ObservedShot> open_and_light(const Rig& rig, const capture::ShotSour
 }
 
 // The pose improved by the outlines: by the careful search where it succeeds, otherwise by the
-// quick look.
-PoseResult pose_with_outlines(const Rig& rig, const ObjectScenes& objects, const PoseResult& quick,
-                              const PoseResult& prior, const capture::ShotSource& source) {
+// quick look. Adds a finding if the careful search contradicts the pose of the rig.
+PoseResult pose_with_outlines(const Rig& rig, const ObjectScenes& objects,
+                              const capture::ShotSource& source, OutlineFindings& outlines) {
   try {
-    return calib::pose_from_silhouettes(rig.scene, rig.pose, objects, prior, source);
+    return calib::pose_from_silhouettes(rig.scene, rig.pose, objects, *outlines.prior, source);
+  } catch (const calib::OutlineContradiction&) {
+    Finding finding;
+    finding.cause = "pose contradicted";
+    const Eigen::Vector2d& off_px = outlines.diagnosis->shift_px;
+    finding.text = fmt::format(
+        "pose contradicted by the outlines of the objects, which are {:.1f} px {} and {:.1f} px {} "
+        "of where it puts them",
+        std::abs(off_px.x()), off_px.x() < 0 ? "left" : "right", std::abs(off_px.y()),
+        off_px.y() < 0 ? "high" : "low");
+    outlines.notes.pop_back();
+    finding.advice =
+        "take the pose points again, and check that neither camera nor object has moved since and "
+        "that the mesh is that of the object";
+    finding.shots = outlines.looked_at;
+    outlines.findings.push_back(finding);
   } catch (const InputError&) {
-    return quick;
+    // The outline was not found well enough to contradict anything.
   }
+  return *outlines.pose;
+}
+
+void forget(const capture::ShotSource& source) {
+  if (source.cache != nullptr) source.cache->forget();
 }
 
 // The estimate of all channels but those that the findings refuse.
@@ -188,18 +211,29 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
                : open_shots(rig_, from, objects_, lit_, view, progress_);
   };
   OutlineFindings outlines;
+  std::map<std::string, double> blur_mm;
   if (view_ && !without_noise) {
     OutlineWatch looks(rig_, objects_, *pose_);
-    shots = open(looks.watched(source));
+    FrameWatch frames(rig_, objects_, *pose_);
+    shots = open(capture::shown_to(
+        [&](std::size_t shot_idx, const capture::RawFrame& frame) {
+          looks.look(shot_idx, frame);
+          frames.look(shot_idx, frame);
+        },
+        source));
     outlines = looks.findings(source);
-    // Shots of a wrong rig are looked at again next time.
-    if (!outlines.findings.empty() && source.cache != nullptr) source.cache->forget();
     if (outlines.pose) {
       kept = &of_improved_pose;
-      view = see_all(rig_.scene, objects_, lit_,
-                     pose_with_outlines(rig_, objects_, *outlines.pose, *outlines.prior, source));
+      view =
+          see_all(rig_.scene, objects_, lit_, pose_with_outlines(rig_, objects_, source, outlines));
       shots = open(source);
     }
+    for (Finding& f : frames.findings()) {
+      outlines.findings.insert(outlines.findings.begin(), std::move(f));
+    }
+    blur_mm = frames.blur_mm();
+    // Shots of a wrong rig are looked at again next time.
+    if (!outlines.findings.empty()) forget(source);
   } else {
     shots = open(source);
   }
@@ -213,6 +247,8 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   out.brackets = brackets_of(shots);
   out.results = estimate_others(rig_.scene, lit_, shots, in_order(outlines.findings, of_light),
                                 options, *kept, watch, progress_);
+  for (auto& [n, b] : blur_mm) fprintf(stderr, "note blur %s %.3f mm\n", n.c_str(), b);
+  if (widen_by_blur(rig_.scene, blur_mm, out.results)) forget(source);
   out.skipped = skipped_of(shots, lit_);
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;
   out.skipped.channels_not_asked = material_channels(rig_.scene, shots).size() - out.results.size();

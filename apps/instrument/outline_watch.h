@@ -36,10 +36,7 @@ class OutlineWatch {
   OutlineWatch(const OutlineWatch&) = delete;
   OutlineWatch& operator=(const OutlineWatch&) = delete;
 
-  // The same source, which looks at the first frame of every shot that it opens. Shots that a cache
-  // has were looked at when it was made. *this and `source` must outlive it.
-  capture::ShotSource watched(const capture::ShotSource& source);
-  // Looks at a frame of a shot; from any thread.
+  // Looks at the first frame of a shot; from any thread.
   void look(std::size_t shot_idx, const capture::RawFrame& frame);
 
   // What the looks so far say. Opens frames of `source` again only where something is wrong: to
@@ -64,6 +61,8 @@ class OutlineWatch {
                                      calib::OutlineDiagnosis first,
                                      std::vector<std::size_t>& looked_at) const;
   void conclude(OutlineFindings& out) const;
+  bool closer_look_agrees(const capture::FrameSource& frames,
+                          const std::vector<std::size_t>& shots) const;
 
   const Rig& rig_;
   const ObjectScenes& objects_;

@@ -62,7 +62,42 @@ std::vector<Candidate> predict(const std::vector<EdgeShot>& shots, const Lens& l
   return out;
 }
 
+EdgeStripOptions strip_of(const Candidate& candidate, const EdgePointOptions& options) {
+  EdgeStripOptions strip;
+  strip.half_length_px = candidate.half_length_cells;
+  strip.half_width_px = options.half_width_px;
+  strip.search_px = options.search_px;
+  strip.both_bright = candidate.point.kind == EdgeKind::kStep;
+  return strip;
+}
+
 }  // namespace
+
+EdgeBlur edge_blur(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
+                   const Rigid3d& camera_from_world) {
+  constexpr std::size_t kMostPieces = 60;
+  constexpr std::size_t kLeastPieces = 8;
+  EdgePointOptions options;
+  options.half_width_px = 12.0;
+  options.search_px = 8.0;
+  std::vector<Candidate> candidates =
+      predict({shot}, Lens(intrinsics), intrinsics.fx_px, camera_from_world, options);
+  std::erase_if(candidates, [](const Candidate& c) { return c.point.kind != EdgeKind::kContour; });
+  const std::size_t stride = 1 + candidates.size() / kMostPieces;
+  std::vector<EdgeStrip> found((candidates.size() + stride - 1) / stride);
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+    const Candidate& c = candidates[i * stride];
+    EdgeStripOptions strip = strip_of(c, options);
+    strip.max_blur_px = 6.0;
+    found[i] = locate_edge(shot.samples, c.at_cell, c.point.outward, strip);
+  });
+  std::vector<double> blurs;
+  for (const EdgeStrip& s : found) {
+    if (s.found) blurs.push_back(s.blur_px);
+  }
+  if (blurs.size() < kLeastPieces) return {0.0, blurs.size()};
+  return {upper_median(blurs), blurs.size()};
+}
 
 std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
                                    const CameraIntrinsics& intrinsics,
@@ -80,11 +115,7 @@ std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
     tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
       const Candidate& c = candidates[i];
       const auto shot = static_cast<std::size_t>(c.point.shot_idx);
-      EdgeStripOptions strip;
-      strip.half_length_px = c.half_length_cells;
-      strip.half_width_px = options.half_width_px;
-      strip.search_px = options.search_px;
-      strip.both_bright = c.point.kind == EdgeKind::kStep;
+      EdgeStripOptions strip = strip_of(c, options);
       strip.blur_px = blur_px;
       found[i] = locate_edge(options.factor > 1 ? cells[shot] : shots[shot].samples, c.at_cell,
                              c.point.outward, strip);

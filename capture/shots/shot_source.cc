@@ -29,6 +29,19 @@ ShotSource shots_from(const Scene& scene, std::vector<std::size_t> shot_idxs,
   return source;
 }
 
+ShotSource shown_to(const std::function<void(std::size_t, const RawFrame&)>& look,
+                    const ShotSource& source) {
+  ShotSource out = source;
+  if (const auto* frames = std::get_if<FrameSource>(&source.open)) {
+    out.open = FrameSource([look, frames](std::size_t shot_idx, std::size_t exposure_idx) {
+      RawFrame frame = (*frames)(shot_idx, exposure_idx);
+      if (exposure_idx == 0) look(shot_idx, frame);
+      return frame;
+    });
+  }
+  return out;
+}
+
 std::vector<RawFrame> frames_of(const SceneShot& shot, std::size_t shot_idx,
                                 const FrameSource& frames) {
   std::vector<RawFrame> out;

@@ -45,6 +45,11 @@ ShotSource shots_in_files(const Scene& scene, const ShotDecoding& decoding,
 ShotSource shots_from(const Scene& scene, std::vector<std::size_t> shot_idxs,
                       std::variant<FrameSource, SampleSource> open);
 
+// The same source, which shows the first frame of each shot that it opens to `look`, from several
+// threads at once. Shots that a cache has are not opened. `source` must outlive it.
+ShotSource shown_to(const std::function<void(std::size_t shot_idx, const RawFrame&)>& look,
+                    const ShotSource& source);
+
 // The indices 0, 1, ... of all shots of the scene.
 std::vector<std::size_t> all_shots(const Scene& scene);
 

@@ -99,7 +99,7 @@ std::vector<PriorPull> joint_pulls(const std::vector<const RigEvidence*>& channe
   return out;
 }
 
-std::vector<PriorPull> joint_pulls(const std::vector<ChannelResult>& results) {
+std::vector<PriorPull> joint_pulls_of(const std::vector<ChannelResult>& results) {
   std::vector<const RigEvidence*> all;
   for (const ChannelResult& r : results) {
     if (!r.evidence.nuisances.empty() && explains_its_image(r)) all.push_back(&r.evidence);
@@ -108,7 +108,7 @@ std::vector<PriorPull> joint_pulls(const std::vector<ChannelResult>& results) {
 }
 
 void refuse_contradicted(std::vector<ChannelResult>& results) {
-  const std::vector<PriorPull> pulls = joint_pulls(results);
+  const std::vector<PriorPull> pulls = joint_pulls_of(results);
   const PriorPull* worst = contradiction(pulls, kMostPull, kLeastPullImage);
   if (worst == nullptr) return;
   for (ChannelResult& r : results) {

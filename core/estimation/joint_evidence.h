@@ -17,7 +17,7 @@ bool is_shared(const Nuisance& nuisance);
 // the channel in which it is largest.
 std::vector<PriorPull> joint_pulls(const std::vector<const RigEvidence*>& channels);
 // Of the results whose model explains their image.
-std::vector<PriorPull> joint_pulls(const std::vector<ChannelResult>& results);
+std::vector<PriorPull> joint_pulls_of(const std::vector<ChannelResult>& results);
 
 // If all channels together contradict the rig (core/fit/prior_pulls.h), adds that as a reason to
 // every result whose image the offset changes visibly.

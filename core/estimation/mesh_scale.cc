@@ -1,7 +1,6 @@
 #include "core/estimation/mesh_scale.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace scattermeter {
 
@@ -11,21 +10,9 @@ void widen_by_mesh_scale(const MaterialChannel& channel, Estimate& estimate) {
     relative = std::max(relative, shot->seen->object->stated->scale_relative_std);
   }
   if (!(relative > 0.0)) return;
-  Quantity& s = estimate.sigma_s_prime_per_mm;
-  Quantity& a = estimate.sigma_a_per_mm;
-  const double by_s = relative * s.value;
-  const double by_a = relative * a.value;
-  const double covariance = estimate.correlation * s.std * a.std + by_s * by_a;
-  const auto widen = [](Quantity& q, double by) {
-    const double factor = q.std > 0.0 ? std::hypot(q.std, by) / q.std : 1.0;
-    q.std = std::hypot(q.std, by);
-    q.low95 = std::max(0.0, q.value - factor * (q.value - q.low95));
-    q.high95 = q.value + factor * (q.high95 - q.value);
-  };
-  widen(s, by_s);
-  widen(a, by_a);
-  if (s.std > 0.0 && a.std > 0.0) estimate.correlation = covariance / (s.std * a.std);
-  estimate.budget.push_back({"mesh scale", by_s, by_a});
+  const double by_s = relative * estimate.sigma_s_prime_per_mm.value;
+  const double by_a = relative * estimate.sigma_a_per_mm.value;
+  widen({"mesh scale", by_s, by_a}, by_s * by_a, estimate);
 }
 
 }  // namespace scattermeter

@@ -13,6 +13,22 @@ void add_once(std::string reason, std::vector<std::string>& reasons) {
 
 }  // namespace
 
+void widen(const BudgetLine& by, double covariance, Estimate& estimate) {
+  Quantity& s = estimate.sigma_s_prime_per_mm;
+  Quantity& a = estimate.sigma_a_per_mm;
+  covariance += estimate.correlation * s.std * a.std;
+  const auto grow = [](Quantity& q, double std) {
+    const double factor = q.std > 0.0 ? std::hypot(q.std, std) / q.std : 1.0;
+    q.std = std::hypot(q.std, std);
+    q.low95 = std::max(0.0, q.value - factor * (q.value - q.low95));
+    q.high95 = q.value + factor * (q.high95 - q.value);
+  };
+  grow(s, by.std_sigma_s_prime_per_mm);
+  grow(a, by.std_sigma_a_per_mm);
+  if (s.std > 0.0 && a.std > 0.0) estimate.correlation = covariance / (s.std * a.std);
+  estimate.budget.push_back(by);
+}
+
 void refuse_undetermined(Estimate& estimate) {
   const Quantity& s = estimate.sigma_s_prime_per_mm;
   const Quantity& a = estimate.sigma_a_per_mm;

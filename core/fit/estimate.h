@@ -68,6 +68,10 @@ struct Estimate {
   std::vector<std::string> reasons;
 };
 
+// Adds an independent error in both coefficients to deviations, intervals, correlation and budget.
+// by: its standard deviations, 1/mm; covariance: of the two, 1/mm^2.
+void widen(const BudgetLine& by, double covariance, Estimate& estimate);
+
 // Adds a reason to refuse for sigma_s' if it is undetermined (an upper limit is stated in it), and
 // for sigma_a if it is undetermined and not an upper limit; none that is there already.
 void refuse_undetermined(Estimate& estimate);

@@ -17,10 +17,11 @@ double row_method_error(double patch_size_mm, double mean_free_path_mm) {
 
 void add_method_errors(const DistanceKnots& knots, const Eigen::VectorXd& r, double patch_size_mm,
                        const Medium& medium, DenseSystem& system) {
-  constexpr double kRelativeStd = 1.5e-5;
+  constexpr double kLeastRelativeStd = 1.5e-5;
+  constexpr double kAtOne = 1e-4;
   const double decay_per_mm =
       std::max(medium.sigma_t_prime_per_mm(), Dipole(medium).sigma_tr_per_mm());
-  const double coarse = std::clamp(patch_size_mm * decay_per_mm, 1.0, 4.0);
+  const double coarse = std::min(patch_size_mm * decay_per_mm, 4.0);
   const Eigen::Index first = system.nuisance_columns.cols();
   const int octaves =
       1 + static_cast<int>(std::log2(knots.max_distance_mm() / knots.resolution_mm()));
@@ -46,8 +47,9 @@ void add_method_errors(const DistanceKnots& knots, const Eigen::VectorXd& r, dou
         predicted.segment(row, n);
     row += n;
   }
-  system.nuisances.insert(system.nuisances.end(), static_cast<std::size_t>(added),
-                          {"numerics", kRelativeStd * std::pow(coarse, 4.0), false});
+  system.nuisances.insert(
+      system.nuisances.end(), static_cast<std::size_t>(added),
+      {"numerics", std::max(kLeastRelativeStd, kAtOne * coarse * coarse), false});
 }
 
 }  // namespace scattermeter

@@ -130,13 +130,9 @@ void widen_by_disagreement(const ShotAgreement& agreement, Estimate& estimate) {
   if (!agreement.disagree()) return;
   const double birge = std::sqrt(std::max(1.0, agreement.chi2 / agreement.dof));
   const double added = std::sqrt(birge * birge - 1.0);
-  estimate.budget.push_back({"disagreement", added * estimate.sigma_s_prime_per_mm.std,
-                             added * estimate.sigma_a_per_mm.std});
-  for (Quantity* q : {&estimate.sigma_s_prime_per_mm, &estimate.sigma_a_per_mm}) {
-    q->std *= birge;
-    q->low95 = std::max(0.0, q->value - birge * (q->value - q->low95));
-    q->high95 = q->value + birge * (q->high95 - q->value);
-  }
+  const double by_s = added * estimate.sigma_s_prime_per_mm.std;
+  const double by_a = added * estimate.sigma_a_per_mm.std;
+  widen({"disagreement", by_s, by_a}, estimate.correlation * by_s * by_a, estimate);
 }
 
 }  // namespace scattermeter

@@ -30,4 +30,9 @@ std::vector<Crease> creases(const TriangleMesh& mesh, double least_rad) {
   return out;
 }
 
+bool is_round(const TriangleMesh& mesh) {
+  constexpr double kSharp_rad = 0.6435;
+  return creases(mesh, kSharp_rad).empty();
+}
+
 }  // namespace scattermeter

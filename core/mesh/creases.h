@@ -17,4 +17,8 @@ struct Crease {
 // facets. Vertices at one place count as one. Domain: 0 <= least_rad <= pi.
 std::vector<Crease> creases(const TriangleMesh& mesh, double least_rad);
 
+// Whether facets meet nowhere at more than 37 degrees. The light on such a body falls off towards
+// the limb, so that what looks like its outline depends on the lamp.
+bool is_round(const TriangleMesh& mesh);
+
 }  // namespace scattermeter

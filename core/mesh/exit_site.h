@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -12,7 +13,7 @@ namespace scattermeter {
 
 // A patch, or the samples on it (of which the mean is observed), or a single point (covariance 0).
 struct ExitSite {
-  static constexpr int kMaxPoints = 10;
+  static constexpr int kMaxPoints = 24;
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_mm2 = Eigen::Matrix3d::Zero();  // rank at most 2
   // Quadrature points with this mean and covariance; weights add up to 1.
@@ -27,18 +28,22 @@ struct ExitSite {
 
 // The whole patch, sampled evenly: Cowper's six points, exact for polynomials of degree 4.
 ExitSite exit_patch(const PatchMesh& patches, int patch_idx);
-// Shares of a triangle's lattice of ten points, (i, j, k) / 3 in barycentric weights, in a point of
-// it: any cubic's value there is that of the points times their shares.
-using LatticeShares = std::array<double, 10>;
-LatticeShares lattice_shares(const Eigen::Vector3d& barycentric);
 
-// The samples on a patch, given by their mean and covariance: the patch's six points under the
-// smallest affine change that gives them this mean and covariance, so that the mean of any
-// quadratic over the samples is exact, and that of higher degrees nearly so if the samples fill the
-// patch. If they do not, `shares`, the mean of their lattice shares, makes the mean of any cubic
-// exact. A covariance of rank below 2 is taken as a single point.
-ExitSite exit_samples(const PatchMesh& patches, int patch_idx, const Eigen::Vector3d& mean_mm,
-                      const Eigen::Matrix3d& covariance_mm2, const LatticeShares* shares = nullptr);
+// Samples on a patch, or on a part of it.
+struct SampleSpread {
+  double share = 0;  // of all samples on the patch
+  Eigen::Vector3d mean_mm = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_mm2 = Eigen::Matrix3d::Zero();
+};
+
+// The samples on a patch: the patch's six points under the smallest affine change that gives them
+// the samples' mean and covariance, so that the mean of any quadratic over the samples is exact,
+// and that of higher degrees nearly so if the samples fill the patch. If they do not,
+// `of_quarters`, those of each of its quarters() or none, has each quarter represented in this way:
+// light falls off steeply beside the edges that cut the samples off. A covariance of rank below 2
+// is taken as a single point.
+ExitSite exit_samples(const PatchMesh& patches, int patch_idx, const SampleSpread& all,
+                      std::span<const SampleSpread> of_quarters = {});
 inline ExitSite exit_point(const Eigen::Vector3d& p_mm) {
   ExitSite site;
   site.center_mm = site.points_mm[0] = p_mm;

@@ -52,6 +52,21 @@ void for_16_parts(const Triangle& t, const Visit& visit) {
   }
 }
 
+// The four equal parts: those at the corners, in their order, and the middle one.
+inline std::array<Triangle, 4> quarters(const Triangle& t) {
+  const Eigen::Vector3d a = 0.5 * (t[1] + t[2]), b = 0.5 * (t[2] + t[0]), c = 0.5 * (t[0] + t[1]);
+  return {{{t[0], c, b}, {c, t[1], a}, {b, a, t[2]}, {a, b, c}}};
+}
+// The quarter in which a point of the triangle's plane lies.
+inline std::size_t quarter_of(const Triangle& t, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d b = t[1] - t[0], c = t[2] - t[0], r = p - t[0];
+  const double bb = b.dot(b), bc = b.dot(c), cc = c.dot(c);
+  const double det = bb * cc - bc * bc;
+  const double v = (cc * r.dot(b) - bc * r.dot(c)) / det;
+  const double w = (bb * r.dot(c) - bc * r.dot(b)) / det;
+  return v + w < 0.5 ? 0 : v > 0.5 ? 1 : w > 0.5 ? 2 : 3;
+}
+
 // Cowper's six-point rule of degree 4: two orbits of points with barycentric weights (a, b, b) and
 // their rotations.
 struct TriangleOrbit {

@@ -1,6 +1,5 @@
 #include "core/scene/seen_object.h"
 
-#include <optional>
 #include <utility>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -20,10 +19,8 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
   seen->map = map_samples(rays, *seen->object->rays, *seen->patches,
                           seen->object->stated->eta_int_over_ext, options);
   for (std::size_t row = 0; row < seen->map.patch_of_row.size(); ++row) {
-    const std::optional<LatticeShares>& shares = seen->map.shares[row];
     seen->sites.push_back(exit_samples(*seen->patches, seen->map.patch_of_row[row],
-                                       seen->map.mean_mm[row], seen->map.spread_mm2[row],
-                                       shares ? &*shares : nullptr));
+                                       seen->map.samples[row], seen->map.of_quarters[row]));
   }
   return seen;
 }

@@ -12,6 +12,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/material/fresnel.h"
+#include "core/mesh/triangle_parts.h"
 #include "core/view/adjacent_rows.h"
 
 namespace scattermeter {
@@ -142,59 +143,54 @@ SamplesByPatch by_patch(const std::vector<std::int32_t>& patch_of_sample, std::s
 // The visible part of each patch, by patch.
 struct SeenPatches {
   std::vector<double> area_mm2;
-  std::vector<Eigen::Vector3d> mean_mm;  // of its samples, from the patch's centre
-  std::vector<Eigen::Matrix3d> spread_mm2;
-  std::vector<std::optional<LatticeShares>> shares;
+  std::vector<SampleSpread> samples;
+  std::vector<std::vector<SampleSpread>> of_quarters;  // if some samples are guarded
 };
 
-// Mean over the samples of a patch.
-LatticeShares mean_shares(const Mapper& mapper, std::span<const std::uint32_t> samples,
-                          const std::array<Eigen::Vector3d, 3>& corners_mm) {
-  const Eigen::Vector3d b = corners_mm[1] - corners_mm[0], c = corners_mm[2] - corners_mm[0];
-  const double bb = b.dot(b), bc = b.dot(c), cc = c.dot(c);
-  LatticeShares mean{};
-  for (const std::uint32_t i : samples) {
-    const Eigen::Vector3d p = mapper.point(i) - corners_mm[0];
-    const double v = (cc * p.dot(b) - bc * p.dot(c)) / (bb * cc - bc * bc);
-    const double w = (bb * p.dot(c) - bc * p.dot(b)) / (bb * cc - bc * bc);
-    const LatticeShares shares = lattice_shares({1.0 - v - w, v, w});
-    for (std::size_t k = 0; k < shares.size(); ++k) {
-      mean[k] += shares[k] / static_cast<double>(samples.size());
-    }
+// Moments of samples, relative to an origin near them: squares of small numbers keep their digits.
+class SpreadSum {
+ public:
+  void add(const Eigen::Vector3d& p) {
+    n_ += 1.0;
+    sum_ += p;
+    square_ += p * p.transpose();
   }
-  return mean;
-}
+  SampleSpread of(double all, const Eigen::Vector3d& origin_mm) const {
+    if (n_ == 0.0) return {};
+    const Eigen::Vector3d mean = sum_ / n_;
+    return {n_ / all, origin_mm + mean, square_ / n_ - mean * mean.transpose()};
+  }
+
+ private:
+  double n_ = 0;
+  Eigen::Vector3d sum_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d square_ = Eigen::Matrix3d::Zero();
+};
 
 SeenPatches seen_patches(const Mapper& mapper, const SamplesByPatch& samples,
                          const std::vector<std::size_t>& guarded, const PatchMesh& patches,
                          std::size_t width) {
   const auto n_patches = static_cast<std::size_t>(patches.size());
-  SeenPatches out{std::vector<double>(n_patches, 0.0), std::vector<Eigen::Vector3d>(n_patches),
-                  std::vector<Eigen::Matrix3d>(n_patches),
-                  std::vector<std::optional<LatticeShares>>(n_patches)};
+  SeenPatches out{std::vector<double>(n_patches, 0.0), std::vector<SampleSpread>(n_patches),
+                  std::vector<std::vector<SampleSpread>>(n_patches)};
   tbb::parallel_for(std::size_t{0}, n_patches, [&](std::size_t k) {
     const Eigen::Vector3d center_mm = patches.center_mm(static_cast<int>(k));
-    Eigen::Vector3d sum_mm = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d square_mm2 = Eigen::Matrix3d::Zero();
+    const Triangle corners_mm = patches.corners_mm(static_cast<int>(k));
+    SpreadSum all;
+    std::array<SpreadSum, 4> quarter;
     for (std::size_t at = samples.begin_of[k]; at < samples.begin_of[k + 1]; ++at) {
       const std::size_t i = samples.in_order[at];
       out.area_mm2[k] +=
           mapper.footprint_mm2(static_cast<int>(i % width), static_cast<int>(i / width));
-      // Relative to the patch's centre: squares of small numbers keep their digits.
-      const Eigen::Vector3d p = mapper.point(i) - center_mm;
-      sum_mm += p;
-      square_mm2 += p * p.transpose();
+      const Eigen::Vector3d p = mapper.point(i);
+      all.add(p - center_mm);
+      if (guarded[k] > 0) quarter[quarter_of(corners_mm, p)].add(p - center_mm);
     }
     const auto count = static_cast<double>(samples.begin_of[k + 1] - samples.begin_of[k]);
     if (!(count > 0.0)) return;
-    out.mean_mm[k] = sum_mm / count;
-    out.spread_mm2[k] = square_mm2 / count - out.mean_mm[k] * out.mean_mm[k].transpose();
+    out.samples[k] = all.of(count, center_mm);
     if (guarded[k] == 0) return;
-    out.shares[k] = mean_shares(
-        mapper,
-        std::span(samples.in_order)
-            .subspan(samples.begin_of[k], samples.begin_of[k + 1] - samples.begin_of[k]),
-        patches.corners_mm(static_cast<int>(k)));
+    for (const SpreadSum& q : quarter) out.of_quarters[k].push_back(q.of(count, center_mm));
   });
   return out;
 }
@@ -215,9 +211,8 @@ std::vector<std::int32_t> add_rows(const SeenPatches& seen, const std::vector<st
     map.patch_of_row.push_back(k);
     map.coverage.push_back(coverage);
     map.guarded_of_row.push_back(guarded[idx]);
-    map.mean_mm.push_back(patches.center_mm(k) + seen.mean_mm[idx]);
-    map.spread_mm2.push_back(seen.spread_mm2[idx]);
-    map.shares.push_back(seen.shares[idx]);
+    map.samples.push_back(seen.samples[idx]);
+    map.of_quarters.push_back(seen.of_quarters[idx]);
   }
   return row_of_patch;
 }

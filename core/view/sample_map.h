@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -44,16 +43,15 @@ struct SampleMap {
   std::vector<std::int32_t> row_of_sample;   // -1: background, guarded or in no row
   std::vector<float> pi_over_transmittance;  // pi / Ft(eta, w_o): l = this * L_o (paper eq. 11)
   std::vector<int> patch_of_row;
-  std::vector<Eigen::Vector3d> mean_mm;     // mean surface point of each row's samples, world
-  std::vector<Eigen::Matrix3d> spread_mm2;  // their covariance about it
+  std::vector<SampleSpread> samples;  // of each row: surface points, world
+  // Of rows with guarded samples: those of each quarter of the patch; of others none.
+  std::vector<std::vector<SampleSpread>> of_quarters;
   std::vector<double> coverage;             // visible share of each row's patch
   std::vector<std::size_t> guarded_of_row;  // samples on the row's patch that are left out
   std::vector<std::vector<std::int32_t>> adjacent_rows;  // of each row (core/view/adjacent_rows.h)
   std::size_t samples_on_object = 0;
   std::size_t samples_guarded = 0;
   std::size_t patches_partly_seen = 0;  // seen, but for less than min_coverage
-  // Of rows with guarded samples: the mean lattice shares of the others; else absent.
-  std::vector<std::optional<LatticeShares>> shares;
 };
 
 SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMesh& patches,

@@ -70,7 +70,7 @@ TEST_F(LightFindings, ObjectCovered) {
   ObservedShot& shot = lit_.shots[0];
   for (ChannelObservation& o : shot.observation.channel) {
     for (std::size_t j = 0; j < o.l.size(); ++j) {
-      if (shot.seen->map.mean_mm[j].x() > 0) o.l[j] *= 1e-3;
+      if (shot.seen->map.samples[j].mean_mm.x() > 0) o.l[j] *= 1e-3;
     }
   }
   const auto found = findings();

@@ -35,7 +35,9 @@ class OutlineWatchTest : public ::testing::Test {
   OutlineFindings findings(const capture::ShotSource& source) {
     const PoseResult pose = calib::pose_from_points(rig_.scene, rig_.pose);
     OutlineWatch watch(rig_, scenes_, pose);
-    const capture::ShotSource watched = watch.watched(source);
+    const capture::ShotSource watched = capture::shown_to(
+        [&](std::size_t shot_idx, const capture::RawFrame& frame) { watch.look(shot_idx, frame); },
+        source);
     for (const std::size_t i : source.shot_idxs) {
       std::get<capture::FrameSource>(watched.open)(i, 0);
     }

@@ -73,6 +73,24 @@ TEST(ShotSource, FramesOfAShotComeInTheOrderOfItsFiles) {
   EXPECT_EQ(frames[1].iso, 200.0);
 }
 
+// Only the first of a bracket's frames; samples without frames pass unseen.
+TEST(ShotSource, FirstFramesAreShown) {
+  const Scene scene = two_shots();
+  const ShotSource source = shots_from(scene, {1}, FrameSource([](std::size_t, std::size_t k) {
+                                         RawFrame frame;
+                                         frame.exposure_s = 0.1 * static_cast<double>(k + 1);
+                                         return frame;
+                                       }));
+  std::vector<std::pair<std::size_t, double>> seen;
+  const ShotSource shown =
+      shown_to([&](std::size_t shot_idx,
+                   const RawFrame& frame) { seen.emplace_back(shot_idx, frame.exposure_s); },
+               source);
+  EXPECT_EQ(std::get<FrameSource>(shown.open)(1, 0).exposure_s, 0.1);
+  EXPECT_EQ(std::get<FrameSource>(shown.open)(1, 1).exposure_s, 0.2);
+  EXPECT_THAT(seen, ElementsAre(std::pair<std::size_t, double>(1, 0.1)));
+}
+
 TEST(ShotSource, AllShotsAreCountedFromZero) {
   EXPECT_THAT(all_shots(two_shots()), ElementsAre(0, 1));
   EXPECT_TRUE(all_shots(Scene{}).empty());

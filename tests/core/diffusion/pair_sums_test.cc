@@ -157,7 +157,7 @@ TEST(PairSumsForward, CubeUnderAnLedMeetsAdaptiveQuadrature) {
                                                   mesh.vertices_mm[static_cast<std::size_t>(v[1])],
                                                   mesh.vertices_mm[static_cast<std::size_t>(v[2])]};
         if ((t[1] - t[0]).cross(t[2] - t[0]).dot(led.position_mm - t[0]) <= 0.0) continue;
-        for (std::size_t i = 0; i < ExitSite::kMaxPoints; ++i) {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(sites[j].n_points); ++i) {
           truth += sites[j].weights[i] * adaptive(t, sites[j].points_mm[i], led, dipole);
         }
       }

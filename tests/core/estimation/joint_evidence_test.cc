@@ -103,7 +103,7 @@ TEST(JointEvidence, ChannelsThatTheModelMissesDoNotCount) {
                          Eigen::MatrixXd::Constant(1, 1, 1e4),
                          Eigen::VectorXd::Constant(1, 1e5),
                          Eigen::VectorXd::Ones(1)};
-  EXPECT_TRUE(joint_pulls(results).empty());
+  EXPECT_TRUE(joint_pulls_of(results).empty());
 }
 
 }  // namespace

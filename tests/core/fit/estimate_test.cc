@@ -49,6 +49,19 @@ TEST(FitEstimate, UndeterminedCoefficientsAreRefusedWithTheirReason) {
             std::vector<std::string>{"these shots set no upper limit to a coefficient"});
 }
 
+TEST(FitEstimate, AnIndependentErrorAddsToVarianceIntervalAndBudget) {
+  Estimate e = with({1.0, 0.03, 0.9, 1.2}, {1e-2, 4e-3, 1e-3, 2e-2});
+  e.correlation = 0.5;
+  widen({"cause", 0.04, 3e-3}, -0.04 * 3e-3, e);
+  EXPECT_NEAR(e.sigma_s_prime_per_mm.std, 0.05, 1e-12);
+  EXPECT_NEAR(e.sigma_a_per_mm.std, 5e-3, 1e-12);
+  EXPECT_NEAR(e.sigma_s_prime_per_mm.low95, 1.0 - 0.1 * 5.0 / 3.0, 1e-12);
+  EXPECT_NEAR(e.sigma_s_prime_per_mm.high95, 1.0 + 0.2 * 5.0 / 3.0, 1e-12);
+  EXPECT_NEAR(e.correlation * 0.05 * 5e-3, 0.5 * 0.03 * 4e-3 - 0.04 * 3e-3, 1e-12);
+  ASSERT_EQ(e.budget.size(), 1U);
+  EXPECT_EQ(e.budget[0].cause, "cause");
+}
+
 TEST(FitEstimate, AReasonIsGivenOnce) {
   Estimate e = with({1.0, 0.6, 0.1, 2.5}, {1e-3, 6e-4, 1e-4, 3e-3});
   refuse_undetermined(e);

@@ -15,7 +15,8 @@ TEST(RigPriors, DoubtfulOnesGrowByTheirPulls) {
       {{"eta", 0.01, true, "eta"}, {"pose", 1.0, true, "pose0"}, {"numerics", 1e-5, false, ""}},
       {0.02}};
   EXPECT_EQ(priors.fitted().size(), 2U);
-  EXPECT_FALSE(widen_doubtful({{"eta", "eta", 1.9, 0, 0}, {"scale", "scale", -1.5, 0, 0}}, {}, priors));
+  EXPECT_FALSE(
+      widen_doubtful({{"eta", "eta", 1.9, 0, 0}, {"scale", "scale", -1.5, 0, 0}}, {}, priors));
   EXPECT_EQ(priors.nuisances[0].std, 0.01);
   EXPECT_TRUE(widen_doubtful(
       {{"eta", "eta", 1.0, 0, 0}, {"pose0", "pose", -3.0, 0, 0}, {"scale", "scale", 4.0, 0, 0}}, {},

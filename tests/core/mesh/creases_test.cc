@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/bodies.h"
+#include "core/mesh/round_bodies.h"
 
 namespace scattermeter {
 namespace {
@@ -32,6 +33,11 @@ TEST(Creases, OfFacetsThatShareNoVertices) {
 }
 
 TEST(Creases, ASphereHasNone) { EXPECT_TRUE(creases(body_mesh("sphere"), 0.3).empty()); }
+
+TEST(Creases, ASphereIsRoundAndACubeIsNot) {
+  EXPECT_TRUE(is_round(sphere_mesh()));
+  EXPECT_FALSE(is_round(cube_mesh()));
+}
 
 }  // namespace
 }  // namespace scattermeter

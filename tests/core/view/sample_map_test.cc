@@ -66,7 +66,7 @@ TEST_F(CubeView, GuardedRowsStandAtEdges) {
 TEST_F(CubeView, MeansLieInTheirPatches) {
   const SampleMap map = map_samples(rays_, scene_, patches_, 1.3);
   for (std::size_t row = 0; row < map.patch_of_row.size(); ++row) {
-    const Eigen::Vector3d d = map.mean_mm[row] - patches_.center_mm(map.patch_of_row[row]);
+    const Eigen::Vector3d d = map.samples[row].mean_mm - patches_.center_mm(map.patch_of_row[row]);
     EXPECT_NEAR(d.dot(patches_.normal(map.patch_of_row[row])), 0.0, 1e-4);
     EXPECT_LT(d.norm(), 0.35);
   }
