@@ -9,6 +9,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include "apps/instrument/first_look.h"
+#include "apps/instrument/focus.h"
 #include "apps/instrument/frame_watch.h"
 #include "apps/instrument/light_look.h"
 #include "apps/instrument/open_shots.h"
@@ -133,10 +134,6 @@ PoseResult pose_with_outlines(const Rig& rig, const ObjectScenes& objects,
   return *outlines.pose;
 }
 
-void forget(const capture::ShotSource& source) {
-  if (source.cache != nullptr) source.cache->forget();
-}
-
 // The estimate of all channels but those that the findings refuse.
 std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
                                            const std::vector<ObservedShot>& shots,
@@ -211,10 +208,9 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
                : open_shots(rig_, from, objects_, lit_, view, progress_);
   };
   OutlineFindings outlines;
-  std::map<std::string, double> blur_mm;
   if (view_ && !without_noise) {
     OutlineWatch looks(rig_, objects_, *pose_);
-    FrameWatch frames(rig_, objects_, *pose_);
+    FrameWatch frames(rig_.scene);
     shots = open(capture::shown_to(
         [&](std::size_t shot_idx, const capture::RawFrame& frame) {
           looks.look(shot_idx, frame);
@@ -231,9 +227,8 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     for (Finding& f : frames.findings()) {
       outlines.findings.insert(outlines.findings.begin(), std::move(f));
     }
-    blur_mm = frames.blur_mm();
     // Shots of a wrong rig are looked at again next time.
-    if (!outlines.findings.empty()) forget(source);
+    if (!outlines.findings.empty() && source.cache != nullptr) source.cache->forget();
   } else {
     shots = open(source);
   }
@@ -247,8 +242,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   out.brackets = brackets_of(shots);
   out.results = estimate_others(rig_.scene, lit_, shots, in_order(outlines.findings, of_light),
                                 options, *kept, watch, progress_);
-  for (auto& [n, b] : blur_mm) fprintf(stderr, "note blur %s %.3f mm\n", n.c_str(), b);
-  if (widen_by_blur(rig_.scene, blur_mm, out.results)) forget(source);
+  widen_by_blur(shots, out.results);
   out.skipped = skipped_of(shots, lit_);
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;
   out.skipped.channels_not_asked = material_channels(rig_.scene, shots).size() - out.results.size();

@@ -1,5 +1,6 @@
 #include "apps/instrument/open_shots.h"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "apps/instrument/focus.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/shots/shot_cache.h"
 #include "capture/shots/shot_key.h"
@@ -76,11 +78,19 @@ class ShotOpener {
  private:
   bool take_kept(const std::string& key, ObservedShot& shot) const {
     std::optional<DecodedShot> kept = source_.cache->find(key);
-    if (!kept || kept->observation.channel[0].l.size() != shot.seen->map.patch_of_row.size()) {
+    if (!kept || kept->observation.channel[0].l.size() != shot.seen->map.patch_of_row.size() ||
+        (is_judged_by_blur(shot) && kept->edge_blur_mm < 0.0)) {
       return false;
     }
     static_cast<DecodedShot&>(shot) = std::move(*kept);
     return true;
+  }
+
+  // Of each material the first shot of each object.
+  bool is_judged_by_blur(const ObservedShot& shot) const {
+    return std::find_if(rig_.scene.shots.begin(), rig_.scene.shots.end(), [&](const SceneShot& s) {
+             return s.object == shot.stated->object && s.material == shot.stated->material;
+           })->file == shot.stated->file;
   }
 
   CfaSamples given(std::size_t i, ObservedShot& shot) const {
@@ -96,6 +106,9 @@ class ShotOpener {
     shot.iso = exposures.front().iso;
     shot.f_number = exposures.front().f_number;
     if (!shared_) find_own_pose(i, exposures.front(), shot);
+    if (is_judged_by_blur(shot)) {
+      shot.edge_blur_mm = edge_blur_mm(rig_, objects_, *shot.stated, exposures.front(), shot.pose);
+    }
     const SampleMap& map = shot.seen->map;
     capture::ShotSamples out =
         capture::shot_samples(rig_.scene, rig_.decoding, *shot.stated, exposures, names, map.x0,

@@ -18,7 +18,8 @@ namespace {
 
 SceneObject read_object(const std::string& name, const YamlField& field,
                         const std::string& rig_path) {
-  field.only({"mesh", "eta", "eta_std", "position_std_mm", "scale_relative_std", "patch_size_mm"});
+  field.only({"mesh", "eta", "eta_std", "position_std_mm", "scale_relative_std", "edge_std_mm",
+              "patch_size_mm"});
   SceneObject object;
   object.name = name;
   object.line = field.line();
@@ -29,6 +30,7 @@ SceneObject read_object(const std::string& name, const YamlField& field,
       field.number_or("position_std_mm", default_uncertainty::kObjectPosition_mm, 0.0, 1000.0);
   object.scale_relative_std =
       field.number_or("scale_relative_std", default_uncertainty::kMeshScale, 0.0, 1.0);
+  object.edge_std_mm = field.number_or("edge_std_mm", default_uncertainty::kEdge_mm, 0.0, 1000.0);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   return object;
 }

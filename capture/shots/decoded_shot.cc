@@ -156,6 +156,7 @@ std::vector<std::uint8_t> to_bytes(const DecodedShot& shot) {
        {"exposure_s", shot.exposure_s},
        {"iso", shot.iso},
        {"f_number", shot.f_number},
+       {"edge_blur_mm", shot.edge_blur_mm},
        {"exposures", exposures},
        {"frame_mean_counts", packed(std::vector<double>(mean.begin(), mean.end()))}});
 }
@@ -179,6 +180,7 @@ std::optional<DecodedShot> decoded_shot(std::span<const std::uint8_t> bytes) {
     shot.exposure_s = number(at(j, "exposure_s"));
     shot.iso = number(at(j, "iso"));
     shot.f_number = number(at(j, "f_number"));
+    shot.edge_blur_mm = number(at(j, "edge_blur_mm"));
     for (const Json& e : list(at(j, "exposures"))) {
       const Json& file = at(e, "file");
       const std::vector<double> n = unpacked<double>(at(e, "numbers"));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/diffusion/source_cloud.h"
 #include "core/light/ambient_light.h"
 
 namespace scattermeter {
@@ -28,14 +27,8 @@ Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& k
   const PatchMesh coarse(object.mesh(),
                          std::max(2.0 * seen.patches->patch_size_mm(), object.size_mm() / 20.0));
   const double eta = object.stated->eta_int_over_ext;
-  const SourceCloud sources(AmbientLight().illuminate(coarse, shadows, eta, LightUse::kBudget)[0],
-                            object.box.center_mm());
-  std::vector<ExitSite> sites;
-  sites.reserve(seen.sites.size());
-  for (const ExitSite& site : seen.sites) sites.push_back(exit_point(site.center_mm));
-  // By W, so that the digits of a medium do not depend on the others.
-  return smooth_weights(sites, sources, coarse_knots(knots), coarse_pair_options(knots)) *
-         scaled_curves(media, knots, eta);
+  return images_at_centers(
+      seen, AmbientLight().illuminate(coarse, shadows, eta, LightUse::kBudget)[0], knots, media);
 }
 
 double facing_irradiance_W_per_mm2(const Scene& scene, const ObservedShot& shot,

@@ -141,6 +141,16 @@ ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weigh
   return out;
 }
 
+Eigen::MatrixXd images_at_centers(const SeenObject& seen, const IncidentLight& light,
+                                  const DistanceKnots& knots, const std::vector<LitMedium>& media) {
+  const SourceCloud sources(light, seen.object->box.center_mm());
+  std::vector<ExitSite> sites;
+  sites.reserve(seen.sites.size());
+  for (const ExitSite& site : seen.sites) sites.push_back(exit_point(site.center_mm));
+  return smooth_weights(sites, sources, coarse_knots(knots), coarse_pair_options(knots)) *
+         scaled_curves(media, knots, seen.object->stated->eta_int_over_ext);
+}
+
 LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,
                              const ChangedImages& images, const std::vector<LitMedium>& media,
                              const DistanceKnots& knots) {

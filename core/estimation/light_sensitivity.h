@@ -28,6 +28,7 @@ struct LightSensitivity {
   Eigen::MatrixXd per_eta;                  // by eta, of predicted - observed l: both depend on it
   std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by a shift of the sites along two tangents
   Eigen::MatrixXd per_albedo;                     // by the albedo of the plane below; of LEDs only
+  Eigen::MatrixXd per_edge_mm;  // by the mm by which edges are cut back; of LEDs only; may be empty
 };
 
 // R on the knots times the medium's scale, one column for each medium.
@@ -65,6 +66,11 @@ ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, st
                              const std::vector<LitMedium>& media);
 ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weights,
                              const DistanceKnots& knots, const std::vector<LitMedium>& media);
+
+// Images of some light at the centres of the sites, rows x media, to about 1 %. By W, so that the
+// digits of a medium do not depend on the others.
+Eigen::MatrixXd images_at_centers(const SeenObject& seen, const IncidentLight& light,
+                                  const DistanceKnots& knots, const std::vector<LitMedium>& media);
 
 // From differences of the changed images and the nominal ones, relative to the prediction of
 // `nominal`, the W used for the measurement, for the same media.

@@ -240,6 +240,11 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
       }
     }
     per_eta += intensity * columns.of(s.per_eta, own.medium);
+    if (s.per_edge_mm.size() > 0) {
+      columns.add(shot.seen->object->stated->name + ".edges", "edges",
+                  shot.seen->object->stated->edge_std_mm,
+                  intensity * columns.of(s.per_edge_mm, own.medium));
+    }
   }
   if (has_view) {
     add_view(shot, per_mm, columns);

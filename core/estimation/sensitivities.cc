@@ -5,6 +5,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/base/progress.h"
+#include "core/estimation/edge_light.h"
 #include "core/estimation/even_light.h"
 #include "core/estimation/surroundings_nuisance.h"
 #include "core/scene/surroundings.h"
@@ -94,6 +95,9 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
     }
     item.out = sensitivity(seen, e.kept.weights.at(item.key),
                            images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
+    if (const LedLight* led = e.scene.light(std::get<1>(item.key)).led()) {
+      item.out.per_edge_mm = change_by_edges(seen, led->led, knots, item.media);
+    }
     if (item.direct != nullptr) {
       item.out.per_albedo =
           change_by_plane(seen, e.scene.light(std::get<1>(item.key)).led()->led, *item.direct,

@@ -23,7 +23,7 @@ std::vector<Crease> creases(const TriangleMesh& mesh, double least_rad) {
       const std::pair<int, int> key = std::minmax(facet[i], facet[(i + 1) % 3]);
       const auto [other, is_new] = normals.try_emplace(key, normal);
       if (!is_new && other->second.dot(normal) < least_cos) {
-        out.push_back({corner(i), corner(i + 1)});
+        out.push_back({corner(i), corner(i + 1), {other->second, normal}});
       }
     }
   }

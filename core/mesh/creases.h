@@ -1,6 +1,7 @@
 // The sharp edges of a mesh.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@ namespace scattermeter {
 
 struct Crease {
   Eigen::Vector3d from_mm, to_mm;
+  std::array<Eigen::Vector3d, 2> normals;  // of the facets that meet there
 };
 
 // Edges at which the normals of two facets differ by more than `least_rad`, in the order of the

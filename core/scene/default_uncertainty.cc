@@ -12,6 +12,7 @@ void take_where_none(Scene& scene) {
     take(object.eta_std, kEta);
     take(object.position_std_mm, kObjectPosition_mm);
     take(object.scale_relative_std, kMeshScale);
+    take(object.edge_std_mm, kEdge_mm);
   }
   for (SceneLight& light : scene.lights) {
     LedLight* led = light.led();

@@ -11,6 +11,8 @@ inline constexpr double kEta = 0.01;
 inline constexpr double kObjectPosition_mm = 0.1;
 // A machined or printed piece of 20 mm, measured to 0.04 mm.
 inline constexpr double kMeshScale = 0.002;
+// Machined edges are broken by some 0.1 mm, moulded and printed ones rounded by as much.
+inline constexpr double kEdge_mm = 0.1;
 // A position taken with a ruler, mm, and a direction by eye, degrees.
 inline constexpr double kLedPosition_mm = 0.3;
 inline constexpr double kLedAxis_deg = 1.0;

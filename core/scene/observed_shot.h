@@ -48,6 +48,8 @@ struct DecodedShot {
   double f_number = 0;
   std::vector<ShotExposure> exposures;           // as observation's; empty for samples from memory
   std::array<double, kRgb> frame_mean_counts{};  // glare is a share of it
+  // Blur of the object's outline, standard deviation, mm on the object; below 0: not measured.
+  double edge_blur_mm = -1;
 };
 
 struct ObservedShot : DecodedShot {

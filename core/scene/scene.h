@@ -56,7 +56,8 @@ struct SceneObject {
   // Standard deviation of each coordinate of the object's position, world, mm; its orientation is
   // uncertain by the same amount at a distance of its own size.
   double position_std_mm = 0;
-  double scale_relative_std = 0;        // of all lengths of the mesh
+  double scale_relative_std = 0;  // of all lengths of the mesh
+  double edge_std_mm = 0;         // how far the edges may be cut back from those of the mesh, mm
   std::optional<double> patch_size_mm;  // absent: chosen
   int line = 0;
 };

@@ -124,11 +124,12 @@ TEST(Road, SkipsWhatIsNotNeeded) {
   ASSERT_EQ(some["results"].size(), 1U);
   EXPECT_EQ(some["results"][0]["material"], "POM");
   EXPECT_EQ(some["results"][0]["channel"], "G");
-  // One column of a matrix product may round otherwise than the same among nine.
+  // The other channels only add to what is known about the rig's geometry.
   for (const char* name : {"sigma_s_prime_per_mm", "sigma_a_per_mm"}) {
     for (const char* part : {"value", "std"}) {
       const double whole = first[7][name][part];
-      EXPECT_NEAR(some["results"][0][name][part], whole, 1e-8 * whole) << name << " " << part;
+      const double std = first[7][name]["std"];
+      EXPECT_NEAR(some["results"][0][name][part], whole, 0.1 * std) << name << " " << part;
     }
   }
   EXPECT_EQ(some["skipped"]["shots_not_asked_for"], 8);

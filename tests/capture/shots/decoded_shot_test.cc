@@ -29,6 +29,7 @@ TEST(DecodedShot, KeepsEveryBit) {
   EXPECT_TRUE(std::isnan(back->exposures[0].departure.log_ratio));
   EXPECT_EQ(back->exposures[1].departure.mean_counts, 0.3);
   EXPECT_EQ(back->frame_mean_counts, shot.frame_mean_counts);
+  EXPECT_EQ(back->edge_blur_mm, shot.edge_blur_mm);
 }
 
 // Bytes that are cut short anywhere, or lists that do not fit together.

@@ -21,6 +21,7 @@ TEST(DefaultUncertainty, FillsInWhatIsNotStated) {
   EXPECT_EQ(scene.objects[1].eta_std, 0.002);
   EXPECT_EQ(scene.objects[0].position_std_mm, default_uncertainty::kObjectPosition_mm);
   EXPECT_EQ(scene.objects[0].scale_relative_std, default_uncertainty::kMeshScale);
+  EXPECT_EQ(scene.objects[0].edge_std_mm, default_uncertainty::kEdge_mm);
   const LedLight& led = *scene.lights[0].led();
   EXPECT_EQ(led.position_std_mm, default_uncertainty::kLedPosition_mm);
   EXPECT_DOUBLE_EQ(led.axis_std_rad * 180.0 / std::numbers::pi, default_uncertainty::kLedAxis_deg);

@@ -1,0 +1,56 @@
+#include "apps/instrument/focus.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "calib/pose/edge_points.h"
+#include "calib/pose/silhouette_check.h"
+#include "core/mesh/creases.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// Of (blur / mean free path)^2, the relative error of sigma_s' by blur: 0.2 to 1.7 for cube and
+// pyramid, faint to dense (`bench deviations`, "out of focus"). That of sigma_a, which is too large
+// where sigma_s' is too small, is as many deviations.
+constexpr double kErrorByBlur = 2.0;
+constexpr double kMostError = 0.03;
+
+}  // namespace
+
+double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot& shot,
+                    const capture::RawFrame& frame, const PoseResult& pose) {
+  const ObjectScene& object = objects.at(shot.object);
+  if (is_round(object.mesh())) return 0.0;
+  const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
+  const calib::EdgeShot edges =
+      calib::edge_shot(rig.scene, rig.pose, objects, shot, frame, pose.camera_from_world, {});
+  const double blur_px = calib::edge_blur(edges, lens, pose.camera_from_world).px;
+  return blur_px * (pose.camera_from_world * object.box.center_mm()).z() / lens.fx_px;
+}
+
+void widen_by_blur(std::span<const ObservedShot> shots, std::vector<ChannelResult>& results) {
+  for (ChannelResult& r : results) {
+    if (r.refused()) continue;
+    double blur_mm = 0.0;
+    for (const ObservedShot& shot : shots) {
+      if (shot.stated->material == r.material) blur_mm = std::max(blur_mm, shot.edge_blur_mm);
+    }
+    Quantity& s = r.estimate.sigma_s_prime_per_mm;
+    const double mfp_mm = 1.0 / (s.value + r.estimate.sigma_a_per_mm.value);
+    const double relative = kErrorByBlur * blur_mm * blur_mm / (mfp_mm * mfp_mm);
+    if (!(relative > 0.0) || !(s.std > 0.0)) continue;
+    const double by_s = relative * s.value;
+    const double by_a = by_s / s.std * r.estimate.sigma_a_per_mm.std;
+    widen({"focus", by_s, by_a}, -by_s * by_a, r.estimate);
+    if (!(relative > kMostError)) continue;
+    r.estimate.reasons.push_back(fmt::format(
+        "out of focus, or moved during the exposure: edges are blurred by {:.2g} mm (standard "
+        "deviation), not small against the mean free path, {:.2g} mm; focus on the object, or move "
+        "the camera closer",
+        blur_mm, mfp_mm));
+  }
+}
+
+}  // namespace scattermeter::apps
