@@ -1,13 +1,12 @@
 #include "apps/instrument/instrument.h"
 
 #include <algorithm>
-#include <cmath>
 #include <exception>
 #include <set>
 
-#include <fmt/core.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
+#include "apps/instrument/closer_look.h"
 #include "apps/instrument/first_look.h"
 #include "apps/instrument/focus.h"
 #include "apps/instrument/frame_watch.h"
@@ -107,33 +106,6 @@ std::vector<ObservedShot> open_and_light(const Rig& rig, const capture::ShotSour
   return shots;
 }
 
-// The pose improved by the outlines: by the careful search where it succeeds, otherwise by the
-// quick look. Adds a finding if the careful search contradicts the pose of the rig.
-PoseResult pose_with_outlines(const Rig& rig, const ObjectScenes& objects,
-                              const capture::ShotSource& source, OutlineFindings& outlines) {
-  try {
-    return calib::pose_from_silhouettes(rig.scene, rig.pose, objects, *outlines.prior, source);
-  } catch (const calib::OutlineContradiction&) {
-    Finding finding;
-    finding.cause = "pose contradicted";
-    const Eigen::Vector2d& off_px = outlines.diagnosis->shift_px;
-    finding.text = fmt::format(
-        "pose contradicted by the outlines of the objects, which are {:.1f} px {} and {:.1f} px {} "
-        "of where it puts them",
-        std::abs(off_px.x()), off_px.x() < 0 ? "left" : "right", std::abs(off_px.y()),
-        off_px.y() < 0 ? "high" : "low");
-    outlines.notes.pop_back();
-    finding.advice =
-        "take the pose points again, and check that neither camera nor object has moved since and "
-        "that the mesh is that of the object";
-    finding.shots = outlines.looked_at;
-    outlines.findings.push_back(finding);
-  } catch (const InputError&) {
-    // The outline was not found well enough to contradict anything.
-  }
-  return *outlines.pose;
-}
-
 // The estimate of all channels but those that the findings refuse.
 std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
                                            const std::vector<ObservedShot>& shots,
@@ -227,8 +199,10 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     for (Finding& f : frames.findings()) {
       outlines.findings.insert(outlines.findings.begin(), std::move(f));
     }
-    // Shots of a wrong rig are looked at again next time.
-    if (!outlines.findings.empty() && source.cache != nullptr) source.cache->forget();
+    // Shots of a wrong rig, or of a pose that is a little off, are looked at again next time.
+    if ((!outlines.findings.empty() || outlines.pose) && source.cache != nullptr) {
+      source.cache->forget();
+    }
   } else {
     shots = open(source);
   }
@@ -242,7 +216,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   out.brackets = brackets_of(shots);
   out.results = estimate_others(rig_.scene, lit_, shots, in_order(outlines.findings, of_light),
                                 options, *kept, watch, progress_);
-  widen_by_blur(shots, out.results);
+  if (!without_noise) widen_by_blur(shots, out.results);
   out.skipped = skipped_of(shots, lit_);
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;
   out.skipped.channels_not_asked = material_channels(rig_.scene, shots).size() - out.results.size();

@@ -86,11 +86,14 @@ class ShotOpener {
     return true;
   }
 
-  // Of each material the first shot of each object.
+  // Of each material the first shot of each object, among those of the source.
   bool is_judged_by_blur(const ObservedShot& shot) const {
-    return std::find_if(rig_.scene.shots.begin(), rig_.scene.shots.end(), [&](const SceneShot& s) {
-             return s.object == shot.stated->object && s.material == shot.stated->material;
-           })->file == shot.stated->file;
+    const auto first =
+        std::find_if(source_.shot_idxs.begin(), source_.shot_idxs.end(), [&](std::size_t idx) {
+          const SceneShot& s = rig_.scene.shots.at(idx);
+          return s.object == shot.stated->object && s.material == shot.stated->material;
+        });
+    return &rig_.scene.shots.at(*first) == shot.stated;
   }
 
   CfaSamples given(std::size_t i, ObservedShot& shot) const {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "calib/pose/silhouette_check.h"
+#include "apps/instrument/closer_look.h"
 #include "core/mesh/creases.h"
 #include "core/view/camera_view.h"
 
@@ -265,31 +265,6 @@ void OutlineWatch::conclude(OutlineFindings& out) const {
   out.findings.push_back(finding);
 }
 
-// Whether the careful search finds the outline of all these shots (of some, if there are many)
-// where the rig puts it. The quick look may take the dark side of a body for background.
-bool OutlineWatch::closer_look_agrees(const capture::FrameSource& frames,
-                                      const std::vector<std::size_t>& shots) const {
-  constexpr double kSmall_px = 0.3;
-  constexpr double kSmooth_px = 0.5;
-  const std::vector<std::size_t> some(
-      shots.begin(),
-      shots.begin() + static_cast<std::ptrdiff_t>(std::min(shots.size(), kShotsAgain)));
-  calib::SilhouetteCheckOptions options;
-  options.silhouette.line_std_px = rig_.pose.edge_std_px;
-  for (const SceneObject& object : rig_.scene.objects) {
-    options.explanation.scale_relative_std =
-        std::max(options.explanation.scale_relative_std, object.scale_relative_std);
-  }
-  const calib::SilhouetteCheck check =
-      calib::check_silhouettes(rig_.scene, rig_.pose, objects_, frames, some, pose_, options);
-  if (check.shots_found < some.size() || check.drifts) return false;
-  return check.diagnosis.agrees ||
-         (check.rms_px < kSmooth_px &&
-          std::all_of(check.shots.begin(), check.shots.end(), [&](const calib::SilhouetteShot& s) {
-            return s.shift_px.norm() < kSmall_px;
-          }));
-}
-
 OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const {
   OutlineFindings out;
   const auto* frames = std::get_if<capture::FrameSource>(&source.open);
@@ -308,7 +283,8 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
   }
   const std::size_t others = out.findings.size();
   conclude(out);
-  if (out.findings.size() > others && closer_look_agrees(*frames, out.findings.back().shots)) {
+  if (out.findings.size() > others &&
+      closer_look_agrees(rig_, objects_, pose_, *frames, out.findings.back().shots)) {
     out.findings.pop_back();
     out.diagnosis->agrees = true;
   }

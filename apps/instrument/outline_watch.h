@@ -61,8 +61,6 @@ class OutlineWatch {
                                      calib::OutlineDiagnosis first,
                                      std::vector<std::size_t>& looked_at) const;
   void conclude(OutlineFindings& out) const;
-  bool closer_look_agrees(const capture::FrameSource& frames,
-                          const std::vector<std::size_t>& shots) const;
 
   const Rig& rig_;
   const ObjectScenes& objects_;

@@ -14,7 +14,11 @@ using Json = nlohmann::ordered_json;
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json quantity(const Quantity& q, bool known) {
-  if (!known) return {{"value", nullptr}, {"std", nullptr}, {"interval95", {nullptr, nullptr}}, {"upper_limit", false}};
+  if (!known)
+    return {{"value", nullptr},
+            {"std", nullptr},
+            {"interval95", {nullptr, nullptr}},
+            {"upper_limit", false}};
   return {{"value", number(q.value)},
           {"std", number(q.std)},
           {"interval95", {number(q.low95), number(q.high95)}},

@@ -36,6 +36,23 @@ Shared shared_part(const RigEvidence& e) {
   return out;
 }
 
+void refuse_with_all_channels(const std::vector<PriorPull>& pulls,
+                              std::vector<ChannelResult>& results) {
+  const PriorPull* worst = contradiction(pulls, kMostPull, kLeastPullImage);
+  if (worst == nullptr) return;
+  for (ChannelResult& r : results) {
+    std::vector<std::string>& reasons = r.estimate.reasons;
+    const auto& own = r.evidence.nuisances;
+    const auto it = std::find_if(own.begin(), own.end(),
+                                 [&](const Nuisance& n) { return n.name == worst->name; });
+    // A reason of its own tells as much.
+    if (it == own.end() || !reasons.empty()) continue;
+    const double by_std = r.evidence.image_relative[it - own.begin()];
+    if (!(by_std * std::abs(worst->offset) / it->std > kLeastPullImage)) continue;
+    reasons.push_back("all channels together: " + contradiction_sentence(*worst));
+  }
+}
+
 bool explains_its_image(const ChannelResult& r) {
   constexpr double kPValue = 1e-6;
   constexpr double kMisfit = 1e-3;
@@ -108,19 +125,21 @@ std::vector<PriorPull> joint_pulls_of(const std::vector<ChannelResult>& results)
 }
 
 void refuse_contradicted(std::vector<ChannelResult>& results) {
-  const std::vector<PriorPull> pulls = joint_pulls_of(results);
-  const PriorPull* worst = contradiction(pulls, kMostPull, kLeastPullImage);
-  if (worst == nullptr) return;
+  // By material: the channel that contradicts the rig, as it stands without the others.
+  std::map<std::string, std::pair<char, PriorPull>> contradicted;
+  for (const ChannelResult& r : results) {
+    const PriorPull* worst = contradiction(r.estimate.pulls, kMostPull, kLeastPullImage);
+    if (worst != nullptr && explains_its_image(r)) {
+      contradicted.try_emplace(r.material, r.channel, *worst);
+    }
+  }
+  refuse_with_all_channels(joint_pulls_of(results), results);
   for (ChannelResult& r : results) {
-    std::vector<std::string>& reasons = r.estimate.reasons;
-    const auto& own = r.evidence.nuisances;
-    const auto it = std::find_if(own.begin(), own.end(),
-                                 [&](const Nuisance& n) { return n.name == worst->name; });
-    // A reason of its own tells as much.
-    if (it == own.end() || !reasons.empty()) continue;
-    const double by_std = r.evidence.image_relative[it - own.begin()];
-    if (!(by_std * std::abs(worst->offset) / it->std > kLeastPullImage)) continue;
-    reasons.push_back("all channels together: " + contradiction_sentence(*worst));
+    const auto by = contradicted.find(r.material);
+    if (by == contradicted.end() || r.refused()) continue;
+    const auto& [channel, pull] = by->second;
+    r.estimate.reasons.push_back(std::string("channel ") + channel +
+                                 " of these shots: " + contradiction_sentence(pull));
   }
 }
 

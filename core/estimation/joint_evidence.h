@@ -20,7 +20,9 @@ std::vector<PriorPull> joint_pulls(const std::vector<const RigEvidence*>& channe
 std::vector<PriorPull> joint_pulls_of(const std::vector<ChannelResult>& results);
 
 // If all channels together contradict the rig (core/fit/prior_pulls.h), adds that as a reason to
-// every result whose image the offset changes visibly.
+// every result whose image the offset changes visibly. If one channel of a material does, and its
+// model explains its image, adds that to the other channels: the same rig made their images, even
+// where it does not show.
 void refuse_contradicted(std::vector<ChannelResult>& results);
 
 }  // namespace scattermeter

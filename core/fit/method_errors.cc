@@ -18,7 +18,7 @@ double row_method_error(double patch_size_mm, double mean_free_path_mm) {
 void add_method_errors(const DistanceKnots& knots, const Eigen::VectorXd& r, double patch_size_mm,
                        const Medium& medium, DenseSystem& system) {
   constexpr double kLeastRelativeStd = 1.5e-5;
-  constexpr double kAtOne = 1e-4;
+  constexpr double kAtOne = 1.5e-4;
   const double decay_per_mm =
       std::max(medium.sigma_t_prime_per_mm(), Dipole(medium).sigma_tr_per_mm());
   const double coarse = std::min(patch_size_mm * decay_per_mm, 4.0);

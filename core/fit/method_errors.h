@@ -20,8 +20,8 @@ double row_method_error(double patch_size_mm, double mean_free_path_mm);
 // (tests/core/diffusion/pair_sums_test.cc), incident light and knots included. Where light decays
 // within a few patches (a mean free path 1 / sigma_t', or 1 / sigma_tr where that is shorter), the
 // points that stand for a row's samples and the cubic that corrects for their positions dominate:
-// 1e-4 where that length equals the patch width, growing with its inverse square up to a factor of
-// 16 (tests/apps/instrument/sampled_patches_test.cc). r: the first estimate of scale * R on the
+// 1.5e-4 where that length equals the patch width, growing with its inverse square up to a factor
+// of 16 (tests/apps/instrument/sampled_patches_test.cc). r: the first estimate of scale * R on the
 // knots. A system without shot_rows is one shot.
 void add_method_errors(const DistanceKnots& knots, const Eigen::VectorXd& r, double patch_size_mm,
                        const Medium& medium, DenseSystem& system);

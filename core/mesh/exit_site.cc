@@ -19,11 +19,11 @@ Eigen::Matrix2d square_root(const Eigen::Matrix2d& m) {
   return (m + root_det * Eigen::Matrix2d::Identity()) / std::sqrt(m.trace() + 2.0 * root_det);
 }
 
-// Appends to the site's points those of the triangle's rule of six under the smallest affine change
+// Appends to the site's points those of a rule on the triangle under the smallest affine change
 // that gives them the samples' mean and covariance, a single point where that has rank below 2.
 // plane: two orthonormal axes in it. Returns false for a single point.
-bool append(const Triangle& t, const Eigen::Matrix<double, 3, 2>& plane,
-            const SampleSpread& samples, ExitSite& site) {
+bool append(const Triangle& t, std::span<const TriangleOrbit> rule,
+            const Eigen::Matrix<double, 3, 2>& plane, const SampleSpread& samples, ExitSite& site) {
   const Eigen::Vector3d center_mm = middle_mm(t);
   Eigen::Matrix2d from = Eigen::Matrix2d::Zero();
   // A triangle's covariance is a twelfth of its corners' scatter about the centre.
@@ -46,7 +46,7 @@ bool append(const Triangle& t, const Eigen::Matrix<double, 3, 2>& plane,
   const Eigen::Matrix2d root = square_root(from);
   const Eigen::Matrix2d inverse = root.inverse();
   const Eigen::Matrix2d map = inverse * square_root(root * to * root) * inverse;
-  for (const TriangleOrbit& orbit : kCowper) {
+  for (const TriangleOrbit& orbit : rule) {
     for (const Eigen::Vector3d& corner : t) {
       const Eigen::Vector2d from_center = plane.transpose() * (corner - center_mm);
       add(samples.mean_mm + plane * (map * ((orbit.a - orbit.b()) * from_center)),
@@ -89,7 +89,7 @@ ExitSite exit_samples(const PatchMesh& patches, int patch_idx, const SampleSprea
   plane.col(1) = patches.normal(patch_idx).cross(plane.col(0));
   ExitSite site;
   site.n_points = 0;
-  if (!append(t, plane, all, site)) return exit_point(all.mean_mm);
+  if (!append(t, kCowper, plane, all, site)) return exit_point(all.mean_mm);
   site.center_mm = all.mean_mm;
   site.covariance_mm2 =
       plane * (plane.transpose() * all.covariance_mm2 * plane) * plane.transpose();
@@ -98,7 +98,7 @@ ExitSite exit_samples(const PatchMesh& patches, int patch_idx, const SampleSprea
   site.n_points = 0;
   const std::array<Triangle, 4> parts = quarters(t);
   for (std::size_t q = 0; q < parts.size(); ++q) {
-    if (of_quarters[q].share > 0.0) append(parts[q], plane, of_quarters[q], site);
+    if (of_quarters[q].share > 0.0) append(parts[q], kThreePoints, plane, of_quarters[q], site);
   }
   return site;
 }

@@ -13,7 +13,7 @@ namespace scattermeter {
 
 // A patch, or the samples on it (of which the mean is observed), or a single point (covariance 0).
 struct ExitSite {
-  static constexpr int kMaxPoints = 24;
+  static constexpr int kMaxPoints = 12;
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_mm2 = Eigen::Matrix3d::Zero();  // rank at most 2
   // Quadrature points with this mean and covariance; weights add up to 1.
@@ -39,9 +39,9 @@ struct SampleSpread {
 // The samples on a patch: the patch's six points under the smallest affine change that gives them
 // the samples' mean and covariance, so that the mean of any quadratic over the samples is exact,
 // and that of higher degrees nearly so if the samples fill the patch. If they do not,
-// `of_quarters`, those of each of its quarters() or none, has each quarter represented in this way:
-// light falls off steeply beside the edges that cut the samples off. A covariance of rank below 2
-// is taken as a single point.
+// `of_quarters`, those of each of its quarters() or none, has each quarter represented by three
+// points: light falls off steeply beside the edges that cut the samples off. A covariance of rank
+// below 2 is taken as a single point.
 ExitSite exit_samples(const PatchMesh& patches, int patch_idx, const SampleSpread& all,
                       std::span<const SampleSpread> of_quarters = {});
 inline ExitSite exit_point(const Eigen::Vector3d& p_mm) {

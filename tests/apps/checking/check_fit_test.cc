@@ -64,11 +64,12 @@ TEST_F(CheckFitTest, AFitForEachChannelOfShotsOfUse) {
   }
 }
 
-// A tenth between two shots is 4.8 % up and down from their mean: 1.1 / 1 = (1 + x) / (1 - x).
+// A tenth between two shots is 4.8 % up and down from their mean: 1.1 / 1 = (1 + x) / (1 - x). A
+// third of it may be taken for positions and lobes of the LEDs or for edges.
 TEST_F(CheckFitTest, SeesThePowerOfAShot) {
   for (const CheckedChannel& fitted : checked_->fit.channels) {
     const std::vector<Departure>& power = fitted.departures->power_relative;
-    EXPECT_NEAR(power[1].value - power[0].value, 2.0 * 0.1 / 2.1, 0.03);
+    EXPECT_NEAR(power[1].value - power[0].value, 2.0 * 0.1 / 2.1, 0.033);
     EXPECT_LT(power[1].std, 0.02);
     EXPECT_NEAR(fitted.departures->even_relative[0].value, 0.0, 0.02);
     EXPECT_LT(fitted.departures->residual_relative[0], 0.05);

@@ -93,6 +93,31 @@ TEST(JointEvidence, RefusesWhatAllContradict) {
   EXPECT_TRUE(results[3].estimate.reasons.empty());
 }
 
+TEST(JointEvidence, ChannelsOfAMaterialShareTheirRig) {
+  std::vector<ChannelResult> results(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    results[i].material = i < 3 ? "PE" : "POM";
+    results[i].channel = "RGBR"[i];
+    results[i].estimate.converged = true;
+  }
+  results[1].estimate.pulls = {{"even light a.dng", "even light", 6.0, 1.0, 0.01}};
+  results[1].estimate.reasons = {"its own"};
+  refuse_contradicted(results);
+  for (const std::size_t i : {0U, 2U}) {
+    ASSERT_EQ(results[i].estimate.reasons.size(), 1U);
+    EXPECT_THAT(results[i].estimate.reasons[0],
+                HasSubstr("channel G of these shots: the shots contradict the even light"));
+  }
+  EXPECT_EQ(results[1].estimate.reasons.size(), 1U);
+  EXPECT_TRUE(results[3].estimate.reasons.empty());
+  // The dipole's failure in one channel is not that of the rig.
+  results[0].estimate.reasons.clear();
+  results[1].estimate.misfit_p_value = 1e-9;
+  results[1].estimate.misfit_relative = 0.02;
+  refuse_contradicted(results);
+  EXPECT_TRUE(results[0].estimate.reasons.empty());
+}
+
 // A model that misses the image says nothing about the rig.
 TEST(JointEvidence, ChannelsThatTheModelMissesDoNotCount) {
   std::vector<ChannelResult> results(1);

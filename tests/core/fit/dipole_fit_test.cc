@@ -134,6 +134,7 @@ TEST(DipoleFit, ScalesWithTheWorld) {
     site.center_mm *= 1000.0;
     site.covariance_mm2 *= 1e6;
     for (auto& p : site.points_mm) p *= 1000.0;
+    for (auto& p : site.few_mm) p *= 1000.0;
   }
   system.weights = smooth_weights(sites, SourceCloud(light, {0, 0, 0}), large_knots, pairs);
   const Estimate large = fit_dipole(system, large_knots, options).estimate;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/mesh/triangle_parts.h"
 #include "tests/fixtures/core/boxes.h"
 
 namespace scattermeter {

@@ -64,8 +64,8 @@ struct CloudAndSites {
 };
 
 // Largest errors relative to the parts' sizes; fails where one is over what is certified.
-void expect_certified(const CloudAndSites& scene, const std::vector<Medium>& media, double tolerance,
-                      std::size_t direct_up_to = 0) {
+void expect_certified(const CloudAndSites& scene, const std::vector<Medium>& media,
+                      double tolerance, std::size_t direct_up_to = 0) {
   const SourceClusters sources(scene.points, scene.weights);
   const RowBlocks rows(scene.rows);
   std::vector<std::vector<DipoleSum>> out(media.size(), std::vector<DipoleSum>(scene.rows.size()));
@@ -97,7 +97,7 @@ const std::vector<Medium> kMedia = {{2.19, 0.002, 1.3}, {0.5, 0.01, 1.49}, {20.0
 
 // Half lit, every hundredth point is a row.
 CloudAndSites surface(const std::string& name, std::size_t n, double size,
-              const std::function<Eigen::Vector3d(std::mt19937&)>& on) {
+                      const std::function<Eigen::Vector3d(std::mt19937&)>& on) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> uniform(0.0, 2.0);
   CloudAndSites s{name, {}, {}, {}};

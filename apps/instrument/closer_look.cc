@@ -1,0 +1,62 @@
+#include "apps/instrument/closer_look.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "calib/pose/shot_pose.h"
+#include "calib/pose/silhouette_check.h"
+#include "core/base/input_error.h"
+
+namespace scattermeter::apps {
+
+bool closer_look_agrees(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
+                        const capture::FrameSource& frames, const std::vector<std::size_t>& shots) {
+  constexpr std::size_t kMostShots = 4;
+  constexpr double kSmall_px = 0.3;
+  constexpr double kSmooth_px = 0.5;
+  std::vector<std::size_t> some = shots;
+  some.resize(std::min(some.size(), kMostShots));
+  calib::SilhouetteCheckOptions options;
+  options.silhouette.line_std_px = rig.pose.edge_std_px;
+  for (const SceneObject& object : rig.scene.objects) {
+    options.explanation.scale_relative_std =
+        std::max(options.explanation.scale_relative_std, object.scale_relative_std);
+  }
+  const calib::SilhouetteCheck check =
+      calib::check_silhouettes(rig.scene, rig.pose, objects, frames, some, pose, options);
+  if (check.shots_found < some.size() || check.drifts) return false;
+  return check.diagnosis.agrees ||
+         (check.rms_px < kSmooth_px &&
+          std::all_of(check.shots.begin(), check.shots.end(), [&](const calib::SilhouetteShot& s) {
+            return s.shift_px.norm() < kSmall_px;
+          }));
+}
+
+PoseResult pose_with_outlines(const Rig& rig, const ObjectScenes& objects,
+                              const capture::ShotSource& source, OutlineFindings& outlines) {
+  try {
+    return calib::pose_from_silhouettes(rig.scene, rig.pose, objects, *outlines.prior, source);
+  } catch (const calib::OutlineContradiction&) {
+    Finding finding;
+    finding.cause = "pose contradicted";
+    const Eigen::Vector2d& off_px = outlines.diagnosis->shift_px;
+    finding.text = fmt::format(
+        "pose contradicted by the outlines of the objects, which are {:.1f} px {} and {:.1f} px {} "
+        "of where it puts them",
+        std::abs(off_px.x()), off_px.x() < 0 ? "left" : "right", std::abs(off_px.y()),
+        off_px.y() < 0 ? "high" : "low");
+    outlines.notes.pop_back();
+    finding.advice =
+        "take the pose points again, and check that neither camera nor object has moved since and "
+        "that the mesh is that of the object";
+    finding.shots = outlines.looked_at;
+    outlines.findings.push_back(finding);
+  } catch (const InputError&) {
+    // The outline was not found well enough to contradict anything.
+  }
+  return *outlines.pose;
+}
+
+}  // namespace scattermeter::apps
