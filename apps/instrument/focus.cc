@@ -1,6 +1,7 @@
 #include "apps/instrument/focus.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -16,6 +17,8 @@ namespace {
 // where sigma_s' is too small, is as many deviations.
 constexpr double kErrorByBlur = 2.0;
 constexpr double kMostError = 0.03;
+// What the fit to a sharp edge may yield, px; subtracted in squares.
+constexpr double kSharp_px = 0.3;
 
 }  // namespace
 
@@ -26,7 +29,8 @@ double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot
   const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
   const calib::EdgeShot edges =
       calib::edge_shot(rig.scene, rig.pose, objects, shot, frame, pose.camera_from_world, {});
-  const double blur_px = calib::edge_blur(edges, lens, pose.camera_from_world).px;
+  const double seen_px = calib::edge_blur(edges, lens, pose.camera_from_world).px;
+  const double blur_px = std::sqrt(std::max(0.0, seen_px * seen_px - kSharp_px * kSharp_px));
   return blur_px * (pose.camera_from_world * object.box.center_mm()).z() / lens.fx_px;
 }
 

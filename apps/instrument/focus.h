@@ -13,8 +13,9 @@
 
 namespace scattermeter::apps {
 
-// Blur of the object's outline in a frame, on the object (DecodedShot::edge_blur_mm); 0 for a round
-// body, and where the outline is not seen well enough.
+// Blur of the object's outline in a frame, on the object (DecodedShot::edge_blur_mm), beyond the
+// 0.3 px that a sharp edge may seem to have; 0 for a round body, and where the outline is not seen
+// well enough.
 double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot& shot,
                     const capture::RawFrame& frame, const PoseResult& pose);
 

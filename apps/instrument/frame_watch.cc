@@ -10,16 +10,19 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr double kGreensDiffer = 0.05;
+
 // Light of the green sites in even rows over that in odd rows, where neither is dark or clipped; 1
-// without any.
+// where there are too few of them.
 double green_ratio(const capture::RawFrame& frame) {
   constexpr double kDark = 0.05, kBright = 0.95;
+  constexpr int kLeastCells = 300;
   std::array<std::size_t, 2> green{};
   for (std::size_t row = 0; row < 2; ++row) {
     green[row] = 2 * row + (frame.cfa.phase[2 * row] == Channel::kGreen ? 0 : 1);
     if (frame.cfa.phase[green[row]] != Channel::kGreen) return 1.0;
   }
   std::array<double, 2> sum{};
+  int cells = 0;
   for (int y = 0; y + 1 < frame.height_px; y += 2) {
     for (int x = 0; x + 1 < frame.width_px; x += 2) {
       std::array<double, 2> light{};
@@ -35,9 +38,10 @@ double green_ratio(const capture::RawFrame& frame) {
       if (!is_used || !(light[0] + light[1] > 2.0 * kDark * range)) continue;
       sum[0] += light[0];
       sum[1] += light[1];
+      ++cells;
     }
   }
-  return sum[1] > 0.0 ? sum[0] / sum[1] : 1.0;
+  return cells >= kLeastCells ? sum[0] / sum[1] : 1.0;
 }
 
 }  // namespace
