@@ -17,7 +17,7 @@ namespace {
 TEST(TransportRoad, KnowsTheShape) {
   SmallRig rig;
   rig.keep_shots("PP_cube");
-  rig.simulate({"--transport", "volume", "--paths", "300000", "--noise", "off", "--seed", "5"});
+  rig.simulate({"--transport", "volume", "--paths", "1000000", "--noise", "off", "--seed", "5"});
   const Answer answer = rig.measure({"--paths", "800000", "--time-limit", "500"});
   ASSERT_NE(answer.status, 2) << answer.err;
   const nlohmann::json result = nlohmann::json::parse(rig.result());
