@@ -7,8 +7,6 @@
 namespace scattermeter::apps {
 namespace {
 
-constexpr double kCrease_rad = 0.3;
-
 double distance_mm(const Eigen::Vector3d& p, const Crease& edge) {
   const Eigen::Vector3d along = edge.to_mm - edge.from_mm;
   const double t = std::clamp((p - edge.from_mm).dot(along) / along.squaredNorm(), 0.0, 1.0);

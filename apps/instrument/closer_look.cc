@@ -1,9 +1,6 @@
 #include "apps/instrument/closer_look.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include <fmt/core.h>
 
 #include "calib/pose/shot_pose.h"
 #include "calib/pose/silhouette_check.h"
@@ -41,12 +38,8 @@ PoseResult pose_with_outlines(const Rig& rig, const ObjectScenes& objects,
   } catch (const calib::OutlineContradiction&) {
     Finding finding;
     finding.cause = "pose contradicted";
-    const Eigen::Vector2d& off_px = outlines.diagnosis->shift_px;
-    finding.text = fmt::format(
-        "pose contradicted by the outlines of the objects, which are {:.1f} px {} and {:.1f} px {} "
-        "of where it puts them",
-        std::abs(off_px.x()), off_px.x() < 0 ? "left" : "right", std::abs(off_px.y()),
-        off_px.y() < 0 ? "high" : "low");
+    finding.text = "pose contradicted by the outlines of the objects, which are " +
+                   shift_phrase(*outlines.diagnosis) + " of where it puts them";
     outlines.notes.pop_back();
     finding.advice =
         "take the pose points again, and check that neither camera nor object has moved since and "

@@ -29,7 +29,7 @@ double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot
   const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
   const calib::EdgeShot edges =
       calib::edge_shot(rig.scene, rig.pose, objects, shot, frame, pose.camera_from_world, {});
-  const double seen_px = calib::edge_blur(edges, lens, pose.camera_from_world).px;
+  const double seen_px = calib::edge_blur_px(edges, lens, pose.camera_from_world);
   const double blur_px = std::sqrt(std::max(0.0, seen_px * seen_px - kSharp_px * kSharp_px));
   return blur_px * (pose.camera_from_world * object.box.center_mm()).z() / lens.fx_px;
 }

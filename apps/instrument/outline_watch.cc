@@ -82,6 +82,12 @@ std::string class_of(OutlineCause cause) {
 
 }  // namespace
 
+std::string shift_phrase(const calib::OutlineDiagnosis& d) {
+  return fmt::format("{:.1f} px {} and {:.1f} px {}", std::abs(d.shift_px.x()),
+                     d.shift_px.x() < 0 ? "left" : "right", std::abs(d.shift_px.y()),
+                     d.shift_px.y() < 0 ? "high" : "low");
+}
+
 OutlineWatch::OutlineWatch(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose)
     : rig_(rig), objects_(objects), pose_(pose) {
   const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
@@ -238,11 +244,11 @@ void OutlineWatch::conclude(OutlineFindings& out) const {
     out.pose = d.pose;
     out.prior = pose_;
     out.prior->covariance.diagonal().tail<3>().array() += kPlaceStd_mm * kPlaceStd_mm;
-    out.notes.push_back(fmt::format(
-        "outline {:.1f} px {} and {:.1f} px {} of where the pose puts it (± {:.1f}), within the "
-        "stated uncertainty: the pose was corrected by it",
-        std::abs(d.shift_px.x()), d.shift_px.x() < 0 ? "left" : "right", std::abs(d.shift_px.y()),
-        d.shift_px.y() < 0 ? "high" : "low", d.shift_std_px));
+    out.notes.push_back(
+        fmt::format("outline {} of where the pose puts it (± {:.1f}), within the stated "
+                    "uncertainty: the pose was "
+                    "corrected by it",
+                    shift_phrase(d), d.shift_std_px));
     return;
   }
   const calib::OutlineExplanation& best = d.explanations.at(1);

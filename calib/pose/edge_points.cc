@@ -73,8 +73,8 @@ EdgeStripOptions strip_of(const Candidate& candidate, const EdgePointOptions& op
 
 }  // namespace
 
-EdgeBlur edge_blur(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
-                   const Rigid3d& camera_from_world) {
+double edge_blur_px(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
+                    const Rigid3d& camera_from_world) {
   constexpr std::size_t kMostPieces = 60;
   constexpr std::size_t kLeastPieces = 8;
   EdgePointOptions options;
@@ -95,8 +95,7 @@ EdgeBlur edge_blur(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
   for (const EdgeStrip& s : found) {
     if (s.found) blurs.push_back(s.blur_px);
   }
-  if (blurs.size() < kLeastPieces) return {0.0, blurs.size()};
-  return {upper_median(blurs), blurs.size()};
+  return blurs.size() < kLeastPieces ? 0.0 : upper_median(blurs);
 }
 
 std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,

@@ -1,7 +1,6 @@
 // Points of a body's outline, predicted from its mesh and located in a shot.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -54,15 +53,10 @@ std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
                                    const Rigid3d& camera_from_world,
                                    const EdgePointOptions& options = {});
 
-// Blur of the outline of one shot: the median over pieces of it, by locate_edge().
-struct EdgeBlur {
-  double px = 0;  // standard deviation across the edge, without the pixel's box
-  std::size_t pieces = 0;
-};
-
-// From at most 60 pieces, on the raw samples. Pieces are searched up to 8 px away. Fewer than 8
-// pieces tell nothing: 0 px. Domain of the blur: up to 6 px.
-EdgeBlur edge_blur(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
-                   const Rigid3d& camera_from_world);
+// Blur of the outline of one shot, px: standard deviation across the edge, without the pixel's box;
+// the median of at most 60 pieces, by locate_edge() on the raw samples. Pieces are searched up to 8
+// px away. Fewer than 8 pieces tell nothing: 0. Domain: up to 6 px.
+double edge_blur_px(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
+                    const Rigid3d& camera_from_world);
 
 }  // namespace scattermeter::calib

@@ -90,7 +90,7 @@ class DipoleEstimator {
     tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
       const Estimate& estimate = e_.results[i].estimate;
       if (!work_[i].estimated || !estimate.converged) return;
-      const std::vector<PriorPull> own = estimate.pulls;
+      const std::vector<PriorPull>& own = estimate.pulls;
       if (std::any_of(own.begin(), own.end(), [&](const PriorPull& p) {
             const auto joint = fit_.joint_pulls.find(p.name);
             return joint != fit_.joint_pulls.end() &&

@@ -7,8 +7,6 @@
 namespace scattermeter {
 namespace {
 
-constexpr double kSharp_rad = 0.3;
-
 // A strip across the edge, from the middle of a piece of it, that receives what the piece loses:
 // two triangles of uniform irradiance.
 void add_strip(const Crease& edge, const Eigen::Vector3d& half_mm, const Eigen::Vector3d& middle_mm,
@@ -44,7 +42,7 @@ Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const Di
   const double patch_mm = seen.patches->patch_size_mm();
   IncidentLight lost;
   lost.patch_power_sr = {0.0};
-  for (const Crease& edge : creases(object.mesh(), kSharp_rad)) {
+  for (const Crease& edge : creases(object.mesh(), kCrease_rad)) {
     const Eigen::Vector3d along_mm = edge.to_mm - edge.from_mm;
     const int pieces = std::max(1, static_cast<int>(std::ceil(along_mm.norm() / patch_mm)));
     const Eigen::Vector3d half_mm = 0.5 / pieces * along_mm;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/base/dense_solve.h"
+#include "core/estimation/model_choice.h"
 
 namespace scattermeter {
 namespace {
@@ -54,10 +55,7 @@ void refuse_with_all_channels(const std::vector<PriorPull>& pulls,
 }
 
 bool explains_its_image(const ChannelResult& r) {
-  constexpr double kPValue = 1e-6;
-  constexpr double kMisfit = 1e-3;
-  return r.estimate.converged &&
-         !(r.estimate.misfit_p_value < kPValue && r.estimate.misfit_relative > kMisfit);
+  return r.estimate.converged && !misses_image(r.estimate);
 }
 
 }  // namespace

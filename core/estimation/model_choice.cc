@@ -4,16 +4,20 @@
 
 namespace scattermeter {
 
-std::string why_transport(const ChannelResult& result, double image_in_std) {
+bool misses_image(const Estimate& estimate) {
   constexpr double kPValue = 1e-6;
   constexpr double kMisfit = 1e-3;
+  return estimate.misfit_p_value < kPValue && estimate.misfit_relative > kMisfit;
+}
+
+std::string why_transport(const ChannelResult& result, double image_in_std) {
   // A misfit is visible where it exceeds the noise in the directions that the dipole might miss
   // (some tens, together this many deviations of the whole image).
   constexpr double kDeviations = 8.0;
   constexpr double kVisible = 5e-3;
   const Estimate& e = result.estimate;
   if (!e.reasons.empty()) return "the dipole is refused: " + e.reasons.front();
-  if (e.misfit_p_value < kPValue && e.misfit_relative > kMisfit) {
+  if (misses_image(e)) {
     return fmt::format("the dipole misses {:.2g} % of the image", 100.0 * e.misfit_relative);
   }
   if (result.agreement.disagree()) return "the shots do not agree under the dipole";

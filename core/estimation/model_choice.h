@@ -7,6 +7,9 @@
 
 namespace scattermeter {
 
+// Whether a model's misfit is significant and exceeds a thousandth of the image.
+bool misses_image(const Estimate& estimate);
+
 // Why a channel needs transport, as a phrase; empty: the dipole is adequate. No body is the
 // half-space for which the dipole is derived; whether that matters is better judged from the image
 // than from the shape: on a 20 mm cube the dipole misses several per cent of the light. Its result

@@ -19,6 +19,9 @@ struct Crease {
 // facets. Vertices at one place count as one. Domain: 0 <= least_rad <= pi.
 std::vector<Crease> creases(const TriangleMesh& mesh, double least_rad);
 
+// Facets that meet at more than this are not parts of one smooth surface.
+inline constexpr double kCrease_rad = 0.3;
+
 // Whether facets meet nowhere at more than 37 degrees. The light on such a body falls off towards
 // the limb, so that what looks like its outline depends on the lamp.
 bool is_round(const TriangleMesh& mesh);
