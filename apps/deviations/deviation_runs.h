@@ -53,7 +53,7 @@ struct DeviationOptions {
   std::int64_t rendered_paths = 2'000'000;
   // Of measuring by transport, for each light and view.
   std::int64_t measured_paths = 5'000'000;
-  double time_limit_s = 50;  // of measuring by transport, for each channel
+  double time_limit_s = 600;  // of measuring by transport, for each channel: paths end it before
   Progress* progress = nullptr;
   std::function<void(const DeviationResult&)> on_result = {};  // called for each as it comes
 };

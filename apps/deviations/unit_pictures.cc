@@ -37,6 +37,12 @@ class Key {
       for (int v : t) add(v);
     }
   }
+  void add(const LobeTable& lobe) {
+    for (const auto* values : {&lobe.angles_rad(), &lobe.in_x(), &lobe.in_y()}) {
+      for (double v : *values) add(v);
+    }
+    add(lobe.x_axis());
+  }
   void add(const SceneLight& light) {
     add(light.kind.index());
     const LedLight* led = light.led();
@@ -48,6 +54,7 @@ class Key {
     add(led->led.axis);
     add(led->led.exponent);
     add(led->led.radius_mm);
+    if (led->led.table) add(*led->led.table);
   }
   const std::string& bytes() const { return bytes_; }
 

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -69,6 +72,23 @@ SceneCamera scene_camera(const py::dict& dict) {
   return camera;
 }
 
+std::shared_ptr<const LobeTable> lobe_table(const py::dict& dict, const std::string& where) {
+  using Values = std::vector<double>;
+  Values angles_rad = field<Values>(dict, where, "angle_deg");
+  for (double& a : angles_rad) a *= std::numbers::pi / 180.0;
+  try {
+    if (dict.contains("relative")) {
+      return std::make_shared<LobeTable>(std::move(angles_rad),
+                                         field<Values>(dict, where, "relative"));
+    }
+    return std::make_shared<LobeTable>(
+        std::move(angles_rad), field<Values>(dict, where, "relative_x"),
+        field<Values>(dict, where, "relative_y"), field<Eigen::Vector3d>(dict, where, "x_axis"));
+  } catch (const std::invalid_argument& e) {
+    throw InputError(where, e.what());
+  }
+}
+
 SceneLight scene_light(const std::string& name, const py::dict& dict) {
   const std::string where = "lights." + name;
   SceneLight light;
@@ -76,7 +96,10 @@ SceneLight scene_light(const std::string& name, const py::dict& dict) {
   LedLight& led = light.kind.emplace<LedLight>();
   led.led.position_mm = field<Eigen::Vector3d>(dict, where, "position_mm");
   led.led.axis = field<Eigen::Vector3d>(dict, where, "axis").normalized();
-  led.led.exponent = field<double>(dict, where, "exponent", 1.0);
+  if (dict.contains("lobe")) {
+    led.led.table = lobe_table(field<py::dict>(dict, where, "lobe"), where + ".lobe");
+  }
+  led.led.exponent = field<double>(dict, where, "exponent", led.led.table ? 0.0 : 1.0);
   led.led.radius_mm = field<double>(dict, where, "radius_mm", 0.0);
   led.led.intensity_W_per_sr = field<Eigen::Vector3d>(dict, where, "intensity_W_per_sr").array();
   led.position_std_mm = field<double>(dict, where, "position_std_mm", 0.0);

@@ -6,6 +6,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "apps/rig/rig_fields.h"
+#include "apps/rig/rig_led_lobe.h"
 #include "apps/rig/yaml_field.h"
 #include "core/base/symmetric_eigen.h"
 
@@ -76,6 +77,11 @@ std::string led_calibration_yaml(const calib::LedCalibration& c) {
   out << YAML::Key << "axis" << YAML::Value;
   emit_row(out, fit.led.axis);
   out << YAML::Key << "exponent" << YAML::Value << fit.led.exponent;
+  if (fit.led.table) {
+    out << YAML::Comment("a correction to the table");
+    out << YAML::Key << "lobe" << YAML::Value;
+    emit_lobe(out, *fit.led.table);
+  }
   out << YAML::Key << "radius_mm" << YAML::Value << fit.led.radius_mm;
   out << YAML::Key << "intensity_W_per_sr" << YAML::Value;
   emit_row(out, fit.led.intensity_W_per_sr);
@@ -107,7 +113,7 @@ std::string led_calibration_yaml(const calib::LedCalibration& c) {
 
 CalibratedLed read_led_calibration_file(const std::string& path) {
   const YamlField top = YamlField::load(path);
-  top.only({"scattermeter_led", "light", "position_mm", "axis", "exponent", "radius_mm",
+  top.only({"scattermeter_led", "light", "position_mm", "axis", "exponent", "lobe", "radius_mm",
             "intensity_W_per_sr", "responsivity_counts_mm2_sr_per_W_s", "axis_tangents",
             "covariance", "common_to_plane", "distance_mm", "distance_power_correlation",
             "residuals", "warnings", "ambient"});
@@ -116,7 +122,8 @@ CalibratedLed read_led_calibration_file(const std::string& path) {
   Led& led = out.led;
   led.position_mm = top.at("position_mm").vector3();
   led.axis = unit_vector(top.at("axis"));
-  led.exponent = top.at("exponent").number(0.0, 1000.0);
+  if (const auto f = top.find("lobe")) led.table = read_lobe(*f, led.axis);
+  led.exponent = top.at("exponent").number(led.least_exponent(), 1000.0);
   if (const auto f = top.find("radius_mm")) led.radius_mm = f->number(0.0, 1000.0);
   led.intensity_W_per_sr = some_light(top.at("intensity_W_per_sr"));
   out.responsivity = positive_rgb(top.at("responsivity_counts_mm2_sr_per_W_s"));

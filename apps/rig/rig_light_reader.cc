@@ -10,6 +10,7 @@
 
 #include "apps/rig/led_calibration_file.h"
 #include "apps/rig/rig_fields.h"
+#include "apps/rig/rig_led_lobe.h"
 #include "apps/rig/yaml_field.h"
 #include "capture/files/probe_reader.h"
 #include "core/base/input_error.h"
@@ -32,7 +33,7 @@ void read_led(const LightEntry& entry, SceneLight& light) {
   const YamlField& field = entry.field;
   LedLight& led_light = light.kind.emplace<LedLight>();
   Led& led = led_light.led;
-  field.only({"type", "calibration", "position_mm", "axis", "exponent", "radius_mm",
+  field.only({"type", "calibration", "position_mm", "axis", "exponent", "lobe", "radius_mm",
               "intensity_W_per_sr", "position_std_mm", "axis_std_deg", "exponent_std",
               "intensity_relative_std"});
   if (const auto calibration = field.find("calibration")) {
@@ -53,6 +54,13 @@ void read_led(const LightEntry& entry, SceneLight& light) {
   led.position_mm = field.at("position_mm").vector3();
   led.axis = unit_vector(field.at("axis"));
   if (const auto f = field.find("exponent")) led.exponent = f->number(0.0, 1000.0);
+  if (const auto f = field.find("lobe")) {
+    if (const auto given = field.find("exponent")) {
+      given->fail("is given twice: here and by the table lobe");
+    }
+    led.table = read_lobe(*f, led.axis);
+    led.exponent = 0.0;
+  }
   if (const auto f = field.find("radius_mm")) led.radius_mm = f->number(0.0, 1000.0);
   led.intensity_W_per_sr = some_light(field.at("intensity_W_per_sr"));
   led_light.position_std_mm =

@@ -64,7 +64,9 @@ T CellModel::radiance(const T* led, const T* pose, const T* albedo, const T* exp
       const T cosine = normal_.cast<T>().dot(to_led) / r;
       const T lobe = -axis.dot(to_led) / r;
       if (!(cosine > T(0.0)) || !(lobe > T(1e-6))) continue;
-      sum += pow(lobe, led[5]) * cosine / r2;
+      T at = pow(lobe, led[5]) * cosine / r2;
+      if (frame_.led.table) at *= frame_.led.table->value<T>(axis, -to_led / r);
+      sum += at;
     }
   }
   const double share = 1.0 / static_cast<double>(points_mm_.size() * ring_mm_.size());

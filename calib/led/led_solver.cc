@@ -188,7 +188,7 @@ class LedProblem {
 
   void add_bounds() {
     problem_.AddParameterBlock(x_.led.data(), kLedParameters);
-    problem_.SetParameterLowerBound(x_.led.data(), kLedExponent, 0.0);
+    problem_.SetParameterLowerBound(x_.led.data(), kLedExponent, frame_.led.least_exponent());
     for (auto& shot : x_.ambient) {
       for (double& a : shot) {
         problem_.AddParameterBlock(&a, 1);

@@ -33,8 +33,9 @@ void add_warnings(const LedFitOptions& options, const std::string& tied, LedFit&
     fit.warnings.emplace_back(
         "no white plane was seen: axis, exponent and intensity stay as the rig says");
   }
-  if (fit.lobe_fitted && fit.led.exponent == 0.0) {
-    fit.warnings.emplace_back("the exponent lies at its bound of 0");
+  if (fit.lobe_fitted && fit.led.exponent == fit.led.least_exponent()) {
+    fit.warnings.push_back(
+        fmt::format("the exponent lies at its bound of {}", fit.led.least_exponent()));
   }
   const auto out = std::count(fit.highlight_used.begin(), fit.highlight_used.end(), false);
   if (out > 0) {

@@ -46,7 +46,7 @@ std::vector<Led> start_candidates(const LedScene& scene, const LedSolve& what, c
       const Eigen::Vector3d down = (center - start.position_mm).normalized();
       if (towards) start.axis = down;
       if (!towards && start.axis.dot(down) < 0.3) continue;
-      start.exponent = std::max(start.exponent, 0.5);
+      if (!start.table) start.exponent = std::max(start.exponent, 0.5);
       if (set_intensity(scene, what.use_cell, start)) all.push_back(start);
     }
   }

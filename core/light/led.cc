@@ -9,7 +9,8 @@ namespace scattermeter {
 double Led::lobe(const Eigen::Vector3d& unit_direction) const {
   const double c = axis.dot(unit_direction);
   if (!(c > 0.0)) return 0.0;
-  return exponent == 0.0 ? 1.0 : std::pow(c, exponent);
+  const double power = exponent == 0.0 ? 1.0 : std::pow(c, exponent);
+  return table ? power * table->value<double>(axis, unit_direction) : power;
 }
 
 double Led::transmitted_irradiance_per_mm2(const Eigen::Vector3d& point_mm,

@@ -207,8 +207,9 @@ def estimate(
     responsivity_relative_std; without a responsivity the scale is free.
     objects, by name: vertices_mm (n, 3) and triangles (m, 3) of a closed mesh in the world frame,
     counter-clockwise from outside; eta; optional eta_std.
-    lights, by name, LEDs: position_mm (3), axis (3), intensity_W_per_sr (3); optional exponent,
-    radius_mm, position_std_mm, exponent_std, intensity_relative_std.
+    lights, by name, LEDs: position_mm (3), axis (3), intensity_W_per_sr (3); optional exponent
+    or lobe ({angle_deg, relative} or {angle_deg, relative_x, relative_y, x_axis}), radius_mm,
+    position_std_mm, exponent_std, intensity_relative_std.
     shots, each: object, material, lights (names), camera_from_world (4, 4; OpenCV's axes, mm),
     exposure_s, and for each of its n samples xy_px (n, 2; column and row in the frame), value_counts
     (n; above black) and variance_counts2 (n); optional name, pose_covariance (6, 6; rad and mm) and

@@ -1,5 +1,8 @@
 #include "apps/instrument/instrument.h"
 
+#include <cmath>
+#include <memory>
+#include <numbers>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -84,6 +87,37 @@ TEST_F(InstrumentTest, IdealSamples) {
     EXPECT_NEAR(e.sigma_a_per_mm.value / truth.sigma_a_per_mm, 1.0, 0.05);
     // Second differences of the signal are nothing beside the noise that there could be.
     EXPECT_LT(e.reduced_chi2, 0.2);
+  }
+}
+
+// The cosine of the small rig's LEDs, tabulated: shots under one measured with the other.
+TEST_F(InstrumentTest, ATabulatedLobeIsTheLobe) {
+  std::vector<double> angles_rad, relative;
+  for (int k = 0; k <= 90; k += 5) {
+    angles_rad.push_back(k * std::numbers::pi / 180.0);
+    relative.push_back(k == 90 ? 0.0 : std::cos(angles_rad.back()));
+  }
+  Rig tabulated = rig_;
+  for (SceneLight& light : tabulated.scene.lights) {
+    ASSERT_EQ(light.led()->led.exponent, 1.0);
+    light.led()->led.table = std::make_shared<LobeTable>(angles_rad, relative);
+    light.led()->led.exponent = 0.0;
+  }
+  const auto measured = [&](const Rig& rig) {
+    Instrument instrument(rig, scenes_, options_);
+    return instrument.measure(
+        capture::shots_from(rig.scene, capture::all_shots(rig.scene), frames(3)));
+  };
+  const Measurement power = measured(rig_);
+  const Measurement table = measured(tabulated);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Estimate& a = power.results[c].estimate;
+    const Estimate& b = table.results[c].estimate;
+    ASSERT_TRUE(a.converged && b.converged);
+    EXPECT_NEAR(b.sigma_s_prime_per_mm.value, a.sigma_s_prime_per_mm.value,
+                2e-3 * a.sigma_s_prime_per_mm.value);
+    EXPECT_NEAR(b.sigma_s_prime_per_mm.std, a.sigma_s_prime_per_mm.std,
+                0.05 * a.sigma_s_prime_per_mm.std);
   }
 }
 

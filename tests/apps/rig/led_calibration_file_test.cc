@@ -76,6 +76,18 @@ TEST_F(LedCalibrationFile, ReadsBackToTheLastDigit) {
   EXPECT_EQ(read_back.uncertainty.common, c.fit.uncertainty.common);
 }
 
+// A fit may correct a table to both sides.
+TEST_F(LedCalibrationFile, HoldsATabulatedLobe) {
+  calib::LedCalibration c = made_led_calibration();
+  c.fit.led.table = std::make_shared<LobeTable>(std::vector<double>{0.0, 1.0, 1.25},
+                                                std::vector<double>{1.0, 0.25, 0.0});
+  c.fit.led.exponent = -0.125;
+  const CalibratedLed read_back = read(led_calibration_yaml(c));
+  ASSERT_NE(read_back.led.table, nullptr);
+  EXPECT_EQ(read_back.led.table->in_x(), c.fit.led.table->in_x());
+  EXPECT_EQ(read_back.led.exponent, -0.125);
+}
+
 // For people, and for plots: what the fit left.
 TEST_F(LedCalibrationFile, HoldsTheResiduals) {
   calib::LedCalibration c = made_led_calibration();

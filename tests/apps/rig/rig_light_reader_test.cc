@@ -55,6 +55,18 @@ TEST(RigLightReader, AnLedIsAPointKnownToACarefulUser) {
   EXPECT_EQ(light.led()->intensity_relative_std, default_uncertainty::kLedIntensity);
 }
 
+// A table stands for the power; how far it may be wrong is stated as for the power.
+TEST(RigLightReader, LedOfATabulatedLobe) {
+  const std::string table = ", lobe: {angle_deg: [0, 45, 90], relative: [1, 0.6, 0]}";
+  const SceneLight light = light_of(kLed + table);
+  ASSERT_NE(light.led()->led.table, nullptr);
+  EXPECT_EQ(light.led()->led.table->in_x(), (std::vector<double>{1, 0.6, 0}));
+  EXPECT_EQ(light.led()->led.exponent, 0.0);
+  EXPECT_EQ(light.led()->exponent_std, default_uncertainty::kLedExponent);
+  EXPECT_THAT(light_refused(kLed + table + ", exponent: 1"),
+              HasSubstr("hall.exponent: is given twice"));
+}
+
 // The picture is not opened before it is needed.
 TEST(RigLightReader, Environment) {
   const SceneLight light = light_of(

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 #include <gmock/gmock.h>
@@ -51,6 +53,31 @@ TEST(LedFit, RecoversTheTruthWithoutNoise) {
     EXPECT_LT(d.head<3>().norm(), 2e-3) << d.transpose();
     EXPECT_LT(std::abs(d[kLedExponent]), 2e-4);
     EXPECT_LT(d.tail<3>().norm(), 1e-4);
+  }
+}
+
+// A table that is too wide or too narrow is corrected by a power: tables of cosine powers 1 and 1.5
+// for an LED of 1.3.
+TEST(LedFit, CorrectsATable) {
+  LedSceneOptions exact;
+  exact.rotation_std_rad = exact.translation_std_mm = exact.center_std_mm = 0.0;
+  exact.albedo_std = exact.highlight_std_px = exact.cell_relative_std = 0.0;
+  for (const double tabulated : {1.0, 1.5}) {
+    std::vector<double> angles_rad, relative;
+    for (int k = 0; k <= 90; ++k) {
+      angles_rad.push_back(k * std::numbers::pi / 180.0);
+      relative.push_back(k == 90 ? 0.0 : std::pow(std::cos(angles_rad.back()), tabulated));
+    }
+    Led start = wrong_start();
+    start.table = std::make_shared<LobeTable>(angles_rad, relative);
+    start.exponent = 0.0;
+    const LedFit fit = fit_led(draw_led_scene(true_led(), exact, 1), start);
+    ASSERT_EQ(fit.status, LedStatus::kOk) << fit.message;
+    EXPECT_NEAR(fit.led.exponent, 1.3 - tabulated, 2e-3);
+    EXPECT_LT((fit.led.position_mm - true_led().position_mm).norm(), 0.02);
+    EXPECT_TRUE(((fit.led.intensity_W_per_sr - true_led().intensity_W_per_sr).abs() <
+                 1e-3 * true_led().intensity_W_per_sr)
+                    .all());
   }
 }
 

@@ -1,0 +1,68 @@
+#include "apps/rig/rig_led_lobe.h"
+
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <yaml-cpp/yaml.h>
+
+#include "apps/rig/rig_fields.h"
+
+namespace scattermeter::apps {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+// An x_axis that is nearly parallel to the LED's axis leaves the planes undetermined.
+constexpr double kLeastSine = 0.1;
+
+std::vector<double> list(const YamlField& field, double min, double max) {
+  std::vector<double> out;
+  for (const YamlField& item : field.items()) out.push_back(item.number(min, max));
+  return out;
+}
+
+}  // namespace
+
+std::shared_ptr<const LobeTable> read_lobe(const YamlField& field, const Eigen::Vector3d& axis) {
+  field.only({"angle_deg", "relative", "relative_x", "relative_y", "x_axis"});
+  std::vector<double> angles_rad = list(field.at("angle_deg"), -90.0, 90.0);
+  for (double& a : angles_rad) a *= kDegree_rad;
+  constexpr double kMost = 1e6;
+  try {
+    if (const auto relative = field.find("relative")) {
+      for (const char* key : {"relative_x", "relative_y", "x_axis"}) {
+        if (const auto f = field.find(key)) f->fail("belongs to two planes, and relative to one");
+      }
+      return std::make_shared<LobeTable>(std::move(angles_rad), list(*relative, 0.0, kMost));
+    }
+    const YamlField x_field = field.at("x_axis");
+    const Eigen::Vector3d x_axis = unit_vector(x_field);
+    if (!(axis.cross(x_axis).norm() > kLeastSine)) {
+      x_field.fail("expected a direction across the LED's axis");
+    }
+    return std::make_shared<LobeTable>(std::move(angles_rad),
+                                       list(field.at("relative_x"), 0.0, kMost),
+                                       list(field.at("relative_y"), 0.0, kMost), x_axis);
+  } catch (const std::invalid_argument& e) {
+    field.fail(e.what());
+  }
+}
+
+void emit_lobe(YAML::Emitter& out, const LobeTable& lobe) {
+  const auto row = [&](const char* key, const auto& values, double unit) {
+    out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const double v : values) out << v / unit;
+    out << YAML::EndSeq;
+  };
+  out << YAML::BeginMap;
+  row("angle_deg", lobe.angles_rad(), kDegree_rad);
+  row(lobe.is_round() ? "relative" : "relative_x", lobe.in_x(), 1.0);
+  if (!lobe.is_round()) {
+    row("relative_y", lobe.in_y(), 1.0);
+    row("x_axis", lobe.x_axis(), 1.0);
+  }
+  out << YAML::EndMap;
+}
+
+}  // namespace scattermeter::apps
