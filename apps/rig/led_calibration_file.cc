@@ -1,7 +1,9 @@
 #include "apps/rig/led_calibration_file.h"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
+#include <vector>
 
 #include <yaml-cpp/yaml.h>
 
@@ -20,6 +22,23 @@ void emit_row(YAML::Emitter& out, const Values& values) {
   out << YAML::Flow << YAML::BeginSeq;
   for (const double v : values) out << v;
   out << YAML::EndSeq;
+}
+
+// The map that read_lobe() reads.
+void emit_lobe(YAML::Emitter& out, const LobeTable& lobe) {
+  out << YAML::BeginMap << YAML::Key << "angle_deg" << YAML::Value;
+  std::vector<double> angles_deg = lobe.angles_rad();
+  for (double& a : angles_deg) a *= 180.0 / std::numbers::pi;
+  emit_row(out, angles_deg);
+  out << YAML::Key << (lobe.is_round() ? "relative" : "relative_x") << YAML::Value;
+  emit_row(out, lobe.in_x());
+  if (!lobe.is_round()) {
+    out << YAML::Key << "relative_y" << YAML::Value;
+    emit_row(out, lobe.in_y());
+    out << YAML::Key << "x_axis" << YAML::Value;
+    emit_row(out, lobe.x_axis());
+  }
+  out << YAML::EndMap;
 }
 
 void emit_residuals(YAML::Emitter& out, const calib::LedCalibration& c) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <yaml-cpp/yaml.h>
 
 #include "apps/rig/rig_fields.h"
 
@@ -47,22 +46,6 @@ std::shared_ptr<const LobeTable> read_lobe(const YamlField& field, const Eigen::
   } catch (const std::invalid_argument& e) {
     field.fail(e.what());
   }
-}
-
-void emit_lobe(YAML::Emitter& out, const LobeTable& lobe) {
-  const auto row = [&](const char* key, const auto& values, double unit) {
-    out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
-    for (const double v : values) out << v / unit;
-    out << YAML::EndSeq;
-  };
-  out << YAML::BeginMap;
-  row("angle_deg", lobe.angles_rad(), kDegree_rad);
-  row(lobe.is_round() ? "relative" : "relative_x", lobe.in_x(), 1.0);
-  if (!lobe.is_round()) {
-    row("relative_y", lobe.in_y(), 1.0);
-    row("x_axis", lobe.x_axis(), 1.0);
-  }
-  out << YAML::EndMap;
 }
 
 }  // namespace scattermeter::apps

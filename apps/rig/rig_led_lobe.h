@@ -1,9 +1,7 @@
-// An LED's lobe as a table in a rig or in a calibration.
+// Reading of an LED's lobe as a table.
 #pragma once
 
 #include <memory>
-
-#include <yaml-cpp/emitter.h>
 
 #include "apps/rig/yaml_field.h"
 #include "core/light/led_lobe.h"
@@ -14,8 +12,5 @@ namespace scattermeter::apps {
 // planes; conditions as for LobeTable. axis: the LED's, unit length. Throws InputError with file,
 // line, field and value.
 std::shared_ptr<const LobeTable> read_lobe(const YamlField& field, const Eigen::Vector3d& axis);
-
-// Writes the map that read_lobe() reads.
-void emit_lobe(YAML::Emitter& out, const LobeTable& lobe);
 
 }  // namespace scattermeter::apps

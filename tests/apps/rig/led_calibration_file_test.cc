@@ -79,13 +79,21 @@ TEST_F(LedCalibrationFile, ReadsBackToTheLastDigit) {
 // A fit may correct a table to both sides.
 TEST_F(LedCalibrationFile, HoldsATabulatedLobe) {
   calib::LedCalibration c = made_led_calibration();
-  c.fit.led.table = std::make_shared<LobeTable>(std::vector<double>{0.0, 1.0, 1.25},
-                                                std::vector<double>{1.0, 0.25, 0.0});
   c.fit.led.exponent = -0.125;
-  const CalibratedLed read_back = read(led_calibration_yaml(c));
-  ASSERT_NE(read_back.led.table, nullptr);
-  EXPECT_EQ(read_back.led.table->in_x(), c.fit.led.table->in_x());
-  EXPECT_EQ(read_back.led.exponent, -0.125);
+  using Values = std::vector<double>;
+  for (const LobeTable& table :
+       {LobeTable({0.0, 1.0, 1.25}, {1.0, 0.25, 0.0}),
+        LobeTable({-1.0, 0.0, 1.25}, Values{0, 1, 0}, Values{0.0, 1.0, 0.0}, {1, 2, 0})}) {
+    c.fit.led.table = std::make_shared<LobeTable>(table);
+    const CalibratedLed read_back = read(led_calibration_yaml(c));
+    ASSERT_NE(read_back.led.table, nullptr);
+    ASSERT_EQ(read_back.led.table->angles_rad().size(), table.angles_rad().size());
+    EXPECT_NEAR(read_back.led.table->angles_rad().back(), 1.25, 1e-15);
+    EXPECT_EQ(read_back.led.table->in_x(), table.in_x());
+    EXPECT_EQ(read_back.led.table->in_y(), table.in_y());
+    EXPECT_NEAR((read_back.led.table->x_axis() - table.x_axis()).norm(), 0.0, 1e-15);
+    EXPECT_EQ(read_back.led.exponent, -0.125);
+  }
 }
 
 // For people, and for plots: what the fit left.
