@@ -81,6 +81,20 @@ DeviationSummary summarise(const std::vector<DeviationResult>& results) {
   return out;
 }
 
+// "even light -3.1, scale 2.0": the largest pulls of the rig's quantities.
+std::string largest_pulls(std::vector<PriorPull> pulls) {
+  constexpr std::size_t kShown = 3;
+  const std::size_t n = std::min(kShown, pulls.size());
+  std::partial_sort(
+      pulls.begin(), pulls.begin() + static_cast<std::ptrdiff_t>(n), pulls.end(),
+      [](const PriorPull& a, const PriorPull& b) { return std::abs(a.pull) > std::abs(b.pull); });
+  std::string out;
+  for (std::size_t i = 0; i < n; ++i) {
+    out += fmt::format("{}{} {:.1f}", i > 0 ? ", " : "", pulls[i].name, pulls[i].pull);
+  }
+  return out;
+}
+
 std::string deviation_line(const DeviationResult& r) {
   const auto coefficient = [](const char* name, const Quantity& q, const AnswerError& e) {
     return fmt::format("{} {:.4g} +- {:.2g} ({:+.1f} %, {:+.1f} s)", name, q.value, q.std,
@@ -91,11 +105,12 @@ std::string deviation_line(const DeviationResult& r) {
       e.reasons.empty() ? coefficient("sigma_s'", e.sigma_s_prime_per_mm, r.judged.sigma_s_prime) +
                               "; " + coefficient("sigma_a", e.sigma_a_per_mm, r.judged.sigma_a)
                         : fmt::format("{}", fmt::join(e.reasons, " "));
-  return fmt::format("{}: {} {}, {}, {} LED{}, {}, {}, seed {}: {} (chi2/n {:.2f}, {:.1f} s)\n",
-                     verdict_name(r.judged.verdict), r.run.kind->name, size_text(r.run), r.run.body,
-                     r.run.leds, r.run.leds > 1 ? "s" : "", r.run.volume ? "volume" : "dipole",
-                     deviation_media()[r.channel].name, r.run.seed, answer, e.reduced_chi2,
-                     r.seconds);
+  return fmt::format(
+      "{}: {} {}, {}, {} LED{}, {}, {}, seed {}: {} (pulls: {}; chi2/n {:.2f}, {:.1f} s)\n",
+      verdict_name(r.judged.verdict), r.run.kind->name, size_text(r.run), r.run.body, r.run.leds,
+      r.run.leds > 1 ? "s" : "", r.run.volume ? "volume" : "dipole",
+      deviation_media()[r.channel].name, r.run.seed, answer, largest_pulls(e.pulls), e.reduced_chi2,
+      r.seconds);
 }
 
 std::string deviation_table(const std::vector<DeviationResult>& results) {

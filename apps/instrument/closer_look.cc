@@ -48,6 +48,7 @@ PoseResult pose_with_outlines(const Rig& rig, const ObjectScenes& objects,
     outlines.findings.push_back(finding);
   } catch (const InputError&) {
     // The outline was not found well enough to contradict anything.
+    if (!outlines.diagnosis->improves_pose) outlines.notes.pop_back();
   }
   return *outlines.pose;
 }

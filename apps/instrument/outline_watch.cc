@@ -240,7 +240,7 @@ void OutlineWatch::conclude(OutlineFindings& out) const {
     return;
   }
   if (d.agrees) {
-    if (!d.improves_pose) return;
+    if (!d.deserves_closer_look) return;
     out.pose = d.pose;
     out.prior = pose_;
     out.prior->covariance.diagonal().tail<3>().array() += kPlaceStd_mm * kPlaceStd_mm;

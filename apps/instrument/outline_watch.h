@@ -20,8 +20,9 @@ namespace scattermeter::apps {
 struct OutlineFindings {
   std::vector<Finding> findings;  // the most probable first
   std::vector<std::string> notes;
-  // Present if the outlines improve the pose within its uncertainty: the pose relative to the
-  // objects from both, and the given one with the uncertainty of the objects' places added.
+  // Present if the outlines improve the pose within its uncertainty, or may: the pose relative to
+  // the objects from both (the given one if they only may), and the given one with the uncertainty
+  // of the objects' places added.
   std::optional<PoseResult> pose, prior;
   // Absent without a shot whose outline was seen.
   std::optional<calib::OutlineDiagnosis> diagnosis;

@@ -228,6 +228,8 @@ OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
   out.shift_std_px = kShotShift * model.cell_px() / std::sqrt(std::max(1.0, n));
   out.improves_pose =
       out.agrees && chi_square_tail(std::max(0.0, exact.chi2 - known.chi2), 6) < kOutlineDoubt;
+  out.deserves_closer_look =
+      out.improves_pose || (out.agrees && out.shift_px.norm() > kShotShift * model.cell_px());
   out.pose = out.improves_pose ? pose_of(model, known, pose, body) : pose;
   return out;
 }

@@ -52,6 +52,9 @@ struct OutlineDiagnosis {
   // The outlines show that pose and place are off by a part of their stated uncertainty (p below
   // 10^-4): `pose` is then the pose relative to the mesh from both.
   bool improves_pose = false;
+  // They improve it, or lie farther from where they should than one shot's may by chance: a more
+  // careful search may improve the pose.
+  bool deserves_closer_look = false;
   PoseResult pose;
 };
 

@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "core/base/chi_square.h"
 #include "core/base/dense_solve.h"
 #include "core/estimation/model_choice.h"
 
@@ -56,6 +59,41 @@ void refuse_with_all_channels(const std::vector<PriorPull>& pulls,
 
 bool explains_its_image(const ChannelResult& r) {
   return r.estimate.converged && !misses_image(r.estimate);
+}
+
+// Light that no lamp of the rig sends has another amount in each channel, but one cause: what one
+// channel alone does not contradict, several may. Of each channel counts its largest pull, chosen
+// among those of its shots.
+void refuse_stray_light(const std::string& material, std::vector<ChannelResult>& results) {
+  // As improbable as one pull of kMostPull.
+  static const double kLeastProbability = std::erfc(kMostPull * M_SQRT1_2);
+  for (const char* group : {"even light", "pedestal"}) {
+    double chi2 = 0.0;
+    double choices = 1.0;
+    std::vector<std::pair<ChannelResult*, PriorPull>> channels;
+    for (ChannelResult& r : results) {
+      if (r.material != material || !explains_its_image(r)) continue;
+      const PriorPull* largest = nullptr;
+      double among = 0.0;
+      for (const PriorPull& p : r.estimate.pulls) {
+        if (p.group != group) continue;
+        among += 1.0;
+        if (largest == nullptr || std::abs(p.pull) > std::abs(largest->pull)) largest = &p;
+      }
+      if (largest == nullptr) continue;
+      channels.emplace_back(&r, *largest);
+      chi2 += largest->pull * largest->pull;
+      choices *= among;
+    }
+    if (channels.size() < 2) continue;
+    const double p_value = choices * chi_square_tail(chi2, static_cast<double>(channels.size()));
+    if (!(p_value < kLeastProbability)) continue;
+    for (auto& [r, pull] : channels) {
+      if (r->refused() || !(pull.image_relative > kLeastPullImage)) continue;
+      pull.pull = std::copysign(std::sqrt(chi2), pull.pull);
+      r->estimate.reasons.push_back("all channels together: " + contradiction_sentence(pull));
+    }
+  }
 }
 
 }  // namespace
@@ -132,6 +170,9 @@ void refuse_contradicted(std::vector<ChannelResult>& results) {
     }
   }
   refuse_with_all_channels(joint_pulls_of(results), results);
+  std::set<std::string> materials;
+  for (const ChannelResult& r : results) materials.insert(r.material);
+  for (const std::string& material : materials) refuse_stray_light(material, results);
   for (ChannelResult& r : results) {
     const auto by = contradicted.find(r.material);
     if (by == contradicted.end() || r.refused()) continue;

@@ -22,7 +22,8 @@ std::vector<PriorPull> joint_pulls_of(const std::vector<ChannelResult>& results)
 // If all channels together contradict the rig (core/fit/prior_pulls.h), adds that as a reason to
 // every result whose image the offset changes visibly. If one channel of a material does, and its
 // model explains its image, adds that to the other channels: the same rig made their images, even
-// where it does not show.
+// where it does not show. If the channels of a material together contradict the amount of unlisted
+// light (even light, pedestals), adds that to those whose image it changes visibly.
 void refuse_contradicted(std::vector<ChannelResult>& results);
 
 }  // namespace scattermeter

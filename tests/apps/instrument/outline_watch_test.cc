@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/instrument/closer_look.h"
 #include "apps/simulation/bodies_rig.h"
 #include "apps/simulation/virtual_shots.h"
 #include "calib/pose/shot_pose.h"
+#include "core/camera/camera_model.h"
 #include "core/mesh/bodies.h"
 #include "tests/fixtures/apps/body_rig.h"
 
@@ -99,6 +101,25 @@ TEST_F(OutlineWatchTest, PoseWithinItsUncertainty) {
   ASSERT_TRUE(found.pose);
   ASSERT_EQ(found.notes.size(), 1U);
   EXPECT_THAT(found.notes[0], HasSubstr("px high"));
+}
+
+// Less than the quick look tells from its own error: the careful search is to improve the pose.
+TEST_F(OutlineWatchTest, AFewTenthsOfAMillimetre) {
+  rig_.scene.shots.resize(1);
+  const OutlineFindings found = findings(shots({0.4, 0.0, 0.0}));
+  EXPECT_TRUE(found.findings.empty());
+  ASSERT_TRUE(found.pose);
+  EXPECT_FALSE(found.diagnosis->improves_pose);
+  OutlineFindings given = found;
+  const PoseResult stated = calib::pose_from_points(rig_.scene, rig_.pose);
+  const PoseResult pose = pose_with_outlines(rig_, scenes_, virtual_->source(1), given);
+  const auto image = [&](const PoseResult& p) {
+    return project(rig_.scene.camera.intrinsics, p.camera_from_world, {{0.0, 0.0, 10.0}}).front();
+  };
+  const Eigen::Vector2d moved =
+      project(rig_.scene.camera.intrinsics, stated.camera_from_world, {{0.4, 0.0, 10.0}}).front();
+  EXPECT_GT((image(stated) - moved).norm(), 1.0);
+  EXPECT_LT((image(pose) - moved).norm(), 0.15);
 }
 
 TEST_F(OutlineWatchTest, NothingSeen) {

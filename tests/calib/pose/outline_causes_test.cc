@@ -56,6 +56,7 @@ TEST_F(OutlineCausesTest, GoodRig) {
     const OutlineDiagnosis d = explain();
     EXPECT_TRUE(d.agrees) << d.explanations[1].text;
     EXPECT_FALSE(d.improves_pose);
+    EXPECT_FALSE(d.deserves_closer_look);
     EXPECT_GT(d.fitting_share[0], 0.9);
     EXPECT_LT(d.shift_px.norm(), 0.5);
   }
@@ -114,6 +115,15 @@ TEST_F(OutlineCausesTest, OneShotMoved) {
   EXPECT_FALSE(d.agrees);
   ASSERT_EQ(d.explanations[1].cause, OutlineCause::kShotMoved) << d.explanations[1].text;
   EXPECT_THAT(d.explanations[1].text, HasSubstr("c.dng"));
+}
+
+// What the quick look's own error explains, a careful search may see.
+TEST_F(OutlineCausesTest, AFewTenthsOfAMillimetre) {
+  add(0, {0.3, 0, 0});
+  const OutlineDiagnosis d = explain();
+  EXPECT_TRUE(d.agrees);
+  EXPECT_FALSE(d.improves_pose);
+  EXPECT_TRUE(d.deserves_closer_look) << d.shift_px.transpose();
 }
 
 // The same displacement, within what the rig states: the outline gives a better pose.

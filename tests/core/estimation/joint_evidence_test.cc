@@ -118,6 +118,31 @@ TEST(JointEvidence, ChannelsOfAMaterialShareTheirRig) {
   EXPECT_TRUE(results[0].estimate.reasons.empty());
 }
 
+// Three pulls of 3.7, each the larger of two shots, are as improbable together as one of 5.4.
+TEST(JointEvidence, StrayLightOfAllChannelsAddsUp) {
+  std::vector<ChannelResult> results(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    results[i].material = i < 3 ? "PE" : "POM";
+    results[i].channel = "RGBR"[i];
+    results[i].estimate.converged = true;
+    results[i].estimate.pulls = {{"even light a.dng", "even light", 3.3, 1.0, 0.01},
+                                 {"even light b.dng", "even light", -1.0, 1.0, 0.01},
+                                 {"eta", "eta", 4.9, 1.0, 0.01}};
+  }
+  refuse_contradicted(results);
+  for (const ChannelResult& r : results) EXPECT_TRUE(r.estimate.reasons.empty());
+  for (ChannelResult& r : results) r.estimate.pulls[0].pull = 3.7;
+  results[2].estimate.pulls[0].image_relative = 1e-4;
+  refuse_contradicted(results);
+  for (const std::size_t i : {0U, 1U}) {
+    ASSERT_EQ(results[i].estimate.reasons.size(), 1U);
+    EXPECT_THAT(results[i].estimate.reasons[0],
+                HasSubstr("all channels together: the shots contradict the even light"));
+  }
+  EXPECT_TRUE(results[2].estimate.reasons.empty());
+  EXPECT_TRUE(results[3].estimate.reasons.empty());
+}
+
 // A model that misses the image says nothing about the rig.
 TEST(JointEvidence, ChannelsThatTheModelMissesDoNotCount) {
   std::vector<ChannelResult> results(1);
