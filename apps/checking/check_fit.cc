@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -130,10 +131,20 @@ void add_departures(const Scene& stated, const Scene& scene, const DipoleSystem&
 }
 
 // The result of transport where the dipole does not hold, in the channel of its material with the
-// most light; other such channels are not judged. Where a quantity of the rig is contradicted, or
-// transport does not explain the shots either, the dipole's departures say more than none.
+// most light; other such channels are not judged. Where the light of a shot has a cause already
+// (exchanged lights, units), a quantity of the rig is contradicted, or transport does not explain
+// the shots either, the dipole's departures say more than none.
 std::vector<bool> judged_channels(Estimation& e,
-                                  const std::vector<std::optional<DipoleSystem>>& systems) {
+                                  const std::vector<std::optional<DipoleSystem>>& systems,
+                                  const std::vector<ObservedShot>& shots,
+                                  const std::vector<Finding>& findings) {
+  std::set<const ObservedShot*> explained;
+  for (const Finding& f : findings) {
+    for (const ObservedShot& shot : shots) {
+      const auto idx = static_cast<std::size_t>(shot.stated - e.scene.shots.data());
+      if (std::find(f.shots.begin(), f.shots.end(), idx) != f.shots.end()) explained.insert(&shot);
+    }
+  }
   std::vector<bool> judged(e.channels.size(), false);
   std::map<std::string, std::size_t> best;
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
@@ -141,7 +152,9 @@ std::vector<bool> judged_channels(Estimation& e,
     if (!systems[i] || !result.estimate.converged) continue;
     result.why_transport = why_transport(result, systems[i]->image_in_std);
     judged[i] = result.why_transport.empty() ||
-                contradiction(result.estimate.pulls, kMostPull, kLeastPullImage) != nullptr;
+                contradiction(result.estimate.pulls, kMostPull, kLeastPullImage) != nullptr ||
+                std::any_of(e.channels[i].shots.begin(), e.channels[i].shots.end(),
+                            [&](const ObservedShot* shot) { return explained.contains(shot); });
     if (judged[i]) continue;
     const auto [at, is_new] = best.try_emplace(e.channels[i].material, i);
     if (!is_new && systems[i]->image_in_std > systems[at->second]->image_in_std) at->second = i;
@@ -162,10 +175,10 @@ std::vector<bool> judged_channels(Estimation& e,
 }
 
 std::vector<CheckedChannel> fitted_channels(const Scene& stated, Estimation& e,
-                                            const std::vector<ObservedShot>& shots) {
-  std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
-  estimate_dipole(e, &systems);
-  const std::vector<bool> judged = judged_channels(e, systems);
+                                            const std::vector<std::optional<DipoleSystem>>& systems,
+                                            const std::vector<ObservedShot>& shots,
+                                            const std::vector<Finding>& findings) {
+  const std::vector<bool> judged = judged_channels(e, systems, shots, findings);
   std::vector<CheckedChannel> out;
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
     CheckedChannel& fitted = out.emplace_back();
@@ -218,7 +231,8 @@ CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotS
   KeptLight kept;
   Estimation e(rig.scene, lit, shots, useful_channels(rig, shots), options, kept, watch, progress);
   CheckFit out;
-  out.channels = fitted_channels(stated, e, shots);
+  std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
+  estimate_dipole(e, &systems);
   LightLook look(e.scene, lit, shots, kept.weights);
   for (std::size_t i = 0; i < shots.size(); ++i) {
     ShotLikeness& likeness = out.likeness.emplace_back(look.likeness(i));
@@ -227,6 +241,7 @@ CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotS
     }
   }
   out.findings = look.findings();
+  out.channels = fitted_channels(stated, e, systems, shots, out.findings);
   return out;
 }
 

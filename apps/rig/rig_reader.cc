@@ -159,7 +159,8 @@ void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
 Rig read_rig(const std::string& path, bool with_radiance) {
   const YamlField top = YamlField::load(path);
   top.only({"scattermeter_rig", "limits", "camera", "pose", "objects", "lights",
-            "even_light_share_std", "shots", "surroundings", "calibration", "truth"});
+            "even_light_share_std", "shot_shift_std_px", "shots", "surroundings", "calibration",
+            "truth"});
   require_version(top, "scattermeter_rig", "rigs");
   Rig rig;
   rig.path = path;
@@ -175,6 +176,8 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   const YamlField lights = top.at("lights");
   rig.scene.even_light_share_std =
       top.number_or("even_light_share_std", default_uncertainty::kEvenLight, 0.0, 1.0);
+  rig.scene.shot_shift_std_px =
+      top.number_or("shot_shift_std_px", default_uncertainty::kShotShift_px, 0.0, 100.0);
   for (const auto& [name, field] : lights.entries()) {
     rig.scene.lights.push_back(read_light(name, field, path, rig.limits));
   }

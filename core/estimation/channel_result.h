@@ -29,6 +29,12 @@ struct ShotRows {
   std::vector<RowState> state;
 };
 
+// The pattern of an image's residual (core/estimation/residual_look.h).
+struct ResidualLook {
+  std::string phrase;  // "one face (normal [1.00, 0.00, 0.00]), 3.1 % brighter than predicted"
+  double share = 0;    // of the squared residual, in standard deviations, beyond the noise
+};
+
 // The estimate from a single shot.
 struct ShotResult {
   std::string file;
@@ -59,6 +65,7 @@ struct ChannelResult {
   // Of transport only: the dipole's estimate, and why --model auto rejected it.
   std::optional<Estimate> dipole;
   std::string why_transport;
+  std::optional<ResidualLook> look;
   std::vector<ShotRows> rows;  // by shot, if EstimateOptions::keep_rows and the fit was completed
   bool refused() const { return !estimate.reasons.empty(); }
 };

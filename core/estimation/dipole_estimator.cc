@@ -12,6 +12,7 @@
 #include "core/estimation/joint_evidence.h"
 #include "core/estimation/mesh_scale.h"
 #include "core/estimation/nuisances.h"
+#include "core/estimation/residual_look.h"
 #include "core/estimation/sensitivities.h"
 #include "core/fit/dipole_fit.h"
 #include "core/fit/dipole_misfit.h"
@@ -117,6 +118,8 @@ class DipoleEstimator {
     report_rows(channel, work.rows, e_.results[i]);
     work.estimated = fit.estimate.converged;
     if (!work.estimated) return;
+    e_.results[i].look =
+        residual_look(shot_rows(channel, work.rows, fit.image.predicted, fit.image.std_l), channel);
     Eigen::Index at = 0;
     for (ChannelObservation& o : work.rows) {
       const auto n = static_cast<Eigen::Index>(o.rows_used);

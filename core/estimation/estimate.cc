@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "core/base/nearest_name.h"
 #include "core/base/progress.h"
 #include "core/estimation/estimation.h"
@@ -37,9 +39,24 @@ const Estimator& estimator(const std::string& name) {
   return *it;
 }
 
+namespace {
+
+// Tells of refused results what their residual looks like.
+void describe_residuals(Estimation& e) {
+  for (ChannelResult& r : e.results) {
+    if (!r.refused() || !r.look) continue;
+    r.estimate.reasons.push_back(
+        fmt::format("the residual is mostly {} ({:.0f} % of what noise does not explain)",
+                    r.look->phrase, 100.0 * r.look->share));
+  }
+}
+
+}  // namespace
+
 void run(const Estimator& chosen, Estimation& estimation) {
   chosen.estimate(estimation);
   refuse_contradicted(estimation.results);
+  describe_residuals(estimation);
 }
 
 std::vector<ChannelResult> estimate(const Scene& scene, LitObjects& lit,

@@ -99,8 +99,8 @@ void refuse_stray_light(const std::string& material, std::vector<ChannelResult>&
 }  // namespace
 
 bool is_shared(const Nuisance& nuisance) {
-  constexpr std::array<std::string_view, 6> kGroups = {"pose",         "lens",     "mesh position",
-                                                       "LED position", "LED axis", "LED exponent"};
+  constexpr std::array<std::string_view, 7> kGroups = {
+      "pose", "camera shift", "lens", "mesh position", "LED position", "LED axis", "LED exponent"};
   return nuisance.fitted && !nuisance.name.empty() &&
          std::find(kGroups.begin(), kGroups.end(), nuisance.group) != kGroups.end();
 }

@@ -132,16 +132,20 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
   const auto n = static_cast<Eigen::Index>(columns.rows().size());
   Eigen::Matrix<double, Eigen::Dynamic, 6> by_pose_root(n, 6);
   Eigen::MatrixXd by_lens_root(n, lens_root.cols());
+  Eigen::Matrix<double, Eigen::Dynamic, 2> by_shift(n, 2);
+  const CameraIntrinsics& lens = scene_.camera.intrinsics;
+  const Eigen::Array2d ray_per_px(1.0 / lens.fx_px, 1.0 / lens.fy_px);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto row = static_cast<std::size_t>(columns.rows()[static_cast<std::size_t>(i)]);
     const Eigen::Vector3d& site_mm = seen.sites[row].center_mm;
     const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[row]);
     const Eigen::Matrix<double, 3, 6> by_pose = surface_shift_by_pose(pose, site_mm, normal);
+    const Eigen::Matrix<double, 3, 2> by_ray = surface_shift_by_ray(pose, site_mm, normal);
     by_pose_root.row(i) = per_mm.col(i).transpose() * by_pose * pose_root;
+    by_shift.row(i) = (per_mm.col(i).transpose() * by_ray).array() * ray_per_px.transpose();
     if (lens_root.cols() == 0) continue;
     const Eigen::Matrix<double, 3, kLensParameters> by_lens =
-        surface_shift_by_ray(pose, site_mm, normal) *
-            ray_per_lens_parameter(scene_.camera.intrinsics, (pose * site_mm).hnormalized()) +
+        by_ray * ray_per_lens_parameter(scene_.camera.intrinsics, (pose * site_mm).hnormalized()) +
         by_pose * shot.pose.per_lens_parameter;
     by_lens_root.row(i) = per_mm.col(i).transpose() * by_lens * lens_root;
   }
@@ -149,6 +153,10 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
   const std::string name = shot.has_own_pose ? "pose " + shot.stated->file : "pose";
   for (Eigen::Index k = 0; k < 6; ++k) {
     columns.add(name + std::to_string(k), "pose", 1.0, by_pose_root.col(k));
+  }
+  for (Eigen::Index k = 0; k < 2 && !shot.has_own_pose && scene_.shot_shift_std_px > 0.0; ++k) {
+    columns.add(fmt::format("shift{} {}", k, shot.stated->file), "camera shift",
+                scene_.shot_shift_std_px, by_shift.col(k));
   }
   for (Eigen::Index k = 0; k < by_lens_root.cols(); ++k) {
     columns.add("lens" + std::to_string(k), "lens", 1.0, by_lens_root.col(k));

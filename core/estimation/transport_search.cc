@@ -11,6 +11,7 @@
 
 #include "core/estimation/channel_simulation.h"
 #include "core/estimation/mesh_scale.h"
+#include "core/estimation/residual_look.h"
 #include "core/estimation/transport_pilot.h"
 #include "core/estimation/transport_round.h"
 #include "core/estimation/transport_verdict.h"
@@ -221,13 +222,13 @@ class TransportSearch {
     estimate.psnr_db = whole.psnr_db;
     estimate.rows = static_cast<std::size_t>(system_.l.size());
     report_rows(channel_, rows_, result);
-    if (options_.keep_rows) {
-      result.rows = shot_rows(channel_, rows_, system_.l - rest, variance.cwiseSqrt());
-    }
     ModelJudgement judgement = round.judgement();
     add_refusals(round.misfit(), round.unexplained(), std::move(judgement.pulls), scale_test,
                  round.blocks(), estimate);
     result.evidence = std::move(judgement.evidence);
+    std::vector<ShotRows> rows = shot_rows(channel_, rows_, system_.l - rest, variance.cwiseSqrt());
+    result.look = residual_look(rows, channel_);
+    if (options_.keep_rows) result.rows = std::move(rows);
     widen_by_mesh_scale(channel_, estimate);
     report_shots(round, result);
     refuse_undetermined(estimate);

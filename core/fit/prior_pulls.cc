@@ -36,8 +36,9 @@ double over_root(double value, double variance) {
 
 // The next step for a contradiction, by the group of the quantity.
 const char* advice(const std::string& group) {
-  constexpr std::array<std::pair<const char*, const char*>, 17> kAdvice = {{
+  constexpr std::array<std::pair<const char*, const char*>, 18> kAdvice = {{
       {"pose", "check the pose points, and that neither camera nor object has moved"},
+      {"camera shift", "fasten camera and object, and take the shot again"},
       {"lens", "calibrate the camera at this focus"},
       {"mesh position", "check where the object stands and that its mesh is the right one"},
       {"mesh scale", "measure the object and scale its mesh"},

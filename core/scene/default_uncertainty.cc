@@ -23,6 +23,7 @@ void take_where_none(Scene& scene) {
     take(led->intensity_relative_std, kLedIntensity);
   }
   take(scene.even_light_share_std, kEvenLight);
+  take(scene.shot_shift_std_px, kShotShift_px);
 }
 
 }  // namespace scattermeter::default_uncertainty

@@ -22,8 +22,11 @@ inline constexpr double kLedIntensity = 0.01;
 // Irradiance by the walls of a dark room or a lamp's standby light, as a share of the LEDs'.
 inline constexpr double kEvenLight = 0.003;
 
+// The picture on a tripod, from shot to shot, px.
+inline constexpr double kShotShift_px = 0.1;
+
 // Gives every object and every LED without a calibration these deviations where it has none, and
-// the scene its even light.
+// the scene its even light and the shift of its shots.
 void take_where_none(Scene& scene);
 
 }  // namespace scattermeter::default_uncertainty

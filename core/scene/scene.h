@@ -123,6 +123,9 @@ struct Scene {
   // irradiance is this share of the LEDs' on a surface that faces them; for shots that list no
   // ambient light.
   double even_light_share_std = 0;
+  // Standard deviation of the shift of each shot's picture against the pose that all shots share,
+  // right and down, px: a tripod that settles, a shutter that shakes.
+  double shot_shift_std_px = 0;
   std::string source;  // the file that describes it, for messages; "": created in code
   SceneCamera camera;
   std::vector<SceneObject> objects;

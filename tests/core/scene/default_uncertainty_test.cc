@@ -28,6 +28,7 @@ TEST(DefaultUncertainty, FillsInWhatIsNotStated) {
   EXPECT_EQ(led.exponent_std, default_uncertainty::kLedExponent);
   EXPECT_EQ(led.intensity_relative_std, default_uncertainty::kLedIntensity);
   EXPECT_EQ(scene.even_light_share_std, default_uncertainty::kEvenLight);
+  EXPECT_EQ(scene.shot_shift_std_px, default_uncertainty::kShotShift_px);
   // A calibration states its own.
   EXPECT_EQ(scene.lights[1].led()->position_std_mm, 0.0);
 }
