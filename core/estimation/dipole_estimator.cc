@@ -87,7 +87,7 @@ class DipoleEstimator {
   // together doubt one.
   void fit_with_joint_pulls() {
     const auto is_doubted = [](double pull) { return std::abs(pull) > kDoubtfulPull; };
-    for (const PriorPull& p : joint_pulls_of(e_.results)) fit_.joint_pulls[p.name] = p.pull;
+    for (const PriorPull& p : joint_pulls_of(e_.results).pulls) fit_.joint_pulls[p.name] = p.pull;
     tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
       const Estimate& estimate = e_.results[i].estimate;
       if (!work_[i].estimated || !estimate.converged) return;

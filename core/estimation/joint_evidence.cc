@@ -9,8 +9,11 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "core/base/chi_square.h"
 #include "core/base/dense_solve.h"
+#include "core/base/symmetric_eigen.h"
 #include "core/estimation/model_choice.h"
 
 namespace scattermeter {
@@ -40,9 +43,27 @@ Shared shared_part(const RigEvidence& e) {
   return out;
 }
 
-void refuse_with_all_channels(const std::vector<PriorPull>& pulls,
-                              std::vector<ChannelResult>& results) {
-  const PriorPull* worst = contradiction(pulls, kMostPull, kLeastPullImage);
+// As improbable as one pull of kMostPull.
+double least_probability() {
+  static const double kProbability = std::erfc(kMostPull * M_SQRT1_2);
+  return kProbability;
+}
+
+void refuse_with_all_channels(const JointJudgement& joint, std::vector<ChannelResult>& results) {
+  const PriorPull* worst = contradiction(joint.pulls, kMostPull, kLeastPullImage);
+  std::string text;
+  if (worst != nullptr) {
+    text = "all channels together: " + contradiction_sentence(*worst);
+  } else if (joint.dof > 0.0 && chi_square_tail(joint.chi2, joint.dof) < least_probability()) {
+    // No single quantity is far off, but many are.
+    worst = contradiction(joint.pulls, 0.0, kLeastPullImage);
+    if (worst == nullptr) return;
+    text = fmt::format(
+        "all channels together contradict the positions and directions that the rig states "
+        "(chi-square "
+        "{:.0f} of {:.0f} quantities), most of all: {}",
+        joint.chi2, joint.dof, contradiction_sentence(*worst));
+  }
   if (worst == nullptr) return;
   for (ChannelResult& r : results) {
     std::vector<std::string>& reasons = r.estimate.reasons;
@@ -53,7 +74,7 @@ void refuse_with_all_channels(const std::vector<PriorPull>& pulls,
     if (it == own.end() || !reasons.empty()) continue;
     const double by_std = r.evidence.image_relative[it - own.begin()];
     if (!(by_std * std::abs(worst->offset) / it->std > kLeastPullImage)) continue;
-    reasons.push_back("all channels together: " + contradiction_sentence(*worst));
+    reasons.push_back(text);
   }
 }
 
@@ -65,8 +86,6 @@ bool explains_its_image(const ChannelResult& r) {
 // channel alone does not contradict, several may. Of each channel counts its largest pull, chosen
 // among those of its shots.
 void refuse_stray_light(const std::string& material, std::vector<ChannelResult>& results) {
-  // As improbable as one pull of kMostPull.
-  static const double kLeastProbability = std::erfc(kMostPull * M_SQRT1_2);
   for (const char* group : {"even light", "pedestal"}) {
     double chi2 = 0.0;
     double choices = 1.0;
@@ -87,7 +106,7 @@ void refuse_stray_light(const std::string& material, std::vector<ChannelResult>&
     }
     if (channels.size() < 2) continue;
     const double p_value = choices * chi_square_tail(chi2, static_cast<double>(channels.size()));
-    if (!(p_value < kLeastProbability)) continue;
+    if (!(p_value < least_probability())) continue;
     for (auto& [r, pull] : channels) {
       if (r->refused() || !(pull.image_relative > kLeastPullImage)) continue;
       pull.pull = std::copysign(std::sqrt(chi2), pull.pull);
@@ -105,8 +124,8 @@ bool is_shared(const Nuisance& nuisance) {
          std::find(kGroups.begin(), kGroups.end(), nuisance.group) != kGroups.end();
 }
 
-std::vector<PriorPull> joint_pulls(const std::vector<const RigEvidence*>& channels) {
-  std::vector<PriorPull> out;
+JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels) {
+  JointJudgement out;
   std::map<std::string, Eigen::Index> index;
   std::vector<Shared> parts;
   std::vector<double> image;  // by one deviation
@@ -115,9 +134,10 @@ std::vector<PriorPull> joint_pulls(const std::vector<const RigEvidence*>& channe
     const Shared& part = parts.emplace_back(shared_part(*e));
     for (const Eigen::Index k : part.at) {
       const Nuisance& n = e->nuisances[static_cast<std::size_t>(k)];
-      const auto [it, is_new] = index.try_emplace(n.name, static_cast<Eigen::Index>(out.size()));
+      const auto [it, is_new] =
+          index.try_emplace(n.name, static_cast<Eigen::Index>(out.pulls.size()));
       if (is_new) {
-        out.push_back({n.name, n.group});
+        out.pulls.push_back({n.name, n.group});
         image.push_back(0.0);
         std.push_back(n.std);
       }
@@ -125,7 +145,7 @@ std::vector<PriorPull> joint_pulls(const std::vector<const RigEvidence*>& channe
       most = std::max(most, e->image_relative[k]);
     }
   }
-  const auto n = static_cast<Eigen::Index>(out.size());
+  const auto n = static_cast<Eigen::Index>(out.pulls.size());
   if (n == 0) return out;
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd score = Eigen::VectorXd::Zero(n);
@@ -144,15 +164,25 @@ std::vector<PriorPull> joint_pulls(const std::vector<const RigEvidence*>& channe
   const Eigen::MatrixXd told = information * posterior;
   for (Eigen::Index k = 0; k < n; ++k) {
     constexpr double kRounding = 1e-12;
-    PriorPull& pull = out[static_cast<std::size_t>(k)];
+    PriorPull& pull = out.pulls[static_cast<std::size_t>(k)];
     pull.pull = told(k, k) > kRounding ? v[k] / std::sqrt(told(k, k)) : 0.0;
     pull.offset = v[k] * std[static_cast<std::size_t>(k)];
     pull.image_relative = std::abs(v[k]) * image[static_cast<std::size_t>(k)];
   }
+  // The score has the covariance information (1 + information) if all statements hold.
+  const SymmetricEigen by = symmetric_eigen(information);
+  constexpr double kLeastInformation = 1e-2;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double told_k = by.values[k];
+    if (!(told_k > kLeastInformation)) continue;
+    const double along = by.vectors.col(k).dot(score);
+    out.chi2 += along * along / (told_k * (1.0 + told_k));
+    out.dof += 1.0;
+  }
   return out;
 }
 
-std::vector<PriorPull> joint_pulls_of(const std::vector<ChannelResult>& results) {
+JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results) {
   std::vector<const RigEvidence*> all;
   for (const ChannelResult& r : results) {
     if (!r.evidence.nuisances.empty() && explains_its_image(r)) all.push_back(&r.evidence);
@@ -161,11 +191,14 @@ std::vector<PriorPull> joint_pulls_of(const std::vector<ChannelResult>& results)
 }
 
 void refuse_contradicted(std::vector<ChannelResult>& results) {
-  // By material: the channel that contradicts the rig, as it stands without the others.
-  std::map<std::string, std::pair<char, PriorPull>> contradicted;
+  // By material: the channel that contradicts the rig, as it stands without the others. That of a
+  // channel whose model misses its image counts if a second channel contradicts the rig as well.
+  std::map<std::string, std::pair<char, PriorPull>> contradicted, doubtful;
   for (const ChannelResult& r : results) {
     const PriorPull* worst = contradiction(r.estimate.pulls, kMostPull, kLeastPullImage);
-    if (worst != nullptr && explains_its_image(r)) {
+    if (worst == nullptr || !r.estimate.converged) continue;
+    const bool is_second = !doubtful.try_emplace(r.material, r.channel, *worst).second;
+    if (explains_its_image(r) || is_second) {
       contradicted.try_emplace(r.material, r.channel, *worst);
     }
   }

@@ -12,18 +12,28 @@ namespace scattermeter {
 // camera and objects are; intensities, refractive index and levels may differ between them.
 bool is_shared(const Nuisance& nuisance);
 
-// The pulls of the shared nuisances, from the sum of the channels' evidence with the other
-// nuisances of each eliminated, in the order of their first occurrence. image_relative is that of
-// the channel in which it is largest.
-std::vector<PriorPull> joint_pulls(const std::vector<const RigEvidence*>& channels);
-// Of the results whose model explains their image.
-std::vector<PriorPull> joint_pulls_of(const std::vector<ChannelResult>& results);
+struct JointJudgement {
+  // In the order of their first occurrence; image_relative is that of the channel in which it is
+  // largest.
+  std::vector<PriorPull> pulls;
+  // Of all of them at once: if all statements hold, a chi-square with as many degrees of freedom as
+  // there are combinations of which the images tell anything.
+  double chi2 = 0;
+  double dof = 0;
+};
 
-// If all channels together contradict the rig (core/fit/prior_pulls.h), adds that as a reason to
-// every result whose image the offset changes visibly. If one channel of a material does, and its
-// model explains its image, adds that to the other channels: the same rig made their images, even
-// where it does not show. If the channels of a material together contradict the amount of unlisted
-// light (even light, pedestals), adds that to those whose image it changes visibly.
+// The pulls of the shared nuisances, from the sum of the channels' evidence with the other
+// nuisances of each eliminated.
+JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels);
+// Of the results whose model explains their image.
+JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results);
+
+// If all channels together contradict the rig, by one quantity (core/fit/prior_pulls.h) or by all
+// of them at once, adds that as a reason to every result whose image the offset changes visibly. If
+// one channel of a material does, and its model explains its image or a second channel does so as
+// well, adds that to the other channels: the same rig made their images, even where it does not
+// show. If the channels of a material together contradict the amount of unlisted light (even light,
+// pedestals), adds that to those whose image it changes visibly.
 void refuse_contradicted(std::vector<ChannelResult>& results);
 
 }  // namespace scattermeter

@@ -64,12 +64,15 @@ TEST_F(CheckFitTest, AFitForEachChannelOfShotsOfUse) {
   }
 }
 
-// A tenth between two shots is 4.8 % up and down from their mean: 1.1 / 1 = (1 + x) / (1 - x). A
-// third of it may be taken for positions and lobes of the LEDs or for edges.
+// A tenth between two shots is 4.8 % up and down from their mean: 1.1 / 1 = (1 + x) / (1 - x). Some
+// of it may be taken for positions and lobes of the LEDs, for edges or for shifted pictures, as far
+// as its deviations tell.
 TEST_F(CheckFitTest, SeesThePowerOfAShot) {
   for (const CheckedChannel& fitted : checked_->fit.channels) {
     const std::vector<Departure>& power = fitted.departures->power_relative;
-    EXPECT_NEAR(power[1].value - power[0].value, 2.0 * 0.1 / 2.1, 0.033);
+    EXPECT_NEAR(power[1].value - power[0].value, 2.0 * 0.1 / 2.1,
+                3.0 * std::hypot(power[0].std, power[1].std));
+    EXPECT_GT(power[1].value - power[0].value, 0.05);
     EXPECT_LT(power[1].std, 0.02);
     EXPECT_NEAR(fitted.departures->even_relative[0].value, 0.0, 0.02);
     EXPECT_LT(fitted.departures->residual_relative[0], 0.05);

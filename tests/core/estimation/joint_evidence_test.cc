@@ -25,13 +25,16 @@ TEST(JointEvidence, TwoChannelsInClosedForm) {
                        Eigen::VectorXd::Constant(1, 0.01)};
   };
   const RigEvidence first = channel(4.0, 6.0), second = channel(5.0, 9.0);
-  const std::vector<PriorPull> pulls = joint_pulls({&first, &second});
+  const std::vector<PriorPull> pulls = joint_pulls({&first, &second}).pulls;
   ASSERT_EQ(pulls.size(), 1U);
   EXPECT_EQ(pulls[0].name, "led1.position0");
   EXPECT_NEAR(pulls[0].pull, 1.5 / std::sqrt(0.9), 1e-12);
   EXPECT_NEAR(pulls[0].offset, 1.5 * 0.2, 1e-12);
   EXPECT_NEAR(pulls[0].image_relative, 1.5 * 0.01, 1e-12);
-  EXPECT_TRUE(joint_pulls(std::vector<const RigEvidence*>{}).empty());
+  EXPECT_TRUE(joint_pulls(std::vector<const RigEvidence*>{}).pulls.empty());
+  // (b1 + b2)^2 / (a (1 + a)).
+  EXPECT_NEAR(joint_pulls({&first, &second}).chi2, 225.0 / 90.0, 1e-12);
+  EXPECT_EQ(joint_pulls({&first, &second}).dof, 1.0);
 }
 
 // The same as from all nuisances of both channels at once, where each has an own power.
@@ -51,7 +54,7 @@ TEST(JointEvidence, WhatIsNotSharedIsEliminated) {
                        Eigen::Vector3d::Ones()};
   };
   const RigEvidence first = evidence(a, r), second = evidence(b, s);
-  const std::vector<PriorPull> pulls = joint_pulls({&first, &second});
+  const std::vector<PriorPull> pulls = joint_pulls({&first, &second}).pulls;
   ASSERT_EQ(pulls.size(), 2U);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(16, 4);  // position, pose, power, power
   all.topRows(9) << a.col(0), a.col(2), a.col(1), Eigen::VectorXd::Zero(9);
@@ -110,12 +113,38 @@ TEST(JointEvidence, ChannelsOfAMaterialShareTheirRig) {
   }
   EXPECT_EQ(results[1].estimate.reasons.size(), 1U);
   EXPECT_TRUE(results[3].estimate.reasons.empty());
-  // The dipole's failure in one channel is not that of the rig.
+  // The dipole's failure in one channel is not that of the rig, unless another one fails as well.
   results[0].estimate.reasons.clear();
   results[1].estimate.misfit_p_value = 1e-9;
   results[1].estimate.misfit_relative = 0.02;
   refuse_contradicted(results);
   EXPECT_TRUE(results[0].estimate.reasons.empty());
+  results[2].estimate = results[1].estimate;
+  refuse_contradicted(results);
+  EXPECT_EQ(results[0].estimate.reasons.size(), 1U);
+}
+
+// Nine quantities off by 3 deviations each are none of them a contradiction, but all together are.
+TEST(JointEvidence, ManyQuantitiesAtOnce) {
+  constexpr double kInformation = 1e4;
+  std::vector<ChannelResult> results(1);
+  results[0].estimate.converged = true;
+  RigEvidence& e = results[0].evidence;
+  for (int k = 0; k < 9; ++k) {
+    e.nuisances.push_back({"LED position", 0.2, true, "led1.position" + std::to_string(k)});
+  }
+  e.information = kInformation * Eigen::MatrixXd::Identity(9, 9);
+  e.image_relative = Eigen::VectorXd::Constant(9, 0.005);
+  e.score = Eigen::VectorXd::Constant(9, 2.0 * kInformation);
+  refuse_contradicted(results);
+  EXPECT_TRUE(results[0].estimate.reasons.empty());  // 36 of 9
+  e.score *= 1.5;
+  refuse_contradicted(results);
+  ASSERT_EQ(results[0].estimate.reasons.size(), 1U);  // 81 of 9
+  EXPECT_THAT(
+      results[0].estimate.reasons[0],
+      HasSubstr("contradict the positions and directions that the rig states (chi-square 81 "
+                "of 9 quantities)"));
 }
 
 // Three pulls of 3.7, each the larger of two shots, are as improbable together as one of 5.4.
@@ -153,7 +182,7 @@ TEST(JointEvidence, ChannelsThatTheModelMissesDoNotCount) {
                          Eigen::MatrixXd::Constant(1, 1, 1e4),
                          Eigen::VectorXd::Constant(1, 1e5),
                          Eigen::VectorXd::Ones(1)};
-  EXPECT_TRUE(joint_pulls_of(results).empty());
+  EXPECT_TRUE(joint_pulls_of(results).pulls.empty());
 }
 
 }  // namespace
