@@ -59,6 +59,7 @@ class TransportSearch {
     result.singles.clear();
     result.agreement = {};
     result.evidence = {};
+    result.look.reset();
     estimate.converged = false;
     estimate.rows = static_cast<std::size_t>(system_.l.size());
     if (system_.l.size() < TransportRound::kLeastRows) {
@@ -97,10 +98,20 @@ class TransportSearch {
   }
 
  private:
-  // With the light by way of the plane, which paths simulate.
+  // With the light by way of the plane, which paths simulate, and without the shifts of single
+  // shots: with these, the search for faint materials ends with scale and eta far off.
   static DenseSystem whole(const DipoleSystem& dipole) {
     DenseSystem system = dipole.system();
     if (dipole.light_by_plane) system.l += dipole.light_by_plane();
+    std::vector<Eigen::Index> kept;
+    std::vector<Nuisance> nuisances;
+    for (std::size_t k = 0; k < system.nuisances.size(); ++k) {
+      if (system.nuisances[k].group == "camera shift") continue;
+      kept.push_back(static_cast<Eigen::Index>(k));
+      nuisances.push_back(system.nuisances[k]);
+    }
+    system.nuisances = std::move(nuisances);
+    system.nuisance_columns = Eigen::MatrixXd(system.nuisance_columns(Eigen::all, kept));
     return system;
   }
 
