@@ -60,8 +60,7 @@ void refuse_with_all_channels(const JointJudgement& joint, std::vector<ChannelRe
     if (worst == nullptr) return;
     text = fmt::format(
         "all channels together contradict the positions and directions that the rig states "
-        "(chi-square "
-        "{:.0f} of {:.0f} quantities), most of all: {}",
+        "(chi-square {:.0f} of {:.0f} quantities), most of all: {}",
         joint.chi2, joint.dof, contradiction_sentence(*worst));
   }
   if (worst == nullptr) return;

@@ -1,3 +1,5 @@
+#include "core/estimation/residual_look.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

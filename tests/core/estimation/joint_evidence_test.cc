@@ -16,6 +16,17 @@ const Nuisance kPosition{"LED position", 0.2, true, "led1.position0"};
 const Nuisance kPose{"pose", 1.0, true, "pose0"};
 const Nuisance kPower{"LED power", 0.01, true, "led1.power"};
 
+// R, G, B of one material and R of another, fitted.
+std::vector<ChannelResult> three_channels_and_one() {
+  std::vector<ChannelResult> results(4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    results[i].material = i < 3 ? "PE" : "POM";
+    results[i].channel = "RGBR"[i];
+    results[i].estimate.converged = true;
+  }
+  return results;
+}
+
 // v = (a1 b1 + a2 b2) / (1 + a1 + a2), and its variance (a1 + a2) / (1 + a1 + a2).
 TEST(JointEvidence, TwoChannelsInClosedForm) {
   const auto channel = [](double a, double b) {
@@ -97,12 +108,7 @@ TEST(JointEvidence, RefusesWhatAllContradict) {
 }
 
 TEST(JointEvidence, ChannelsOfAMaterialShareTheirRig) {
-  std::vector<ChannelResult> results(4);
-  for (std::size_t i = 0; i < 4; ++i) {
-    results[i].material = i < 3 ? "PE" : "POM";
-    results[i].channel = "RGBR"[i];
-    results[i].estimate.converged = true;
-  }
+  std::vector<ChannelResult> results = three_channels_and_one();
   results[1].estimate.pulls = {{"even light a.dng", "even light", 6.0, 1.0, 0.01}};
   results[1].estimate.reasons = {"its own"};
   refuse_contradicted(results);
@@ -149,11 +155,8 @@ TEST(JointEvidence, ManyQuantitiesAtOnce) {
 
 // Three pulls of 3.7, each the larger of two shots, are as improbable together as one of 5.4.
 TEST(JointEvidence, StrayLightOfAllChannelsAddsUp) {
-  std::vector<ChannelResult> results(4);
+  std::vector<ChannelResult> results = three_channels_and_one();
   for (std::size_t i = 0; i < 4; ++i) {
-    results[i].material = i < 3 ? "PE" : "POM";
-    results[i].channel = "RGBR"[i];
-    results[i].estimate.converged = true;
     results[i].estimate.pulls = {{"even light a.dng", "even light", 3.3, 1.0, 0.01},
                                  {"even light b.dng", "even light", -1.0, 1.0, 0.01},
                                  {"eta", "eta", 4.9, 1.0, 0.01}};
