@@ -75,11 +75,11 @@ EdgeStripOptions strip_of(const Candidate& candidate, const EdgePointOptions& op
 
 double edge_blur_px(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
                     const Rigid3d& camera_from_world) {
-  constexpr std::size_t kMostPieces = 60;
+  constexpr std::size_t kMostPieces = 24;
   constexpr std::size_t kLeastPieces = 8;
   EdgePointOptions options;
   options.half_width_px = 12.0;
-  options.search_px = 8.0;
+  options.search_px = 4.0;
   std::vector<Candidate> candidates =
       predict({shot}, Lens(intrinsics), intrinsics.fx_px, camera_from_world, options);
   std::erase_if(candidates, [](const Candidate& c) { return c.point.kind != EdgeKind::kContour; });

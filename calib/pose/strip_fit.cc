@@ -40,18 +40,17 @@ double StripFit::solve(double offset, double blur) {
   const EdgeShape shape(normal_, blur);
   basis_.resize(index(samples_.size()), columns_);
   for (std::size_t i = 0; i < samples_.size(); ++i) basis_.row(index(i)) = row(shape, offset, i);
-  linear_.resize(columns_, channels_);
-  normal_matrix_.resize(static_cast<std::size_t>(channels_));
+  linear_.setZero(columns_, channels_);
+  for (Square& n : normal_matrix_) n.setZero(columns_, columns_);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const auto c = static_cast<std::size_t>(samples_[i].channel);
+    const auto b = basis_.row(index(i)).transpose();
+    normal_matrix_[c].noalias() += (weights_[i] * b).lazyProduct(b.transpose());
+    linear_.col(samples_[i].channel) += weights_[i] * samples_[i].signal_counts * b;
+  }
   for (int c = 0; c < channels_; ++c) {
-    Eigen::MatrixXd n = Eigen::MatrixXd::Zero(columns_, columns_);
-    Eigen::VectorXd g = Eigen::VectorXd::Zero(columns_);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (samples_[i].channel != c) continue;
-      n += weights_[i] * basis_.row(index(i)).transpose() * basis_.row(index(i));
-      g += weights_[i] * samples_[i].signal_counts * basis_.row(index(i)).transpose();
-    }
-    linear_.col(c) = n.ldlt().solve(g);
-    normal_matrix_[static_cast<std::size_t>(c)] = n;
+    linear_.col(c) =
+        normal_matrix_[static_cast<std::size_t>(c)].ldlt().solve(linear_.col(c).eval());
   }
   double chi2 = 0;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -74,7 +73,7 @@ Eigen::Matrix2d StripFit::information(double offset, double blur, Eigen::Vector2
   const EdgeShape wider(normal_, blur + kStep);
   const EdgeShape narrower(normal_, blur - kStep);
   const EdgeShape shape(normal_, blur);
-  Eigen::MatrixXd j(index(samples_.size()), 2);
+  Eigen::Matrix<double, Eigen::Dynamic, 2> j(index(samples_.size()), 2);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const auto a = linear_.col(samples_[i].channel);
     j(index(i), 0) =
@@ -83,16 +82,17 @@ Eigen::Matrix2d StripFit::information(double offset, double blur, Eigen::Vector2
   }
   Eigen::Matrix2d info = Eigen::Matrix2d::Zero();
   gradient->setZero();
-  for (int c = 0; c < channels_; ++c) {
-    Eigen::MatrixXd cross = Eigen::MatrixXd::Zero(columns_, 2);
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      if (samples_[i].channel != c) continue;
-      info += weights_[i] * j.row(index(i)).transpose() * j.row(index(i));
-      cross += weights_[i] * basis_.row(index(i)).transpose() * j.row(index(i));
-      *gradient +=
-          weights_[i] * (samples_[i].signal_counts - predicted_[i]) * j.row(index(i)).transpose();
-    }
-    info -= cross.transpose() * normal_matrix_[static_cast<std::size_t>(c)].ldlt().solve(cross);
+  std::array<Eigen::Matrix<double, Eigen::Dynamic, 2, 0, kMostColumns>, 3> cross;
+  for (auto& of_channel : cross) of_channel.setZero(columns_, 2);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const auto by = j.row(index(i));
+    info.noalias() += (weights_[i] * by.transpose()).lazyProduct(by);
+    cross[static_cast<std::size_t>(samples_[i].channel)].noalias() +=
+        (weights_[i] * basis_.row(index(i)).transpose()).lazyProduct(by);
+    *gradient += weights_[i] * (samples_[i].signal_counts - predicted_[i]) * by.transpose();
+  }
+  for (std::size_t c = 0; c < static_cast<std::size_t>(channels_); ++c) {
+    info -= cross[c].transpose() * normal_matrix_[c].ldlt().solve(cross[c]);
   }
   return info;
 }
@@ -101,8 +101,8 @@ double StripFit::snr(double* sign) const {
   double sum = 0;
   *sign = 0;
   for (int c = 0; c < channels_; ++c) {
-    const Eigen::MatrixXd covariance = normal_matrix_[static_cast<std::size_t>(c)].ldlt().solve(
-        Eigen::MatrixXd::Identity(columns_, columns_));
+    const Square covariance = normal_matrix_[static_cast<std::size_t>(c)].ldlt().solve(
+        Square::Identity(columns_, columns_));
     const double z = linear_(1, c) / std::sqrt(covariance(1, 1));
     sum += z * z;
     *sign += z;
@@ -110,9 +110,9 @@ double StripFit::snr(double* sign) const {
   return std::sqrt(sum);
 }
 
-Eigen::RowVectorXd StripFit::row(const EdgeShape& shape, double offset, std::size_t i) const {
+StripFit::Row StripFit::row(const EdgeShape& shape, double offset, std::size_t i) const {
   const auto s = shape.at(offset - samples_[i].s);
-  Eigen::RowVectorXd r(columns_);
+  Row r(columns_);
   r.head<4>() << 1.0, s[0], s[1], s[2];
   if (columns_ > 4) r[4] = samples_[i].s;
   return r;

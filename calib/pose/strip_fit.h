@@ -1,6 +1,7 @@
 // The linear part of locating an edge: the brightnesses on both sides for a given offset and blur.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +21,8 @@ struct StripSample {
 // b, a_0, a_1, a_2 [, c] are linear and solved for; offset and blur are chosen by the caller.
 class StripFit {
  public:
+  static constexpr int kMostColumns = kEdgeTerms + 2;
+
   // `normal`: unit vector across the edge in the image. `per_count`: photon variance per count.
   // With `both_bright` the brightness outside has a slope c.
   StripFit(std::vector<StripSample> samples, const Eigen::Vector2d& normal, double per_count,
@@ -44,7 +47,13 @@ class StripFit {
   double snr(double* sign) const;
 
  private:
-  Eigen::RowVectorXd row(const EdgeShape& shape, double offset, std::size_t i) const;
+  using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMostColumns>;
+  using Rows =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, -1, kMostColumns>;
+  using Square =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
+
+  Row row(const EdgeShape& shape, double offset, std::size_t i) const;
 
   std::vector<StripSample> samples_;
   Eigen::Vector2d normal_;
@@ -53,9 +62,10 @@ class StripFit {
   int channels_ = 0;
   std::vector<double> weights_;
   std::vector<double> predicted_;
-  Eigen::MatrixXd basis_;
-  Eigen::MatrixXd linear_;  // a column per channel: b, a_0, a_1, a_2 [, c]
-  std::vector<Eigen::MatrixXd> normal_matrix_;
+  Rows basis_;
+  // A column per channel: b, a_0, a_1, a_2 [, c].
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, 3> linear_;
+  std::array<Square, 3> normal_matrix_;  // by channel
 };
 
 }  // namespace scattermeter::calib

@@ -23,9 +23,9 @@ Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& k
                                   const std::vector<LitMedium>& media) {
   const ObjectScene& object = *seen.object;
   const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
-  // Smooth light: patches of a twentieth of the object.
+  // Smooth light: patches of a twelfth of the object.
   const PatchMesh coarse(object.mesh(),
-                         std::max(2.0 * seen.patches->patch_size_mm(), object.size_mm() / 20.0));
+                         std::max(2.0 * seen.patches->patch_size_mm(), object.size_mm() / 12.0));
   const double eta = object.stated->eta_int_over_ext;
   return images_at_centers(
       seen, AmbientLight().illuminate(coarse, shadows, eta, LightUse::kBudget)[0], knots, media);

@@ -143,7 +143,7 @@ double set_misfit(const RecoveredReflectance& recovered, double l2,
 struct Solved {
   RigPriors priors;
   std::vector<Nuisance> fitted;
-  std::unique_ptr<DipoleSolver> solver;  // refers to `fitted`
+  std::unique_ptr<DipoleSolver> solver;
   Point optimum;
   ModelJudgement judgement;
 };

@@ -1,10 +1,12 @@
 #include "core/fit/dipole_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 
+#include <Eigen/QR>
 #include <ceres/ceres.h>
 
 #include "core/base/solver_options.h"
@@ -16,23 +18,14 @@ namespace {
 
 using Coefficient = DipoleSolver::Coefficient;
 
-// Residuals sqrt_information (s R, v) - whitened; parameter blocks u, q, log s, one value each, and
-// the nuisances v where there are any.
-class RecoveredCost final : public ceres::CostFunction {
+// Residuals basis^T (sqrt_information (s R, 0) - whitened), all nuisances eliminated; parameter
+// blocks u, q, log s, one value each.
+class RecoveredCost final : public ceres::SizedCostFunction<ceres::DYNAMIC, 1, 1, 1> {
  public:
-  RecoveredCost(const RecoveredReflectance& recovered, const DistanceKnots& knots,
-                std::size_t n_nuisances, double eta)
-      : kernel_(recovered.sqrt_information.leftCols(knots.size())),
-        nuisance_(recovered.sqrt_information.middleCols(knots.size(),
-                                                        static_cast<Eigen::Index>(n_nuisances))),
-        whitened_(recovered.whitened),
-        knots_(knots),
-        eta_(eta) {
-    set_num_residuals(static_cast<int>(recovered.whitened.size()));
-    mutable_parameter_block_sizes()->assign(3, 1);
-    if (nuisance_.cols() > 0) {
-      mutable_parameter_block_sizes()->push_back(static_cast<int>(nuisance_.cols()));
-    }
+  RecoveredCost(const Eigen::MatrixXd& kernel, const Eigen::VectorXd& whitened,
+                const DistanceKnots& knots, double eta)
+      : kernel_(kernel), whitened_(whitened), knots_(knots), eta_(eta) {
+    set_num_residuals(static_cast<int>(whitened.size()));
   }
 
   bool Evaluate(double const* const* parameters, double* residuals,
@@ -49,10 +42,6 @@ class RecoveredCost final : public ceres::CostFunction {
     const Eigen::VectorXd predicted = kernel_ * (s * c.r);
     Eigen::Map<Eigen::VectorXd> residual_vector(residuals, n);
     residual_vector = predicted - whitened_;
-    if (nuisance_.cols() > 0) {
-      residual_vector +=
-          nuisance_ * Eigen::Map<const Eigen::VectorXd>(parameters[3], nuisance_.cols());
-    }
     if (!residual_vector.allFinite()) return false;
     if (jacobians != nullptr) {
       const auto column = [&](int block) {
@@ -61,16 +50,12 @@ class RecoveredCost final : public ceres::CostFunction {
       if (jacobians[0] != nullptr) column(0) = kernel_ * (s * c.d_u);
       if (jacobians[1] != nullptr) column(1) = kernel_ * (s * c.d_q);
       if (jacobians[2] != nullptr) column(2) = predicted;
-      if (nuisance_.cols() > 0 && jacobians[3] != nullptr) {
-        Eigen::Map<WeightMatrix>(jacobians[3], n, nuisance_.cols()) = nuisance_;
-      }
     }
     return true;
   }
 
  private:
-  Eigen::MatrixXd kernel_;
-  Eigen::MatrixXd nuisance_;
+  const Eigen::MatrixXd& kernel_;
   const Eigen::VectorXd& whitened_;
   const DistanceKnots& knots_;
   double eta_;
@@ -78,14 +63,11 @@ class RecoveredCost final : public ceres::CostFunction {
 
 // The same without q, which follows from u where a coefficient is held: sigma_a = q exp(u), or
 // sigma_s' = (1 - q) exp(u).
-class HeldCost final : public ceres::CostFunction {
+class HeldCost final : public ceres::SizedCostFunction<ceres::DYNAMIC, 1, 1> {
  public:
   HeldCost(std::unique_ptr<RecoveredCost> cost, Coefficient held, double value_per_mm)
       : cost_(std::move(cost)), held_(held), value_per_mm_(value_per_mm) {
     set_num_residuals(cost_->num_residuals());
-    for (std::size_t i = 0; i < cost_->parameter_block_sizes().size(); ++i) {
-      if (i != 1) mutable_parameter_block_sizes()->push_back(cost_->parameter_block_sizes()[i]);
-    }
   }
   static double q_of(double u, Coefficient held, double value_per_mm) {
     const double share = value_per_mm * std::exp(-u);
@@ -98,12 +80,11 @@ class HeldCost final : public ceres::CostFunction {
     constexpr double kRounding = 1e-12;
     if (!(q >= -kRounding) || q > DipoleSolver::kMaxAbsorbed + kRounding) return false;
     q = std::clamp(q, 0.0, DipoleSolver::kMaxAbsorbed);
-    std::vector<double const*> all = {parameters[0], &q};
-    for (std::size_t i = 1; i < parameter_block_sizes().size(); ++i) all.push_back(parameters[i]);
+    const std::array<double const*, 3> all = {parameters[0], &q, parameters[1]};
     if (jacobians == nullptr) return cost_->Evaluate(all.data(), residuals, nullptr);
     std::vector<double> by_q(static_cast<std::size_t>(num_residuals()));
-    std::vector<double*> d = {jacobians[0], jacobians[0] != nullptr ? by_q.data() : nullptr};
-    for (std::size_t i = 1; i < parameter_block_sizes().size(); ++i) d.push_back(jacobians[i]);
+    std::array<double*, 3> d = {jacobians[0], jacobians[0] != nullptr ? by_q.data() : nullptr,
+                                jacobians[1]};
     if (!cost_->Evaluate(all.data(), residuals, d.data())) return false;
     if (jacobians[0] != nullptr) {
       const double dq_du = held_ == Coefficient::kSigmaA ? -q : 1.0 - q;
@@ -116,28 +97,6 @@ class HeldCost final : public ceres::CostFunction {
   std::unique_ptr<RecoveredCost> cost_;
   Coefficient held_;
   double value_per_mm_;
-};
-
-// v / std for every nuisance.
-class NuisancePriorCost final : public ceres::CostFunction {
- public:
-  explicit NuisancePriorCost(const std::vector<Nuisance>& fitted) : nuisances_(fitted) {
-    set_num_residuals(static_cast<int>(fitted.size()));
-    mutable_parameter_block_sizes()->assign(1, static_cast<int>(fitted.size()));
-  }
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const std::size_t n = nuisances_.size();
-    for (std::size_t i = 0; i < n; ++i) residuals[i] = parameters[0][i] / nuisances_[i].std;
-    if (jacobians != nullptr && jacobians[0] != nullptr) {
-      std::fill(jacobians[0], jacobians[0] + n * n, 0.0);
-      for (std::size_t i = 0; i < n; ++i) jacobians[0][i * n + i] = 1.0 / nuisances_[i].std;
-    }
-    return true;
-  }
-
- private:
-  const std::vector<Nuisance>& nuisances_;
 };
 
 // (log s) / std: the prior of the scale.
@@ -161,12 +120,8 @@ bool can_start(const ceres::CostFunction& cost, const std::vector<double*>& bloc
   return cost.Evaluate(blocks.data(), residuals.data(), nullptr);
 }
 
-// Adds the priors to a problem that already contains `p`'s log_s and v, and solves it.
-void solve(ceres::Problem& problem, const std::vector<Nuisance>& fitted, const ScalePrior& scale,
-           DipoleSolver::Point& p) {
-  if (!p.v.empty()) {
-    problem.AddResidualBlock(new NuisancePriorCost(fitted), nullptr, p.v.data());
-  }
+// Adds the prior of the scale to a problem that already contains `p`'s log_s, and solves it.
+void solve(ceres::Problem& problem, const ScalePrior& scale, DipoleSolver::Point& p) {
   if (scale.relative_std == 0.0) {
     problem.SetParameterBlockConstant(&p.log_s);
   } else if (std::isfinite(scale.relative_std)) {
@@ -189,20 +144,41 @@ double DipoleSolver::Point::sigma_t_prime_per_mm() const { return std::exp(u); }
 double DipoleSolver::Point::sigma_s_prime_per_mm() const { return (1.0 - q) * std::exp(u); }
 double DipoleSolver::Point::sigma_a_per_mm() const { return q * std::exp(u); }
 
+// With N the nuisances' columns and S their standard deviations, A = (N; 1 / S) is to equal the
+// residual (r; 0). The component orthogonal to A's range is the residual that is left, the rest
+// determines v; an unbound nuisance without information is in neither.
 DipoleSolver::DipoleSolver(const RecoveredReflectance& recovered, const DistanceKnots& knots,
                            const std::vector<Nuisance>& fitted, double eta_int_over_ext,
                            const ScalePrior& scale)
-    : recovered_(recovered),
-      knots_(knots),
-      fitted_(fitted),
-      eta_(eta_int_over_ext),
-      scale_(scale) {}
+    : recovered_(recovered), knots_(knots), eta_(eta_int_over_ext), scale_(scale) {
+  const Eigen::Index n = recovered.whitened.size();
+  const auto m = static_cast<Eigen::Index>(fitted.size());
+  kernel_ = recovered.sqrt_information.leftCols(knots.size());
+  whitened_ = recovered.whitened;
+  if (m == 0) return;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(n + m, m);
+  a.topRows(n) = recovered.sqrt_information.middleCols(knots.size(), m);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    a(n + k, k) = 1.0 / fitted[static_cast<std::size_t>(k)].std;
+  }
+  // Units differ: each column is scaled to length 1.
+  const Eigen::VectorXd norm = a.colwise().norm();
+  const Eigen::VectorXd unit = (norm.array() > 0.0).select(norm.cwiseInverse(), 0.0);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a * unit.asDiagonal());
+  const Eigen::MatrixXd q = qr.householderQ();
+  const auto left = q.rightCols(n + m - qr.rank()).topRows(n);
+  const Eigen::MatrixXd v_by_residual =
+      unit.asDiagonal() * qr.solve(Eigen::MatrixXd::Identity(n + m, n));
+  v_by_kernel_ = v_by_residual * kernel_;
+  v_by_whitened_ = v_by_residual * whitened_;
+  kernel_ = (left.transpose() * kernel_).eval();
+  whitened_ = (left.transpose() * whitened_).eval();
+}
 
 DipoleSolver::Point DipoleSolver::best() const {
   Point p;
   p.cost = std::numeric_limits<double>::infinity();
-  for (Point& start : dipole_starts(recovered_, knots_, eta_, scale_)) {
-    start.v.assign(fitted_.size(), 0.0);
+  for (const Point& start : dipole_starts(recovered_, knots_, eta_, scale_)) {
     const Point q = freed(start);
     if (q.cost < p.cost || !std::isfinite(p.cost)) p = q;
   }
@@ -223,9 +199,8 @@ DipoleSolver::Point DipoleSolver::best() const {
 DipoleSolver::Point DipoleSolver::freed(const Point& from) const {
   Point p = from;
   ceres::Problem problem;
-  std::vector<double*> blocks = {&p.u, &p.q, &p.log_s};
-  if (!p.v.empty()) blocks.push_back(p.v.data());
-  auto cost = std::make_unique<RecoveredCost>(recovered_, knots_, fitted_.size(), eta_);
+  const std::vector<double*> blocks = {&p.u, &p.q, &p.log_s};
+  auto cost = std::make_unique<RecoveredCost>(kernel_, whitened_, knots_, eta_);
   if (!can_start(*cost, blocks)) {
     p.converged = false;
     p.cost = std::numeric_limits<double>::infinity();
@@ -234,8 +209,16 @@ DipoleSolver::Point DipoleSolver::freed(const Point& from) const {
   problem.AddResidualBlock(cost.release(), nullptr, blocks);
   problem.SetParameterLowerBound(&p.q, 0, 0.0);
   problem.SetParameterUpperBound(&p.q, 0, kMaxAbsorbed);
-  solve(problem, fitted_, scale_, p);
+  solve(problem, scale_, p);
+  set_nuisances(p);
   return p;
+}
+
+void DipoleSolver::set_nuisances(Point& p) const {
+  if (v_by_kernel_.rows() == 0) return;
+  const Eigen::VectorXd v =
+      v_by_whitened_ - v_by_kernel_ * (std::exp(p.log_s) * dipole_curve(knots_, p.u, p.q, eta_).r);
+  p.v.assign(v.begin(), v.end());
 }
 
 std::optional<DipoleSolver::Point> DipoleSolver::best_with(Coefficient held, double value_per_mm,
@@ -252,11 +235,9 @@ std::optional<DipoleSolver::Point> DipoleSolver::best_with(Coefficient held, dou
     p.u = std::log(value_per_mm / (1.0 - start.q));
   }
   ceres::Problem problem;
-  std::vector<double*> blocks = {&p.u, &p.log_s};
-  if (!p.v.empty()) blocks.push_back(p.v.data());
+  const std::vector<double*> blocks = {&p.u, &p.log_s};
   auto cost = std::make_unique<HeldCost>(
-      std::make_unique<RecoveredCost>(recovered_, knots_, fitted_.size(), eta_), held,
-      value_per_mm);
+      std::make_unique<RecoveredCost>(kernel_, whitened_, knots_, eta_), held, value_per_mm);
   if (!can_start(*cost, blocks)) return std::nullopt;
   problem.AddResidualBlock(cost.release(), nullptr, blocks);
   // q >= 0 and q <= kMaxAbsorbed as bounds of u.
@@ -268,9 +249,10 @@ std::optional<DipoleSolver::Point> DipoleSolver::best_with(Coefficient held, dou
     problem.SetParameterLowerBound(&p.u, 0, std::log(value_per_mm));
     problem.SetParameterUpperBound(&p.u, 0, std::log(value_per_mm / (1.0 - kMaxAbsorbed)) - 1e-9);
   }
-  solve(problem, fitted_, scale_, p);
+  solve(problem, scale_, p);
   p.q = std::clamp(HeldCost::q_of(p.u, held, value_per_mm), 0.0, kMaxAbsorbed);
   if (!p.converged) return std::nullopt;
+  set_nuisances(p);
   return p;
 }
 

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/diffusion/distance_weights.h"
 #include "core/fit/estimate.h"
 #include "core/fit/linear_shot.h"
@@ -13,8 +15,8 @@ namespace scattermeter {
 
 // Least squares of s R(d; sigma_s', sigma_a) and the nuisances v against the recovered r in the
 // metric of r's own errors, that is, the image's chi-square, with the priors of s and v. Continuous
-// in all parameters (Ceres, analytic derivatives): u = log sigma_t', q = 1 - alpha' in 0 .. 0.95,
-// log s, v.
+// in u = log sigma_t', q = 1 - alpha' in 0 .. 0.95 and log s (Ceres, analytic derivatives); v, in
+// which the image is linear, is eliminated (variable projection; Golub and Pereyra 1973).
 class DipoleSolver {
  public:
   struct Point {
@@ -30,8 +32,8 @@ class DipoleSolver {
   };
   enum class Coefficient { kSigmaSPrime, kSigmaA };
 
-  // fitted: the fitted nuisances, in the order of their columns, which follow the knots'. All
-  // references must outlive the solver.
+  // fitted: the fitted nuisances, in the order of their columns, which follow the knots'.
+  // `recovered` and `knots` must outlive the solver.
   DipoleSolver(const RecoveredReflectance& recovered, const DistanceKnots& knots,
                const std::vector<Nuisance>& fitted, double eta_int_over_ext,
                const ScalePrior& scale);
@@ -47,10 +49,14 @@ class DipoleSolver {
 
  private:
   Point freed(const Point& from) const;  // the optimum near a point
+  void set_nuisances(Point& p) const;
 
   const RecoveredReflectance& recovered_;
   const DistanceKnots& knots_;
-  const std::vector<Nuisance>& fitted_;
+  // The residual for any v is kernel s R - whitened with v at its optimum, which is
+  // v_by_whitened - v_by_kernel s R.
+  Eigen::MatrixXd kernel_, v_by_kernel_;
+  Eigen::VectorXd whitened_, v_by_whitened_;
   double eta_;
   ScalePrior scale_;
 };
