@@ -17,6 +17,7 @@
 #include "apps/results/result_json.h"
 #include "core/base/input_error.h"
 #include "core/estimation/estimate.h"
+#include "core/scene/default_uncertainty.h"
 #include "core/scene/seen_object.h"
 #include "core/scene/surroundings.h"
 #include "core/view/observation.h"
@@ -45,6 +46,14 @@ template <class T>
 T field(const py::dict& dict, const std::string& where, const char* key, T otherwise) {
   if (!dict.contains(key) || dict[key].is_none()) return otherwise;
   return field<T>(dict, where, key);
+}
+
+// A standard deviation; 0: exact.
+double deviation(const py::dict& dict, const std::string& where, const char* key,
+                 double otherwise) {
+  const double std = field<double>(dict, where, key, otherwise);
+  if (!(std >= 0.0)) throw InputError(where + "." + key, "expected a number that is not negative");
+  return std;
 }
 
 SceneCamera scene_camera(const py::dict& dict) {
@@ -98,13 +107,20 @@ SceneLight scene_light(const std::string& name, const py::dict& dict) {
   led.led.axis = field<Eigen::Vector3d>(dict, where, "axis").normalized();
   if (dict.contains("lobe")) {
     led.led.table = lobe_table(field<py::dict>(dict, where, "lobe"), where + ".lobe");
+    if (!led.led.table->has_planes_about(led.led.axis)) {
+      throw InputError(where + ".lobe.x_axis", "expected a direction across the LED's axis");
+    }
   }
   led.led.exponent = field<double>(dict, where, "exponent", led.led.table ? 0.0 : 1.0);
   led.led.radius_mm = field<double>(dict, where, "radius_mm", 0.0);
   led.led.intensity_W_per_sr = field<Eigen::Vector3d>(dict, where, "intensity_W_per_sr").array();
-  led.position_std_mm = field<double>(dict, where, "position_std_mm", 0.0);
-  led.exponent_std = field<double>(dict, where, "exponent_std", 0.0);
-  led.intensity_relative_std = field<double>(dict, where, "intensity_relative_std", 0.0);
+  led.position_std_mm =
+      deviation(dict, where, "position_std_mm", default_uncertainty::kLedPosition_mm);
+  led.axis_std_rad = deviation(dict, where, "axis_std_deg", default_uncertainty::kLedAxis_deg) *
+                     std::numbers::pi / 180.0;
+  led.exponent_std = deviation(dict, where, "exponent_std", default_uncertainty::kLedExponent);
+  led.intensity_relative_std =
+      deviation(dict, where, "intensity_relative_std", default_uncertainty::kLedIntensity);
   return light;
 }
 
@@ -213,8 +229,9 @@ double farthest_mm(const Scene& scene, const ObjectScenes& objects,
 std::string estimate_arrays(const py::dict& camera, const py::dict& objects, const py::dict& lights,
                             const std::vector<py::dict>& shots, const std::string& model,
                             std::optional<double> patch_size_mm, double time_limit_s,
-                            const py::object& progress) {
+                            double even_light_share_std, const py::object& progress) {
   Scene scene;
+  scene.even_light_share_std = even_light_share_std;
   scene.source = "estimate";
   scene.camera = scene_camera(camera);
   std::vector<TriangleMesh> meshes;
@@ -225,7 +242,12 @@ std::string estimate_arrays(const py::dict& camera, const py::dict& objects, con
     const std::string where = "objects." + object.name;
     object.mesh_path = where;
     object.eta_int_over_ext = field<double>(dict, where, "eta");
-    object.eta_std = field<double>(dict, where, "eta_std", 0.0);
+    object.eta_std = deviation(dict, where, "eta_std", default_uncertainty::kEta);
+    object.position_std_mm =
+        deviation(dict, where, "position_std_mm", default_uncertainty::kObjectPosition_mm);
+    object.scale_relative_std =
+        deviation(dict, where, "scale_relative_std", default_uncertainty::kMeshScale);
+    object.edge_std_mm = deviation(dict, where, "edge_std_mm", default_uncertainty::kEdge_mm);
     meshes.push_back(triangle_mesh(dict, where));
   }
   for (const auto& [name, value] : lights) {
@@ -280,7 +302,7 @@ std::string estimate_arrays(const py::dict& camera, const py::dict& objects, con
 void add_estimate(py::module_& module) {
   module.def("estimate", &estimate_arrays, py::arg("camera"), py::arg("objects"), py::arg("lights"),
              py::arg("shots"), py::arg("model"), py::arg("patch_size_mm"), py::arg("time_limit_s"),
-             py::arg("progress"));
+             py::arg("even_light_share_std"), py::arg("progress"));
 }
 
 }  // namespace scattermeter::python

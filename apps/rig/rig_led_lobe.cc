@@ -4,16 +4,12 @@
 #include <stdexcept>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include "apps/rig/rig_fields.h"
 
 namespace scattermeter::apps {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
-// An x_axis that is nearly parallel to the LED's axis leaves the planes undetermined.
-constexpr double kLeastSine = 0.1;
 
 std::vector<double> list(const YamlField& field, double min, double max) {
   std::vector<double> out;
@@ -36,13 +32,11 @@ std::shared_ptr<const LobeTable> read_lobe(const YamlField& field, const Eigen::
       return std::make_shared<LobeTable>(std::move(angles_rad), list(*relative, 0.0, kMost));
     }
     const YamlField x_field = field.at("x_axis");
-    const Eigen::Vector3d x_axis = unit_vector(x_field);
-    if (!(axis.cross(x_axis).norm() > kLeastSine)) {
-      x_field.fail("expected a direction across the LED's axis");
-    }
-    return std::make_shared<LobeTable>(std::move(angles_rad),
-                                       list(field.at("relative_x"), 0.0, kMost),
-                                       list(field.at("relative_y"), 0.0, kMost), x_axis);
+    auto lobe =
+        std::make_shared<LobeTable>(std::move(angles_rad), list(field.at("relative_x"), 0.0, kMost),
+                                    list(field.at("relative_y"), 0.0, kMost), unit_vector(x_field));
+    if (!lobe->has_planes_about(axis)) x_field.fail("expected a direction across the LED's axis");
+    return lobe;
   } catch (const std::invalid_argument& e) {
     field.fail(e.what());
   }

@@ -79,7 +79,7 @@ double edge_blur_px(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
   constexpr std::size_t kLeastPieces = 8;
   EdgePointOptions options;
   options.half_width_px = 12.0;
-  options.search_px = 4.0;
+  options.search_px = 8.0;
   std::vector<Candidate> candidates =
       predict({shot}, Lens(intrinsics), intrinsics.fx_px, camera_from_world, options);
   std::erase_if(candidates, [](const Candidate& c) { return c.point.kind != EdgeKind::kContour; });

@@ -65,6 +65,7 @@ struct ChannelResult {
   // Of transport only: the dipole's estimate, and why --model auto rejected it.
   std::optional<Estimate> dipole;
   std::string why_transport;
+  // Of the residual with the rig as stated: the dipole's first fit's, or transport's.
   std::optional<ResidualLook> look;
   std::vector<ShotRows> rows;  // by shot, if EstimateOptions::keep_rows and the fit was completed
   bool refused() const { return !estimate.reasons.empty(); }

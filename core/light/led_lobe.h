@@ -38,6 +38,11 @@ class LobeTable {
   const std::vector<double>& in_y() const { return in_y_.values; }
   const Eigen::Vector3d& x_axis() const { return x_axis_; }
   bool is_round() const { return in_y_.values.empty(); }
+  // Whether x_axis is far enough (0.1 rad) from an LED's axis (unit length) to determine the
+  // planes.
+  bool has_planes_about(const Eigen::Vector3d& axis) const {
+    return is_round() || axis.cross(x_axis_.normalized()).norm() > 0.1;
+  }
 
  private:
   struct Plane {

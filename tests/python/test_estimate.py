@@ -118,6 +118,10 @@ def given():
                 "vertices_mm": np.array(corners, float),
                 "triangles": np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]),
                 "eta": ETA,
+                "eta_std": 0.0,
+                "position_std_mm": 0.0,
+                "scale_relative_std": 0.0,
+                "edge_std_mm": 0.0,
             }
         },
         "lights": {
@@ -125,8 +129,13 @@ def given():
                 "position_mm": LED_MM,
                 "axis": LED_AXIS,
                 "intensity_W_per_sr": [INTENSITY] * 3,
+                "position_std_mm": 0.0,
+                "axis_std_deg": 0.0,
+                "exponent_std": 0.0,
+                "intensity_relative_std": 0.0,
             }
         },
+        "even_light_share_std": 0.0,
         "shots": [
             {
                 "object": "cube",
@@ -154,6 +163,43 @@ def test_estimate_finds_the_truth_in_arrays(given):
             assert entry[key]["value"] == pytest.approx(value, rel=worst), (channel, key)
             assert abs(entry[key]["value"] - value) < 4 * entry[key]["std"], (channel, key)
     assert stages
+
+
+def test_nothing_is_exact_unless_stated(given):
+    def without_deviations(table):
+        return {name: {k: v for k, v in item.items() if "_std" not in k} for name, item in table.items()}
+
+    def budget(result):
+        return {cause["cause"] for cause in result["results"][0]["budget"]}
+
+    rig = dict(
+        given,
+        lights=without_deviations(given["lights"]),
+        objects=without_deviations(given["objects"]),
+    )
+    del rig["even_light_share_std"]
+    default = scattermeter.estimate(**rig)
+    uncertain = {"LED position", "LED axis", "LED exponent", "LED power"}
+    uncertain |= {"mesh position", "mesh scale", "even light"}
+    assert uncertain | {"eta", "edges"} <= budget(default)
+    assert not uncertain & budget(scattermeter.estimate(**given))
+    pom = scattermeter.values(default)["POM"]
+    for channel, truth in TRUTH.items():
+        for key, value in zip(("sigma_s_prime_per_mm", "sigma_a_per_mm"), truth):
+            assert abs(pom[channel][key]["value"] - value) < 3 * pom[channel][key]["std"]
+
+
+def test_a_deviation_below_0_is_refused(given):
+    led = dict(given["lights"]["led"], position_std_mm=-0.1)
+    with pytest.raises(scattermeter.InputError, match="lights.led.position_std_mm"):
+        scattermeter.estimate(**dict(given, lights={"led": led}))
+
+
+def test_a_lobe_without_planes_is_refused(given):
+    lobe = {"angle_deg": [0, 90], "relative_x": [1, 0], "relative_y": [1, 0], "x_axis": LED_AXIS}
+    led = dict(given["lights"]["led"], lobe=lobe)
+    with pytest.raises(scattermeter.InputError, match="lights.led.lobe.x_axis"):
+        scattermeter.estimate(**dict(given, lights={"led": led}))
 
 
 def test_samples_of_another_length_are_refused(given):

@@ -198,6 +198,7 @@ def estimate(
     model: str = "dipole",
     patch_size_mm: Optional[float] = None,
     time_limit_s: float = 50.0,
+    even_light_share_std: float = 0.003,
     progress: Optional[ProgressCallback] = None,
 ) -> Result:
     """Estimate materials from linear images given as arrays, without any file.
@@ -206,14 +207,18 @@ def estimate(
     OpenCV's model), cfa ("RGGB" and so on), responsivity_counts_mm2_sr_per_W_s (3) and
     responsivity_relative_std; without a responsivity the scale is free.
     objects, by name: vertices_mm (n, 3) and triangles (m, 3) of a closed mesh in the world frame,
-    counter-clockwise from outside; eta; optional eta_std.
+    counter-clockwise from outside; eta; optional eta_std (0.01), position_std_mm (0.1),
+    scale_relative_std (0.002) and edge_std_mm (0.1).
     lights, by name, LEDs: position_mm (3), axis (3), intensity_W_per_sr (3); optional exponent
     or lobe ({angle_deg, relative} or {angle_deg, relative_x, relative_y, x_axis}), radius_mm,
-    position_std_mm, exponent_std, intensity_relative_std.
+    position_std_mm (0.3), axis_std_deg (1), exponent_std (0.05), intensity_relative_std (0.01).
     shots, each: object, material, lights (names), camera_from_world (4, 4; OpenCV's axes, mm),
     exposure_s, and for each of its n samples xy_px (n, 2; column and row in the frame), value_counts
     (n; above black) and variance_counts2 (n); optional name, pose_covariance (6, 6; rad and mm) and
     variance_per_count (of photon noise, 1 / gain). Other samples are not used.
+    even_light_share_std: of unlisted even light, as a share of the LEDs' irradiance.
+    Standard deviations that are not given are those of a careful user's rig, as in a rig file; 0
+    states a value as exact.
     """
     text = _native.estimate(
         dict(camera),
@@ -223,6 +228,7 @@ def estimate(
         model,
         patch_size_mm,
         time_limit_s,
+        even_light_share_std,
         progress,
     )
     return Result(json.loads(text))

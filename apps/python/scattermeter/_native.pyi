@@ -46,6 +46,7 @@ def estimate(
     model: str,
     patch_size_mm: Optional[float],
     time_limit_s: float,
+    even_light_share_std: float,
     progress: _Progress,
 ) -> str: ...
 def write_text_file(path: str, text: str) -> None: ...

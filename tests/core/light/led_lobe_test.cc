@@ -116,6 +116,14 @@ TEST(LobeTable, CorrectedByAPower) {
   EXPECT_NEAR(led.lobe(towards(60, 10)), 0.125, 1e-12);
 }
 
+TEST(LobeTable, HasPlanesAboutAnAxisAcrossItsOwn) {
+  const LobeTable planes({0.0, 1.5}, {1.0, 0.0}, {1.0, 0.0}, 3.0 * Eigen::Vector3d::UnitX());
+  EXPECT_TRUE(planes.has_planes_about(Eigen::Vector3d(0.9, 0.0, -0.5).normalized()));
+  EXPECT_FALSE(planes.has_planes_about(Eigen::Vector3d(-1.0, 0.05, 0.0).normalized()));
+  const LobeTable round({0.0, 1.5}, {1.0, 0.0});
+  EXPECT_TRUE(round.has_planes_about(Eigen::Vector3d::UnitX()));
+}
+
 TEST(LobeTable, RefusesWhatIsNoLobe) {
   const auto refusal = [](std::vector<double> angles_deg, std::vector<double> x,
                           std::vector<double> y = {}) -> std::string {
