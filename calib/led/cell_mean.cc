@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
+#include "core/base/dense_solve.h"
 #include "core/base/median.h"
 
 namespace scattermeter::calib {
@@ -49,7 +48,7 @@ std::optional<CellTrend> trend_of(const std::vector<PlaneSample>& samples,
     spread += d * d.transpose() / n;
     slope_sum += d * ((samples[i].signal_counts - sum.z()) / n);
   }
-  const Eigen::Vector2d slope = spread.ldlt().solve(slope_sum);
+  const Eigen::Vector2d slope = SymmetricSolver(spread).solve(slope_sum);
   if (!slope.allFinite()) return std::nullopt;
   const auto spots = static_cast<std::size_t>(std::count(kept.begin(), kept.end(), false));
   // Unweighted: the variance of a sample follows its noise, so weights derived from it bias the

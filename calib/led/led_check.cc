@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <fmt/core.h>
 
 #include "calib/led/cell_model.h"
 #include "calib/led/led_fit.h"
 #include "calib/led/led_start.h"
+#include "core/base/dense_solve.h"
 #include "core/base/median.h"
 #include "core/camera/lens.h"
 
@@ -144,7 +144,7 @@ LedCheck check_led(const LedCalibrationInput& input, const std::string& light,
                                     : Eigen::Vector3d::UnitZ().eval();
   check.displacement_std_mm = std::sqrt(along.dot(check.displacement_covariance_mm2 * along));
   check.displacement_stds = std::sqrt(check.displacement_mm.dot(
-      check.displacement_covariance_mm2.ldlt().solve(check.displacement_mm)));
+      SymmetricSolver(check.displacement_covariance_mm2).solve(check.displacement_mm)));
   check.exponent_change = fit.led.exponent - prior.led.exponent;
   check.axis_change_rad =
       std::atan2(fit.led.axis.cross(prior.led.axis).norm(), fit.led.axis.dot(prior.led.axis));

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+
+#include "core/base/dense_solve.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -44,7 +45,7 @@ std::optional<Eigen::Vector3d> meeting_point(const std::vector<std::optional<Mir
       a += across;
       b += across * rays[i]->from_mm;
     }
-    point = a.ldlt().solve(b);
+    point = SymmetricSolver(a).solve(b);
     if (!point.allFinite()) return std::nullopt;
   }
   for (std::size_t i = 0; i < rays.size(); ++i) {

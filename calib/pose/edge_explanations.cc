@@ -9,10 +9,9 @@
 #include <tuple>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
 #include "calib/pose/edge_scatter.h"
 #include "core/base/chi_square.h"
+#include "core/base/dense_solve.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -111,7 +110,7 @@ EdgeFitOptions loose_fit(const std::vector<EdgePoint>& points, const PoseResult&
   const double distance_mm = pose.camera_from_world.translation_mm.norm();
   EdgeFitOptions fit;
   fit.prior = Eigen::MatrixXd::Zero(size, size);
-  fit.prior.topLeftCorner<6, 6>() = pose.covariance.ldlt().solve(Eigen::MatrixXd::Identity(6, 6));
+  fit.prior.topLeftCorner<6, 6>() = SymmetricSolver(pose.covariance).inverse();
   for (int i = 0; i < 3; ++i) {
     fit.prior(kTurn + i, kTurn + i) = 1 / std::pow(kLooseTurn_rad, 2);
     fit.prior(kMove + i, kMove + i) = 1 / std::pow(kLooseDistance * distance_mm, 2);

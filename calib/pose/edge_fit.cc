@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <ceres/ceres.h>
 
 #include "core/base/covariance_root.h"
+#include "core/base/dense_solve.h"
 #include "core/base/solver_options.h"
 #include "core/camera/lens.h"
 
@@ -116,7 +116,7 @@ class LineCost final : public ceres::CostFunction {
                           std::pow(options.piece_std_px, 2);
     }
     if (options.robust) covariance(0, 0) += std::pow(options.robust_px, 2);
-    root_ = covariance.llt();
+    whitening_ = inverse_lu(cholesky_lower(covariance));
     set_num_residuals(static_cast<int>(n));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.free.size()));
   }
@@ -125,7 +125,7 @@ class LineCost final : public ceres::CostFunction {
                 double** jacobians) const override {
     const Eigen::VectorXd v = problem_.all(parameters[0]);
     Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
-    r = root_.matrixL().solve(problem_.residuals(which_, v));
+    r = whitening_ * problem_.residuals(which_, v);
     if (!r.allFinite()) return false;
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(
@@ -136,8 +136,9 @@ class LineCost final : public ceres::CostFunction {
       Eigen::VectorXd down = v;
       up[problem_.free[i]] += step;
       down[problem_.free[i]] -= step;
-      j.col(static_cast<Eigen::Index>(i)) = root_.matrixL().solve(
-          (problem_.residuals(which_, up) - problem_.residuals(which_, down)) / (2 * step));
+      j.col(static_cast<Eigen::Index>(i)) =
+          whitening_ *
+          ((problem_.residuals(which_, up) - problem_.residuals(which_, down)) / (2 * step));
     }
     return j.allFinite();
   }
@@ -145,7 +146,7 @@ class LineCost final : public ceres::CostFunction {
  private:
   const Problem& problem_;
   std::vector<std::size_t> which_;
-  Eigen::LLT<Eigen::MatrixXd> root_;
+  Eigen::MatrixXd whitening_;  // W with W C W^T = 1, C the covariance of the residuals
 };
 
 // Normal prior about 0: the residual is a root of its information times the values.
@@ -199,8 +200,7 @@ Eigen::MatrixXd inverse_information(ceres::Problem& least_squares) {
   const Eigen::VectorXd norms = jacobian.colwise().norm().cwiseMax(1e-300);
   jacobian = (jacobian * norms.cwiseInverse().asDiagonal()).eval();
   const Eigen::MatrixXd information = jacobian.transpose() * jacobian;
-  const Eigen::Index n = sparse.num_cols;
-  const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd covariance = SymmetricSolver(information).inverse();
   return norms.cwiseInverse().asDiagonal() * covariance * norms.cwiseInverse().asDiagonal();
 }
 

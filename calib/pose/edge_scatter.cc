@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include <Eigen/QR>
+#include "core/base/dense_solve.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -42,7 +42,7 @@ double piece_scatter_px(const std::vector<EdgePoint>& points, const std::vector<
         a.row(i) << w, w * along.dot(p.measured_px - points[which[0]].measured_px) * 0.01;
         b[i] = w * residual[which[static_cast<std::size_t>(i)]];
       }
-      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
+      const PivotedSolver qr(a);
       total += (b - a * qr.solve(b)).squaredNorm();
       *freedom += static_cast<double>(n - qr.rank());
     }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "core/base/dense_solve.h"
 #include "core/base/median.h"
 #include "core/camera/lens.h"
 
@@ -121,17 +121,14 @@ OutlineModel::Fit OutlineModel::fit(const Eigen::VectorXd& std, bool own_pose) c
     information(at, at) += 1 / (std[used[i]] * std[used[i]]);
   }
   if (own_pose) {
-    information.topLeftCorner<kPose, kPose>() +=
-        pose_.covariance.ldlt().solve(Eigen::MatrixXd::Identity(kPose, kPose));
+    information.topLeftCorner<kPose, kPose>() += SymmetricSolver(pose_.covariance).inverse();
   }
   // Scaled first, as radians and millimetres differ by orders of magnitude.
   const Eigen::VectorXd unit = information.diagonal().cwiseSqrt().cwiseInverse();
-  const auto n = static_cast<Eigen::Index>(used.size());
-  const Eigen::MatrixXd covariance = unit.asDiagonal() *
-                                     (unit.asDiagonal() * information * unit.asDiagonal())
-                                         .ldlt()
-                                         .solve(Eigen::MatrixXd::Identity(n, n)) *
-                                     unit.asDiagonal();
+  const Eigen::MatrixXd covariance =
+      unit.asDiagonal() *
+      SymmetricSolver(unit.asDiagonal() * information * unit.asDiagonal()).inverse() *
+      unit.asDiagonal();
   const Eigen::VectorXd gradient = gradient_(used);
   const Eigen::VectorXd value = covariance * gradient;
   Fit out;

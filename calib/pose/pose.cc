@@ -11,6 +11,7 @@
 #include "calib/pose/pose_layout.h"
 #include "calib/pose/pose_refine.h"
 #include "calib/pose/pose_search.h"
+#include "core/base/dense_solve.h"
 #include "core/base/symmetric_eigen.h"
 
 namespace scattermeter::calib {
@@ -215,8 +216,9 @@ PoseResult estimate_pose(const CameraIntrinsics& intrinsics, const std::vector<P
   const Eigen::Vector3d origin_mm = -(fit.pose.rotation * scene.centroid_mm);
   result.covariance = covariance_at(scene, about_centroid, origin_mm);
   result.per_lens_parameter =
-      -motion_at(scene, origin_mm) * fit.information.ldlt().solve(gradient_per_lens_parameter(
-                                         scene, inlier, fit.pose, lens_parameters(intrinsics)));
+      -motion_at(scene, origin_mm) * SymmetricSolver(fit.information)
+                                         .solve_columns(gradient_per_lens_parameter(
+                                             scene, inlier, fit.pose, lens_parameters(intrinsics)));
   // The camera as a point of the object: its displacement if it moved with the object. In the world
   // the camera moves by the opposite.
   const Eigen::Vector3d camera_mm = -scene.scale_mm * fit.pose.center;

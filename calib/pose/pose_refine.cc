@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "core/base/cross_matrix.h"
+#include "core/base/dense_solve.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -106,8 +106,7 @@ PoseFit refine_pose(const PoseScene& scene, const std::vector<bool>& use, const 
   for (int i = 0; i < max_iterations; ++i) {
     Matrix6d damped = fit.information;
     damped.diagonal() *= 1 + damping;
-    const Eigen::LDLT<Matrix6d> solver(damped);
-    const Vector6d step = -solver.solve(gradient);
+    const Vector6d step = -SymmetricSolver(damped).solve(gradient);
     if (!step.allFinite()) break;
     // g^T H^-1 g is the remaining decrease in px^2; over the variance of one coordinate, sum / (2
     // n), it is the squared distance to the optimum in standard deviations. The floor ends

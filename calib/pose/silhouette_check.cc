@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <fmt/core.h>
 
 #include "calib/board/board_mask.h"
 #include "capture/sensor/linear_samples.h"
 #include "core/base/chi_square.h"
+#include "core/base/dense_solve.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -43,11 +43,11 @@ Shift shift_of(const std::vector<EdgePoint>& points, double line_std_px, double 
       a.row(i) = p.outward.transpose();
       b[i] = p.offset_px;
     }
-    const Eigen::LLT<Eigen::MatrixXd> llt(c);
-    information += a.transpose() * llt.solve(a);
-    gradient += a.transpose() * llt.solve(b);
+    const Eigen::MatrixXd weighted = SymmetricSolver(c).solve_columns(a);
+    information += weighted.transpose() * a;
+    gradient += weighted.transpose() * b;
   }
-  const Eigen::Matrix2d covariance = information.ldlt().solve(Eigen::Matrix2d::Identity());
+  const Eigen::Matrix2d covariance = SymmetricSolver(information).inverse();
   return {covariance * gradient, covariance};
 }
 
@@ -75,7 +75,7 @@ void find_drift(double line_std_px, SilhouetteCheck& check) {
     const Shift& from = shifts[static_cast<std::size_t>(first - check.shots.begin())];
     const Eigen::Vector2d d = shifts[i].px - from.px;
     const Eigen::Matrix2d c = shifts[i].covariance + from.covariance;
-    const double squared = d.dot(c.ldlt().solve(d));
+    const double squared = d.dot(SymmetricSolver(c).solve(d));
     chi2 += squared;
     freedom += 2;
     if (d.norm() > check.drift_px || freedom == 2) {

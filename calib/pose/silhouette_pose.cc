@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "calib/pose/pose_prior.h"
 #include "core/base/chi_square.h"
 #include "core/base/cross_matrix.h"
+#include "core/base/dense_solve.h"
 
 namespace scattermeter::calib {
 
@@ -19,7 +18,7 @@ EdgeFit fit_with_pose(const Silhouette& silhouette, const CameraIntrinsics& intr
   fit.line_std_px = silhouette.line_std_px;
   fit.piece_std_px = silhouette.piece_std_px;
   fit.prior = Eigen::MatrixXd::Zero(size, size);
-  fit.prior.topLeftCorner<6, 6>() = prior.covariance.ldlt().solve(Eigen::MatrixXd::Identity(6, 6));
+  fit.prior.topLeftCorner<6, 6>() = SymmetricSolver(prior.covariance).inverse();
   return fit_edges(silhouette.points, intrinsics, prior.camera_from_world, fit);
 }
 

@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/base/dense_solve.h"
+
 namespace scattermeter::calib {
 
 PhotonTransfer fit_photon_transfer(const std::vector<NoisePoint>& points) {
@@ -29,7 +31,7 @@ PhotonTransfer fit_photon_transfer(const std::vector<NoisePoint>& points) {
       normal += weight * row * row.transpose();
       moment += weight * row * (p.variance_counts2 - p.quantisation_counts2);
     }
-    line = normal.ldlt().solve(moment);
+    line = SymmetricSolver(normal).solve(moment);
   }
   const Eigen::Matrix2d covariance = normal.inverse();
   double chi2 = 0;

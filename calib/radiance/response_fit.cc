@@ -9,6 +9,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/base/dense_solve.h"
+
 namespace scattermeter::calib {
 namespace {
 
@@ -114,12 +116,9 @@ ResponseSolution solve_turn(const ResponseProblem& problem, const std::vector<do
     moment -= p.row * (p.value / p.weight);
   }
   const Eigen::VectorXd scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(
-      Eigen::MatrixXd(scale.asDiagonal() * normal * scale.asDiagonal()));
-  out.x = scale.cwiseProduct(ldlt.solve(scale.cwiseProduct(moment)));
-  out.covariance = scale.asDiagonal() *
-                   ldlt.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols())).eval() *
-                   scale.asDiagonal();
+  const SymmetricSolver solver(scale.asDiagonal() * normal * scale.asDiagonal());
+  out.x = scale.cwiseProduct(solver.solve(scale.cwiseProduct(moment)));
+  out.covariance = scale.asDiagonal() * solver.inverse() * scale.asDiagonal();
   out.log_light.assign(problem.n_places, std::numeric_limits<double>::quiet_NaN());
   out.light_rows =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(problem.n_places), columns.size());

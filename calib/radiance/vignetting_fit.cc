@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "core/base/dense_solve.h"
+
 namespace scattermeter::calib {
 namespace {
 
@@ -41,9 +43,8 @@ struct LinearFit {
 
 LinearFit fit_blocks(const ColourBlocks& c) {
   const Eigen::MatrixXd normal = c.terms.transpose() * c.weight.asDiagonal() * c.terms;
-  const auto ldlt = normal.ldlt();
-  return {ldlt.solve(c.terms.transpose() * c.weight.cwiseProduct(c.light)),
-          ldlt.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()))};
+  const SymmetricSolver solver(normal);
+  return {solver.solve(c.terms.transpose() * c.weight.cwiseProduct(c.light)), solver.inverse()};
 }
 
 }  // namespace

@@ -69,6 +69,8 @@ Eigen::MatrixXd PivotedSolver::unpermute_rows(const MatrixRef& b) const {
 
 Eigen::VectorXd PivotedSolver::solve(const VectorRef& b) const { return qr_->solve(b); }
 
+Eigen::MatrixXd PivotedSolver::solve_columns(const MatrixRef& b) const { return qr_->solve(b); }
+
 ThinSvd thin_svd(const MatrixRef& a) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};

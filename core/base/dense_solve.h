@@ -57,6 +57,7 @@ class PivotedSolver {
   Eigen::MatrixXd unpermute_rows(const MatrixRef& b) const;
   // Least squares: x that minimises |A x - b|, 0 in the columns beyond the rank.
   Eigen::VectorXd solve(const VectorRef& b) const;
+  Eigen::MatrixXd solve_columns(const MatrixRef& b) const;  // n x any
 
  private:
   std::shared_ptr<const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>> qr_;

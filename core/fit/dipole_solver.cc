@@ -6,9 +6,9 @@
 #include <limits>
 #include <memory>
 
-#include <Eigen/QR>
 #include <ceres/ceres.h>
 
+#include "core/base/dense_solve.h"
 #include "core/base/solver_options.h"
 #include "core/diffusion/dipole_curve.h"
 #include "core/fit/dipole_starts.h"
@@ -164,15 +164,15 @@ DipoleSolver::DipoleSolver(const RecoveredReflectance& recovered, const Distance
   // Units differ: each column is scaled to length 1.
   const Eigen::VectorXd norm = a.colwise().norm();
   const Eigen::VectorXd unit = (norm.array() > 0.0).select(norm.cwiseInverse(), 0.0);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a * unit.asDiagonal());
-  const Eigen::MatrixXd q = qr.householderQ();
-  const auto left = q.rightCols(n + m - qr.rank()).topRows(n);
-  const Eigen::MatrixXd v_by_residual =
-      unit.asDiagonal() * qr.solve(Eigen::MatrixXd::Identity(n + m, n));
-  v_by_kernel_ = v_by_residual * kernel_;
-  v_by_whitened_ = v_by_residual * whitened_;
-  kernel_ = (left.transpose() * kernel_).eval();
-  whitened_ = (left.transpose() * whitened_).eval();
+  const PivotedSolver qr(a * unit.asDiagonal());
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(n + m, knots.size() + 1);
+  columns.topRows(n) << kernel_, whitened_;
+  const Eigen::MatrixXd v = unit.asDiagonal() * qr.solve_columns(columns);
+  v_by_kernel_ = v.leftCols(knots.size());
+  v_by_whitened_ = v.rightCols(1);
+  const Eigen::MatrixXd left = qr.rotate_columns(columns).bottomRows(n + m - qr.rank());
+  kernel_ = left.leftCols(knots.size());
+  whitened_ = left.rightCols(1);
 }
 
 DipoleSolver::Point DipoleSolver::best() const {

@@ -64,6 +64,9 @@ TEST(PivotedSolver, SolvesLeastSquares) {
   EXPECT_EQ(qr.rank(), 3);
   // The normal equations hold at the minimum.
   EXPECT_TRUE((a.transpose() * (a * qr.solve(b) - b)).isZero(1e-12));
+  Eigen::MatrixXd columns(5, 2);
+  columns << b, -b.reverse();
+  EXPECT_TRUE((a.transpose() * (a * qr.solve_columns(columns) - columns)).isZero(1e-12));
   // A P = Q R, so that R (P^T x) are the first entries of Q^T A x.
   const Eigen::VectorXd x = Eigen::Vector3d(1, -2, 0.5);
   const Eigen::VectorXd in_order = qr.unpermute_rows(x);
