@@ -227,7 +227,15 @@ class DipoleEstimator {
                                    channel.eta_int_over_ext},
                                   std::exp(fit.optimum.log_s), misfit);
     widen_by_mesh_scale(channel, result.estimate);
-    if (channel.shots.size() < 2) return;
+    if (channel.shots.size() > 1) compare_shots(channel, image, shots, fit, result);
+    refuse_undetermined(result.estimate);
+  }
+
+  // Fits each shot by itself and widens the joint estimate by what they disagree.
+  void compare_shots(const MaterialChannel& channel, const ChannelImage& image,
+                     const std::vector<ShotInformation>& shots, const DipoleFit& fit,
+                     ChannelResult& result) const {
+    const DipoleFitOptions options = options_of(channel);
     result.singles.clear();
     for (std::size_t s = 0; s < channel.shots.size(); ++s) {
       const ShotSystem own = image.shot(s);
@@ -239,7 +247,6 @@ class DipoleEstimator {
         shot_agreement(shots, image.nuisances(), knots_, fit.optimum, channel.eta_int_over_ext,
                        options.scale, std::max(1.0, fit.estimate.reduced_chi2));
     widen_by_disagreement(result.agreement, result.estimate);
-    refuse_undetermined(result.estimate);
   }
 
   Estimation& e_;

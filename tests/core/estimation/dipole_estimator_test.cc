@@ -53,6 +53,20 @@ TEST(DipoleEstimator, StatesTheDeviationOfANoisyImage) {
   }
 }
 
+// The size of the mesh is uncertain by more than half: so are the coefficients, from one shot too.
+TEST(DipoleEstimator, RefusesWhatTheMeshLeavesUndetermined) {
+  for (const std::size_t shots : {1U, 2U}) {
+    DipoleCube cube(shots);
+    cube.scene.objects[0].scale_relative_std = 0.6;
+    cube.show(kCubeMedium, 1e-3);
+    CubeEstimation run(cube, "G");
+    estimate_dipole(run.estimation);
+    const std::vector<std::string>& reasons = run.estimation.results[0].estimate.reasons;
+    EXPECT_THAT(reasons, ::testing::Contains(::testing::HasSubstr("do not determine sigma_s'")))
+        << shots;
+  }
+}
+
 // A speck of dust: one row a third too dark.
 TEST(DipoleEstimator, LeavesOutliersOut) {
   DipoleCube cube;
