@@ -1,9 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory>
-#include <numbers>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,7 +9,9 @@
 #include <pybind11/stl.h>
 
 #include "apps/instrument/measure.h"
+#include "apps/python/array_light.h"
 #include "apps/python/bindings.h"
+#include "apps/python/dict_field.h"
 #include "apps/python/python_progress.h"
 #include "apps/results/result_json.h"
 #include "core/base/input_error.h"
@@ -30,31 +29,6 @@ namespace {
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
 using Pixels = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
-
-template <class T>
-T field(const py::dict& dict, const std::string& where, const char* key) {
-  if (!dict.contains(key)) throw InputError(where + "." + key, "is missing");
-  try {
-    return dict[key].cast<T>();
-  } catch (const py::cast_error&) {
-    throw InputError(where + "." + key,
-                     "is of another kind than expected: " + std::string(py::str(dict[key])));
-  }
-}
-
-template <class T>
-T field(const py::dict& dict, const std::string& where, const char* key, T otherwise) {
-  if (!dict.contains(key) || dict[key].is_none()) return otherwise;
-  return field<T>(dict, where, key);
-}
-
-// A standard deviation; 0: exact.
-double deviation(const py::dict& dict, const std::string& where, const char* key,
-                 double otherwise) {
-  const double std = field<double>(dict, where, key, otherwise);
-  if (!(std >= 0.0)) throw InputError(where + "." + key, "expected a number that is not negative");
-  return std;
-}
 
 SceneCamera scene_camera(const py::dict& dict) {
   SceneCamera camera;
@@ -79,49 +53,6 @@ SceneCamera scene_camera(const py::dict& dict) {
       field<double>(dict, where, "responsivity_relative_std", camera.responsivity_relative_std);
   camera.sensor.cfa = cfa_pattern_from_name(field<std::string>(dict, where, "cfa", "RGGB"));
   return camera;
-}
-
-std::shared_ptr<const LobeTable> lobe_table(const py::dict& dict, const std::string& where) {
-  using Values = std::vector<double>;
-  Values angles_rad = field<Values>(dict, where, "angle_deg");
-  for (double& a : angles_rad) a *= std::numbers::pi / 180.0;
-  try {
-    if (dict.contains("relative")) {
-      return std::make_shared<LobeTable>(std::move(angles_rad),
-                                         field<Values>(dict, where, "relative"));
-    }
-    return std::make_shared<LobeTable>(
-        std::move(angles_rad), field<Values>(dict, where, "relative_x"),
-        field<Values>(dict, where, "relative_y"), field<Eigen::Vector3d>(dict, where, "x_axis"));
-  } catch (const std::invalid_argument& e) {
-    throw InputError(where, e.what());
-  }
-}
-
-SceneLight scene_light(const std::string& name, const py::dict& dict) {
-  const std::string where = "lights." + name;
-  SceneLight light;
-  light.name = name;
-  LedLight& led = light.kind.emplace<LedLight>();
-  led.led.position_mm = field<Eigen::Vector3d>(dict, where, "position_mm");
-  led.led.axis = field<Eigen::Vector3d>(dict, where, "axis").normalized();
-  if (dict.contains("lobe")) {
-    led.led.table = lobe_table(field<py::dict>(dict, where, "lobe"), where + ".lobe");
-    if (!led.led.table->has_planes_about(led.led.axis)) {
-      throw InputError(where + ".lobe.x_axis", "expected a direction across the LED's axis");
-    }
-  }
-  led.led.exponent = field<double>(dict, where, "exponent", led.led.table ? 0.0 : 1.0);
-  led.led.radius_mm = field<double>(dict, where, "radius_mm", 0.0);
-  led.led.intensity_W_per_sr = field<Eigen::Vector3d>(dict, where, "intensity_W_per_sr").array();
-  led.position_std_mm =
-      deviation(dict, where, "position_std_mm", default_uncertainty::kLedPosition_mm);
-  led.axis_std_rad = deviation(dict, where, "axis_std_deg", default_uncertainty::kLedAxis_deg) *
-                     std::numbers::pi / 180.0;
-  led.exponent_std = deviation(dict, where, "exponent_std", default_uncertainty::kLedExponent);
-  led.intensity_relative_std =
-      deviation(dict, where, "intensity_relative_std", default_uncertainty::kLedIntensity);
-  return light;
 }
 
 TriangleMesh triangle_mesh(const py::dict& dict, const std::string& where) {
