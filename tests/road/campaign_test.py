@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""campaign_test.py PROGRAM SNAKEFILE KILLS: twenty small folders, two at a time, killed in the middle and resumed.
+"""campaign_test.py PROGRAM SNAKEFILE KILLS KILLS_LONG: twenty small folders, two at a time, killed and resumed.
 
-Every folder ends up measured once, with the digits of a run by hand. Then KILLS times kill -9 at random
-moments of a smaller campaign, resumed each time. Status 77: Snakemake is not there.
+Every folder ends up measured once, with the digits of a run by hand. Then KILLS times (KILLS_LONG with
+SCATTERMETER_LONG set) kill -9 at random moments of a smaller campaign, resumed each time. Status 77:
+Snakemake is not there.
 """
 import json
 import os
@@ -19,7 +20,7 @@ from pathlib import Path
 from small_rig import write_small_rig
 
 PROGRAM, SNAKEFILE = (Path(p).resolve() for p in sys.argv[1:3])
-KILLS = int(sys.argv[3])
+KILLS = int(sys.argv[4 if "SCATTERMETER_LONG" in os.environ else 3])
 SAMPLE = SNAKEFILE.parent.parent / "three_plastics"
 FOLDERS = 20
 FEW = 4  # of the campaign that is killed at random

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""killed_test.py PROGRAM SAMPLES KILLS: kill -9 at random moments of measure, simulate and calibrate.
+"""killed_test.py PROGRAM SAMPLES KILLS KILLS_LONG: kill -9 at random moments of measure, simulate and calibrate.
 
 No half file stands under a final name, and the next run completes with the digits of one that nobody
 killed. Also: two runs on one folder at a time, a folder that can't be written, a file-size limit, names
@@ -21,7 +21,7 @@ from pathlib import Path
 from small_rig import write_small_rig
 
 PROGRAM, SAMPLES = (Path(p).resolve() for p in sys.argv[1:3])
-KILLS = int(sys.argv[3])
+KILLS = int(sys.argv[4 if "SCATTERMETER_LONG" in os.environ else 3])
 LED = """
 calibration:
   led:
@@ -81,7 +81,10 @@ class Killed(unittest.TestCase):
             self.assertEqual(path.stat().st_size, self.raw_size, path)
 
     def kill_at_random(self, finals, *words):
-        """KILLS runs into one folder, each killed; then one that is not, against one in a new folder."""
+        """KILLS runs into one folder, each killed; then one that is not, against one in a new folder.
+
+        With SCATTERMETER_LONG set, KILLS_LONG runs.
+        """
         fresh, out = self.home / "fresh", self.home / "again"
         began = time.monotonic()
         first = self.run_program(*words, "--out", fresh / finals)
