@@ -112,19 +112,25 @@ TEST_F(FromScratch, CalibratesMeasuresAndNamesWhatChanged) {
     EXPECT_EQ(a.status, 1) << what << "\n" << a.out << a.err;
     EXPECT_THAT(a.out, ::testing::ContainsRegex(what)) << a.out;
   };
-  const auto shoot_again = [&](const char* from, const char* to, const std::string& folder) {
-    write_file((*this)("truth.yaml"), replaced(truth, from, to));
+  const auto shoot_again = [&](const std::string& rig, const char* from, const char* to,
+                               const std::string& folder) {
+    write_file((*this)("truth.yaml"), replaced(rig, from, to));
     const Answer a = run({"simulate", (*this)("truth.yaml"), "--out", (*this)(folder), "--what",
                           "calibration", "-q"});
     ASSERT_EQ(a.status, 0) << a.err;
   };
   // Of dark frames, one with another setting.
-  shoot_again("iso: 100", "iso: 400", "others");
+  const std::size_t boards = truth.find("  camera:\n    board:");
+  const std::size_t radiance = truth.find("  radiance:\n    dark:");
+  ASSERT_LT(boards, radiance);
+  const std::string darks = truth.substr(0, boards) + truth.substr(radiance);
+  shoot_again(darks, "iso: 100", "iso: 400", "others");
   const std::string dark = slurp((*this)("shots/dark_1.dng"));
   write_file((*this)("shots/dark_1.dng"), slurp((*this)("others/dark_1.dng")));
   named("FAIL ISO of dark frames: dark_1.dng");
   write_file((*this)("shots/dark_1.dng"), dark);
-  shoot_again("position_mm: [30.4, -60.7, 79.2]", "position_mm: [30.4, -58.7, 79.2]", "shots");
+  shoot_again(truth, "position_mm: [30.4, -60.7, 79.2]", "position_mm: [30.4, -58.7, 79.2]",
+              "shots");
   named("FAIL LED places, from their shots: led1[^\n]*is (1.9|2.0|2.1)");
 }
 
