@@ -15,12 +15,13 @@ std::vector<Nuisance> RigPriors::fitted() const {
 
 ModelJudgement judgement_of(const RigPriors& priors, const RecoveredReflectance& recovered,
                             const DipoleCurve& curve, const DipoleSolver::Point& optimum) {
-  const double s = std::exp(optimum.log_s);
+  const bool is_free = std::isinf(priors.scale.relative_std);
+  // A stated scale varies about 1, wherever the optimum is.
+  const double s = is_free ? std::exp(optimum.log_s) : 1.0;
   const double per_noise = 1.0 / std::sqrt(recovered.noise_excess());
   const auto n = static_cast<Eigen::Index>(priors.nuisances.size());
   const Eigen::MatrixXd kernel = per_noise * recovered.sqrt_information.leftCols(curve.r.size());
   const Eigen::VectorXd nominal = kernel * (s * curve.r);
-  const bool is_free = std::isinf(priors.scale.relative_std);
   WhitenedModel model;
   model.residual = per_noise * recovered.whitened - nominal;
   model.free.resize(nominal.size(), is_free ? 3 : 2);

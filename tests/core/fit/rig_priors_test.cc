@@ -61,5 +61,24 @@ TEST(RigPriors, PullsFindWhatIsOff) {
   EXPECT_NEAR(e.sigma_s_prime_per_mm.value, 1.2, 3.0 * e.sigma_s_prime_per_mm.std + 0.0024);
 }
 
+// A scale stated 20 % too small, ten deviations, by an image that tells it: the optimum has moved
+// to the true scale, but the pull counts from the stated one.
+TEST(RigPriors, ScaleIsJudgedAboutItsStatedValue) {
+  const test_support::HalfLitPlate plate(1.0);
+  const DistanceKnots knots = plate.knots();
+  const WeightMatrix w = plate.weights(knots);
+  const DenseSystem system =
+      test_support::noisy_system(w, 1.2 * plate.image(Dipole({1.2, 0.004, 1.3})), 0.0005, 1);
+  const RigPriors priors{{}, {0.02}};
+  const RecoveredReflectance recovered = recover_reflectance(image_information(system));
+  const DipoleSolver::Point at = DipoleSolver(recovered, knots, {}, 1.3, priors.scale).best();
+  EXPECT_GT(at.log_s, 0.1);
+  const std::vector<PriorPull> pulls =
+      judgement_of(priors, recovered, dipole_curve(knots, at.u, at.q, 1.3), at).pulls;
+  ASSERT_EQ(pulls.size(), 1U);
+  EXPECT_EQ(pulls[0].name, "scale");
+  EXPECT_NEAR(pulls[0].pull, 10.0, 1.5);
+}
+
 }  // namespace
 }  // namespace scattermeter
