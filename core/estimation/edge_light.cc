@@ -4,18 +4,18 @@
 #include <array>
 #include <cmath>
 
+#include "core/diffusion/source_cloud.h"
+#include "core/estimation/channel_weights.h"
+
 namespace scattermeter {
 namespace {
 
-// A strip across the edge, from the middle of a piece of it, that receives what the piece loses:
-// two triangles of uniform irradiance.
-void add_strip(const Crease& edge, const Eigen::Vector3d& half_mm, const Eigen::Vector3d& middle_mm,
-               double power_sr_per_mm, double width_mm, IncidentLight& light) {
-  const Eigen::Vector3d aside = 0.5 * width_mm * edge.normals[0].cross(half_mm).normalized();
-  const Eigen::Vector3d a = middle_mm - half_mm - aside, b = middle_mm + half_mm - aside,
-                        c = middle_mm + half_mm + aside, d = middle_mm - half_mm + aside;
-  const double irradiance = power_sr_per_mm / width_mm;
-  for (const auto& corners : {std::array{a, b, c}, std::array{a, c, d}}) {
+// A rectangle of uniform irradiance: from one edge of it, a displacement to the opposite one.
+void add_rectangle(const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm,
+                   const Eigen::Vector3d& across_mm, double irradiance, IncidentLight& light) {
+  if (!(irradiance > 0.0)) return;
+  const Eigen::Vector3d a = from_mm + across_mm, b = to_mm + across_mm;
+  for (const auto& corners : {std::array{from_mm, to_mm, b}, std::array{from_mm, b, a}}) {
     light.lit.push_back({corners, {irradiance, irradiance, irradiance}, 0});
     light.patch_power_sr[0] += power_sr(light.lit.back());
   }
@@ -23,15 +23,15 @@ void add_strip(const Crease& edge, const Eigen::Vector3d& half_mm, const Eigen::
 
 }  // namespace
 
-double light_by_chamfer_per_mm(const Led& led, const Crease& edge, const Eigen::Vector3d& point_mm,
-                               double eta_int_over_ext) {
-  const auto e = [&](const Eigen::Vector3d& normal) {
-    return led.transmitted_irradiance_per_mm2(point_mm, normal, eta_int_over_ext);
-  };
-  const Eigen::Vector3d sum = edge.normals[0] + edge.normals[1];
-  const double length = sum.norm();
-  if (!(length > 0.0)) return 0.0;
-  return length * e(sum / length) - e(edge.normals[0]) - e(edge.normals[1]);
+ChamferedEdge chamfered(const Crease& edge, double width_mm) {
+  const Eigen::Vector3d along = (edge.to_mm - edge.from_mm).normalized();
+  ChamferedEdge out;
+  // The edge runs counterclockwise about the second facet.
+  out.inward_mm = {width_mm * along.cross(edge.normals[0]),
+                   width_mm * edge.normals[1].cross(along)};
+  out.normal = (edge.normals[0] + edge.normals[1]).normalized();
+  out.is_convex = out.inward_mm[0].dot(edge.normals[1]) < 0.0;
+  return out;
 }
 
 Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const DistanceKnots& knots,
@@ -39,24 +39,50 @@ Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const Di
   const ObjectScene& object = *seen.object;
   const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
   const double eta = object.stated->eta_int_over_ext;
+  const double width_mm = chamfer_width_mm(*object.stated);
   const double patch_mm = seen.patches->patch_size_mm();
-  IncidentLight lost;
-  lost.patch_power_sr = {0.0};
+  IncidentLight lost, gained;
+  lost.patch_power_sr = gained.patch_power_sr = {0.0};
   for (const Crease& edge : creases(object.mesh(), kCrease_rad)) {
+    const ChamferedEdge chamfer = chamfered(edge, width_mm);
+    if (!chamfer.is_convex) continue;
     const Eigen::Vector3d along_mm = edge.to_mm - edge.from_mm;
     const int pieces = std::max(1, static_cast<int>(std::ceil(along_mm.norm() / patch_mm)));
-    const Eigen::Vector3d half_mm = 0.5 / pieces * along_mm;
-    const Eigen::Vector3d outward = (edge.normals[0] + edge.normals[1]).normalized();
     for (int i = 0; i < pieces; ++i) {
-      const Eigen::Vector3d middle_mm = edge.from_mm + (2 * i + 1) * half_mm;
-      const double change = light_by_chamfer_per_mm(led, edge, middle_mm, eta);
-      if (!(change < 0.0)) continue;
-      if (shadows.occluded(middle_mm, outward, led.position_mm)) continue;
-      add_strip(edge, half_mm, middle_mm, -change, 0.1 * patch_mm, lost);
+      const Eigen::Vector3d from_mm = edge.from_mm + (1.0 * i / pieces) * along_mm;
+      const Eigen::Vector3d to_mm = edge.from_mm + ((i + 1.0) / pieces) * along_mm;
+      const Eigen::Vector3d middle_mm = 0.5 * (from_mm + to_mm);
+      if (shadows.occluded(middle_mm, chamfer.normal, led.position_mm)) continue;
+      const auto e = [&](const Eigen::Vector3d& normal) {
+        return led.transmitted_irradiance_per_mm2(middle_mm, normal, eta);
+      };
+      for (std::size_t k = 0; k < 2; ++k) {
+        add_rectangle(from_mm, to_mm, chamfer.inward_mm[k], e(edge.normals[k]), lost);
+      }
+      const Eigen::Vector3d& first_mm = chamfer.inward_mm[0];
+      add_rectangle(from_mm + first_mm, to_mm + first_mm, chamfer.inward_mm[1] - first_mm,
+                    e(chamfer.normal), gained);
     }
   }
-  if (lost.lit.empty()) return {};
-  return -images_at_centers(seen, lost, knots, media);
+  if (lost.lit.empty() && gained.lit.empty()) return {};
+  // Of patches beside an edge, the mean: at their centres the light of an edge that decays within
+  // a patch is too small.
+  const auto image = [&](const IncidentLight& light) -> Eigen::MatrixXd {
+    const auto rows = static_cast<Eigen::Index>(seen.sites.size());
+    if (light.lit.empty()) {
+      return Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(media.size()));
+    }
+    const SourceCloud sources(light, object.box.center_mm());
+    return smooth_weights(seen.sites, sources, knots, pair_options(knots)) *
+           scaled_curves(media, knots, eta);
+  };
+  return (image(gained) - image(lost)) / width_mm;
+}
+
+double chamfer_width_mm(const SceneObject& object) {
+  constexpr double kOfExactEdges_mm = 0.05;
+  constexpr double kDeviations = 1.5;
+  return object.edge_std_mm > 0.0 ? kDeviations * object.edge_std_mm : kOfExactEdges_mm;
 }
 
 }  // namespace scattermeter

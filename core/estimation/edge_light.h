@@ -1,6 +1,7 @@
 // The effect of edges that are not as sharp as those of the mesh.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,18 +14,27 @@
 
 namespace scattermeter {
 
-// Light of an LED that enters along an edge, per mm of length and per mm by which each of its two
-// faces is cut back, as a change: |n_a + n_b| E(n_a + n_b) - E(n_a) - E(n_b), with E the
-// transmitted irradiance, sr/mm^2 per W/sr, of a chamfer and of the faces that it replaces. At most
-// 0 but for the angle dependence of the transmittance: of an edge between two lit faces almost
-// nothing is lost, of one between a lit and a dark face what the chamfer, seen from the LED, covers
-// less.
-double light_by_chamfer_per_mm(const Led& led, const Crease& edge, const Eigen::Vector3d& point_mm,
-                               double eta_int_over_ext);
+// A convex edge of which `width_mm` of each of the two faces is cut off.
+struct ChamferedEdge {
+  std::array<Eigen::Vector3d, 2> inward_mm;  // from the edge to the chamfer's edges, in the faces
+  Eigen::Vector3d normal;                    // of the chamfer
+  bool is_convex = false;
+};
+// The edge's direction must be that of its second facet, as in creases().
+ChamferedEdge chamfered(const Crease& edge, double width_mm);
 
-// dl / dw on the rows of a view, w the mm by which all edges of the mesh sharper than 0.3 rad are
-// cut back, per unit of the LED's intensity: rows x media, to first order in w, for points of edges
-// that the LED sees. Empty if no light is lost, as on a round body.
+// The width of the chamfers of which change_by_edges() takes the effect, mm: 1.5 standard
+// deviations of the object's edges, so that the second order is right for wide ones, or a small one
+// where the edges are stated as exact.
+double chamfer_width_mm(const SceneObject& object);
+
+// dl / dw on the rows of a view, w the mm of each face by which all convex edges of the mesh
+// sharper than 0.3 rad are cut back, per unit of the LED's intensity: rows x media. It is the
+// change by chamfers of chamfer_width_mm() over their width: light enters through the chamfer
+// instead of the strips of both faces. Its amount changes where one of the faces is dark; where it
+// enters, always, which is of second order in w and yet a per cent of the light just round an edge
+// for w a seventh of the mean free path. For points of edges that the LED sees; empty if there are
+// none, as on a round body.
 Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const DistanceKnots& knots,
                                 const std::vector<LitMedium>& media);
 

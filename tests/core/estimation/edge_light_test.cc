@@ -1,8 +1,5 @@
 #include "core/estimation/edge_light.h"
 
-#include <cmath>
-#include <numbers>
-
 #include <gtest/gtest.h>
 
 #include "core/material/dipole.h"
@@ -12,31 +9,20 @@
 namespace scattermeter {
 namespace {
 
-// The edge between a top face and a side, under light of unit irradiance that comes from above,
-// inclined towards the side by an angle. eta 1: the cosine alone.
-double change(double angle_rad) {
-  constexpr double kFar_mm = 1e6;
-  Led led;
-  led.exponent = 0.0;
-  led.position_mm = kFar_mm * Eigen::Vector3d(std::sin(angle_rad), 0.0, std::cos(angle_rad));
-  led.axis = -led.position_mm.normalized();
-  const Crease edge{{0, 0, 0}, {0, 1, 0}, {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()}};
-  return kFar_mm * kFar_mm * light_by_chamfer_per_mm(led, edge, {0, 0, 0}, 1.0);
+// The edge between a top face and a side that faces x, of a body below and left of it.
+TEST(EdgeLight, ChamferOfAConvexEdge) {
+  const Crease edge{{0, 0, 0}, {0, 1, 0}, {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ()}};
+  const ChamferedEdge c = chamfered(edge, 0.2);
+  EXPECT_TRUE(c.is_convex);
+  EXPECT_LT((c.inward_mm[0] - Eigen::Vector3d(0, 0, -0.2)).norm(), 1e-12);
+  EXPECT_LT((c.inward_mm[1] - Eigen::Vector3d(-0.2, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((c.normal - Eigen::Vector3d(1, 0, 1).normalized()).norm(), 1e-12);
+  const Crease hollow{{0, 0, 0}, {0, 1, 0}, {-Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ()}};
+  EXPECT_FALSE(chamfered(hollow, 0.2).is_convex);
 }
 
-TEST(EdgeLight, AChamferLosesWhatItCoversLess) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  // Both faces lit: their shadows on a plane across the light are that of the chamfer.
-  EXPECT_NEAR(change(30.0 * kDegree), 0.0, 1e-6);
-  EXPECT_NEAR(change(0.0), 0.0, 1e-6);
-  // The side dark: the chamfer is more inclined than the top by what the side faces away.
-  EXPECT_NEAR(change(-20.0 * kDegree), -std::sin(20.0 * kDegree), 1e-6);
-  // The chamfer dark as well: all light on the strip of the top is lost.
-  EXPECT_NEAR(change(-60.0 * kDegree), -std::cos(60.0 * kDegree), 1e-6);
-}
-
-// The change of the image, against a sum over points of the edges.
-TEST(EdgeLight, IsTheImageOfTheLossesAlongTheEdges) {
+// The change of the image, against a sum over points of strips and chamfers.
+TEST(EdgeLight, IsTheImageOfTheChangesAlongTheEdges) {
   test_support::DipoleCube cube;
   Led led = cube.scene.lights[0].led()->led;
   const SeenObject& seen = *cube.shots[0].seen;
@@ -48,19 +34,36 @@ TEST(EdgeLight, IsTheImageOfTheLossesAlongTheEdges) {
   EXPECT_LT((image.col(1) - 2.0 * image.col(0)).norm(), 1e-9 * image.norm());
   const Dipole dipole(medium);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(image.rows());
+  const double width_mm = chamfer_width_mm(*seen.object->stated);
   for (const Crease& edge : creases(seen.object->mesh(), 0.3)) {
-    constexpr int kPieces = 100;
+    constexpr int kPieces = 100, kAcross = 6;
     const Eigen::Vector3d step = (edge.to_mm - edge.from_mm) / kPieces;
+    const ChamferedEdge c = chamfered(edge, width_mm);
+    ASSERT_TRUE(c.is_convex);
+    const Eigen::Vector3d side = c.inward_mm[1] - c.inward_mm[0];
     for (int i = 0; i < kPieces; ++i) {
       const Eigen::Vector3d p = edge.from_mm + (i + 0.5) * step;
-      const double lost = std::min(0.0, light_by_chamfer_per_mm(led, edge, p, eta)) * step.norm();
-      for (Eigen::Index j = 0; j < sum.size(); ++j) {
-        const double d = (seen.sites[static_cast<std::size_t>(j)].center_mm - p).norm();
-        sum[j] += lost * dipole.reflectance_per_mm2(d);
-      }
+      const auto add = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& across,
+                           const Eigen::Vector3d& normal, double sign) {
+        const double power = sign * led.transmitted_irradiance_per_mm2(p, normal, eta) *
+                             step.norm() * across.norm() / kAcross / width_mm;
+        for (int k = 0; k < kAcross; ++k) {
+          const Eigen::Vector3d at = from + (k + 0.5) / kAcross * across;
+          for (Eigen::Index j = 0; j < sum.size(); ++j) {
+            const ExitSite& site = seen.sites[static_cast<std::size_t>(j)];
+            for (int p_idx = 0; p_idx < site.n_points; ++p_idx) {
+              const auto q = static_cast<std::size_t>(p_idx);
+              sum[j] += power * site.weights[q] *
+                        dipole.reflectance_per_mm2((site.points_mm[q] - at).norm());
+            }
+          }
+        }
+      };
+      add(p, c.inward_mm[0], edge.normals[0], -1.0);
+      add(p, c.inward_mm[1], edge.normals[1], -1.0);
+      add(p + c.inward_mm[0], side, c.normal, 1.0);
     }
   }
-  EXPECT_LT(sum.maxCoeff(), 0.0);
   EXPECT_LT((image.col(0) - sum).norm(), 0.02 * sum.norm());
 }
 
