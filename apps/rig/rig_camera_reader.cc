@@ -9,6 +9,7 @@
 #include "apps/rig/rig_fields.h"
 #include "calib/lens/camera_calibration_file.h"
 #include "calib/lens/intrinsics_file.h"
+#include "core/scene/default_uncertainty.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -29,6 +30,14 @@ CameraIntrinsics intrinsics_of(const YamlField& field, const std::string& rig_pa
     }
   }
   return k;
+}
+
+LensDeviations lens_deviations(const YamlField& field, LensDeviations otherwise) {
+  field.only({"focal_length_relative", "aspect_relative", "centre_px", "k1"});
+  return {field.number_or("focal_length_relative", otherwise.focal_length_relative, 0.0, 1.0),
+          field.number_or("aspect_relative", otherwise.aspect_relative, 0.0, 1.0),
+          field.number_or("centre_px", otherwise.centre_px, 0.0, 1e5),
+          field.number_or("k1", otherwise.k1, 0.0, 100.0)};
 }
 
 SceneSensor read_sensor(const YamlField& field) {
@@ -69,8 +78,9 @@ SceneSensor read_sensor(const YamlField& field) {
 }  // namespace
 
 void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
-  field.only({"model", "image_size_px", "intrinsics", "responsivity_counts_mm2_sr_per_W_s",
-              "responsivity_relative_std", "radiance", "sensor", "exposure_s", "iso", "f_number"});
+  field.only({"model", "image_size_px", "intrinsics", "intrinsics_std",
+              "responsivity_counts_mm2_sr_per_W_s", "responsivity_relative_std", "radiance",
+              "sensor", "exposure_s", "iso", "f_number"});
   SceneCamera& camera = rig.scene.camera;
   if (const auto f = field.find("model")) camera.model = f->text();
   const std::array<int, 2> size = integer_pair(field.at("image_size_px"), 2, 100'000);
@@ -86,6 +96,14 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
   camera.intrinsics.height_px = size[1];
   if (const std::string problem = intrinsics_problem(camera.intrinsics); !problem.empty()) {
     intrinsics.fail(problem);
+  }
+  const auto intrinsics_std = field.find("intrinsics_std");
+  if (camera.lens_root.cols() == 0) {
+    LensDeviations deviations = default_uncertainty::lens(camera.intrinsics);
+    if (intrinsics_std) deviations = lens_deviations(*intrinsics_std, deviations);
+    camera.lens_root = lens_root(camera.intrinsics, deviations);
+  } else if (intrinsics_std) {
+    intrinsics_std->fail("the file of camera.intrinsics contains the covariance of the lens");
   }
   if (const auto f = field.find("responsivity_counts_mm2_sr_per_W_s")) {
     camera.responsivity = positive_rgb(*f);

@@ -147,4 +147,21 @@ LensRoot lens_root(const std::vector<std::string>& parameters, const Eigen::Matr
   return parameter_map(lens_model_of(parameters)) * covariance_root(covariance);
 }
 
+LensRoot lens_root(const CameraIntrinsics& intrinsics, const LensDeviations& deviations) {
+  LensRoot root(kLensParameters, 0);
+  const auto add = [&](double std, const LensParameters& per_unit) {
+    if (!(std >= 0.0)) throw std::invalid_argument("lens_root: negative deviation");
+    if (std == 0.0) return;
+    root.conservativeResize(Eigen::NoChange, root.cols() + 1);
+    root.rightCols(1) = std * per_unit;
+  };
+  add(deviations.focal_length_relative,
+      intrinsics.fx_px * LensParameters::Unit(0) + intrinsics.fy_px * LensParameters::Unit(1));
+  add(deviations.aspect_relative, intrinsics.fy_px * LensParameters::Unit(1));
+  add(deviations.centre_px, LensParameters::Unit(2));
+  add(deviations.centre_px, LensParameters::Unit(3));
+  add(deviations.k1, LensParameters::Unit(4));
+  return root;
+}
+
 }  // namespace scattermeter

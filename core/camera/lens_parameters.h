@@ -60,4 +60,15 @@ using LensRoot = Eigen::Matrix<double, kLensParameters, Eigen::Dynamic>;
 // is zero or there are no parameters. std::invalid_argument for names that no model has.
 LensRoot lens_root(const std::vector<std::string>& parameters, const Eigen::MatrixXd& covariance);
 
+// Independent standard deviations of a lens that no calibration describes: of both focal lengths
+// together, of their ratio, of each coordinate of the principal point, px, and of k1.
+struct LensDeviations {
+  double focal_length_relative = 0;
+  double aspect_relative = 0;
+  double centre_px = 0;
+  double k1 = 0;
+};
+// No columns for what is exact (0). std::invalid_argument for a negative deviation.
+LensRoot lens_root(const CameraIntrinsics& intrinsics, const LensDeviations& deviations);
+
 }  // namespace scattermeter

@@ -4,6 +4,10 @@
 
 namespace scattermeter::default_uncertainty {
 
+LensDeviations lens(const CameraIntrinsics& intrinsics) {
+  return {kFocalLength, kPixelAspect, kPrincipalPoint * intrinsics.width_px, kDistortion};
+}
+
 void take_where_none(Scene& scene) {
   const auto take = [](double& std, double otherwise) {
     if (!(std > 0.0)) std = otherwise;
@@ -24,6 +28,10 @@ void take_where_none(Scene& scene) {
   }
   take(scene.even_light_share_std, kEvenLight);
   take(scene.shot_shift_std_px, kShotShift_px);
+  SceneCamera& camera = scene.camera;
+  if (camera.lens_root.cols() == 0) {
+    camera.lens_root = lens_root(camera.intrinsics, lens(camera.intrinsics));
+  }
 }
 
 }  // namespace scattermeter::default_uncertainty

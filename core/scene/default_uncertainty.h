@@ -25,8 +25,16 @@ inline constexpr double kEvenLight = 0.003;
 // The picture on a tripod, from shot to shot, px.
 inline constexpr double kShotShift_px = 0.1;
 
+// A lens that no calibration file describes: measured with other pictures, or focused again since.
+// Its principal point as a share of the frame's width.
+inline constexpr double kFocalLength = 0.002;
+inline constexpr double kPixelAspect = 0.0005;
+inline constexpr double kPrincipalPoint = 0.002;
+inline constexpr double kDistortion = 0.01;
+LensDeviations lens(const CameraIntrinsics& intrinsics);
+
 // Gives every object and every LED without a calibration these deviations where it has none, and
-// the scene its even light and the shift of its shots.
+// the scene its even light and the shift of its shots, and the camera's lens.
 void take_where_none(Scene& scene);
 
 }  // namespace scattermeter::default_uncertainty

@@ -75,6 +75,20 @@ TEST_F(RigCameraReader, TheLeast) {
             (std::array<int, 4>{50, 50, 50, 50}));
 }
 
+TEST_F(RigCameraReader, LensIsUncertainUnlessStatedExact) {
+  EXPECT_EQ(camera(kCamera).scene.camera.lens_root.cols(), 5);
+  const auto stated = camera(kCamera + "intrinsics_std: {focal_length_relative: 0.01, k1: 0}\n");
+  const LensRoot root = stated.scene.camera.lens_root;
+  EXPECT_EQ(root.cols(), 4);
+  EXPECT_DOUBLE_EQ(root(0, 0), 0.01 * stated.scene.camera.intrinsics.fx_px);
+  EXPECT_EQ(camera(kCamera + "intrinsics_std: {focal_length_relative: 0, aspect_relative: 0, "
+                             "centre_px: 0, k1: 0}\n")
+                .scene.camera.lens_root.cols(),
+            0);
+  EXPECT_THAT(refused(kCamera + "intrinsics_std: {focal: 0}\n"), HasSubstr("focal"));
+  EXPECT_THAT(refused(kCamera + "intrinsics_std: {k1: -1}\n"), HasSubstr("intrinsics_std.k1"));
+}
+
 // Its responsivity is the camera's; it belongs to frames of its size.
 TEST_F(RigCameraReader, RadianceCalibration) {
   capture::RadianceCalibration made;

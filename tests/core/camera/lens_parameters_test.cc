@@ -50,5 +50,21 @@ TEST(LensModels, NamesMapsAndBack) {
   EXPECT_EQ(lens_model_name({true, DistortionTerms::kK1K2}), "fx = fy, k1 k2");
 }
 
+TEST(LensRoot, OfIndependentDeviations) {
+  const CameraIntrinsics k{640, 480, 700, 690, 330, 250, {}};
+  const LensRoot root = lens_root(k, {0.01, 0.001, 2.0, 0.05});
+  const Eigen::MatrixXd covariance = root * root.transpose();
+  EXPECT_DOUBLE_EQ(covariance(0, 0), 49.0);
+  EXPECT_DOUBLE_EQ(covariance(0, 1), 7.0 * 6.9);
+  EXPECT_DOUBLE_EQ(covariance(1, 1), 6.9 * 6.9 + 0.69 * 0.69);
+  EXPECT_DOUBLE_EQ(covariance(2, 2), 4.0);
+  EXPECT_DOUBLE_EQ(covariance(3, 3), 4.0);
+  EXPECT_DOUBLE_EQ(covariance(4, 4), 0.0025);
+  EXPECT_EQ(covariance.bottomRows<7>().norm(), 0.0);
+  EXPECT_EQ(lens_root(k, {}).cols(), 0);
+  EXPECT_EQ(lens_root(k, {0.01, 0.0, 0.0, 0.0}).cols(), 1);
+  EXPECT_THROW(lens_root(k, {0.01, -0.001, 2.0, 0.05}), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace scattermeter

@@ -9,6 +9,7 @@ namespace {
 
 TEST(DefaultUncertainty, FillsInWhatIsNotStated) {
   Scene scene;
+  scene.camera.intrinsics = {640, 480, 700, 700, 320, 240, {}};
   scene.objects.resize(2);
   scene.objects[1].eta_std = 0.002;
   scene.lights.resize(2);
@@ -29,6 +30,7 @@ TEST(DefaultUncertainty, FillsInWhatIsNotStated) {
   EXPECT_EQ(led.intensity_relative_std, default_uncertainty::kLedIntensity);
   EXPECT_EQ(scene.even_light_share_std, default_uncertainty::kEvenLight);
   EXPECT_EQ(scene.shot_shift_std_px, default_uncertainty::kShotShift_px);
+  EXPECT_EQ(scene.camera.lens_root.cols(), 5);
   // A calibration states its own.
   EXPECT_EQ(scene.lights[1].led()->position_std_mm, 0.0);
 }
