@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/instrument/closer_look.h"
+#include "core/base/cross_matrix.h"
 #include "core/mesh/creases.h"
 #include "core/view/camera_view.h"
 
@@ -33,6 +34,19 @@ constexpr double kOnPlace_cells = 1.5;
 constexpr std::size_t kLeastPoints = 30;
 constexpr int kLooksAgain = 2;
 constexpr std::size_t kShotsAgain = 4;  // of each object
+
+// Of an object put down as exactly as that, about each axis: at a distance of its own size.
+double turn_std_rad(const ObjectScene& object) { return kPlaceStd_mm / object.size_mm(); }
+
+// Adds the uncertainty of the object's place and orientation: the pose relative to the object.
+void add_place(const ObjectScene& object, PoseResult& pose) {
+  const Eigen::Matrix3d r = pose.camera_from_world.rotation.toRotationMatrix();
+  Eigen::Matrix<double, 6, 6> by = Eigen::Matrix<double, 6, 6>::Zero();
+  by.bottomLeftCorner<3, 3>() = kPlaceStd_mm * r;
+  by.topRightCorner<3, 3>() = turn_std_rad(object) * r;
+  by.bottomRightCorner<3, 3>() = turn_std_rad(object) * r * cross_matrix(object.box.center_mm());
+  pose.covariance += by * by.transpose();
+}
 
 // Share of the points that lie on the contour, wherever it stands.
 double share_alone(const calib::OutlineLook& look, const std::vector<calib::ContourPoint>& contour,
@@ -129,6 +143,15 @@ calib::OutlineDiagnosis OutlineWatch::explain(const Looks& looks,
   }
   calib::OutlineOptions options;
   options.place_std_mm = kPlaceStd_mm;
+  for (const std::string& name : names_) {
+    const auto object = objects_.find(name);
+    if (object == objects_.end()) continue;
+    options.turn_std_rad = std::max(options.turn_std_rad, turn_std_rad(object->second));
+    options.scale_relative_std =
+        std::max(options.scale_relative_std, object->second.stated->scale_relative_std);
+    options.growth_std_px = std::max(
+        options.growth_std_px, edge_cut_px(rig_.scene.camera.intrinsics, object->second, pose_));
+  }
   return calib::explain_outlines(shots, rig_.scene.camera.intrinsics, pose_, names_, centers_mm_,
                                  options);
 }
@@ -243,7 +266,7 @@ void OutlineWatch::conclude(OutlineFindings& out) const {
     if (!d.deserves_closer_look) return;
     out.pose = d.pose;
     out.prior = pose_;
-    out.prior->covariance.diagonal().tail<3>().array() += kPlaceStd_mm * kPlaceStd_mm;
+    add_place(objects_.at(names_[body_of(out.looked_at.front())]), *out.prior);
     out.notes.push_back(
         fmt::format("outline {} of where the pose puts it (± {:.1f}), within the stated "
                     "uncertainty: the pose was "

@@ -89,8 +89,9 @@ class Causes {
     known_ = Eigen::VectorXd::Zero(model.columns());
     for (const std::size_t b : bodies_) {
       known_.segment<3>(model.place(b)).setConstant(options.place_std_mm);
+      known_.segment<3>(model.turn(b)).setConstant(options.turn_std_rad);
       known_[model.scale(b)] = options.scale_relative_std;
-      known_[model.growth(b)] = kGrowth * model.cell_px();
+      known_[model.growth(b)] = std::hypot(kGrowth * model.cell_px(), options.growth_std_px);
       known_.segment(model.harmonics(b), OutlineModel::kHarmonics)
           .setConstant(kShotShift * model.cell_px());
     }
@@ -152,14 +153,17 @@ class Causes {
   Eigen::VectorXd known_;
 };
 
-// The pose relative to the mesh from the fit of the rig as it is: places are shifts of the pose.
+// The pose relative to the mesh from the fit of the rig as it is: places and turns of the body
+// about its centre are motions of the pose.
 PoseResult pose_of(const OutlineModel& model, const OutlineModel::Fit& fit, const PoseResult& pose,
-                   std::size_t body) {
+                   std::size_t body, const Eigen::Vector3d& center_mm) {
   PoseResult out = pose;
   const Eigen::Matrix3d r = pose.camera_from_world.rotation.toRotationMatrix();
   Eigen::MatrixXd by = Eigen::MatrixXd::Zero(6, model.columns());
   by.leftCols<6>().setIdentity();
   by.block<3, 3>(3, model.place(body)) = r;
+  by.block<3, 3>(0, model.turn(body)) = r;
+  by.block<3, 3>(3, model.turn(body)) = r * cross_matrix(center_mm);
   const Eigen::Matrix<double, 6, 1> v = by * fit.value;
   const double angle = v.head<3>().norm();
   if (angle > 0) {
@@ -212,7 +216,10 @@ OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
   Eigen::VectorXd errors = causes.known();
   errors.head<kOutlinePose>().setZero();
   std::size_t body = 0;
-  for (std::size_t b = 0; b < centers_mm.size(); ++b) errors.segment<3>(model.place(b)).setZero();
+  for (std::size_t b = 0; b < centers_mm.size(); ++b) {
+    errors.segment<3>(model.place(b)).setZero();
+    errors.segment<3>(model.turn(b)).setZero();
+  }
   for (const OutlineShot& shot : shots) body = static_cast<std::size_t>(shot.body_idx);
   const OutlineModel::Fit exact = model.fit(errors, false);
   const OutlineModel::Fit known = model.fit(causes.known(), true);
@@ -230,7 +237,7 @@ OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
       out.agrees && chi_square_tail(std::max(0.0, exact.chi2 - known.chi2), 6) < kOutlineDoubt;
   out.deserves_closer_look =
       out.improves_pose || (out.agrees && out.shift_px.norm() > kShotShift * model.cell_px());
-  out.pose = out.improves_pose ? pose_of(model, known, pose, body) : pose;
+  out.pose = out.improves_pose ? pose_of(model, known, pose, body, centers_mm[body]) : pose;
   return out;
 }
 

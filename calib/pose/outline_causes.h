@@ -60,7 +60,9 @@ struct OutlineDiagnosis {
 
 struct OutlineOptions {
   double place_std_mm = 0;  // of every body, in each coordinate
+  double turn_std_rad = 0;  // of every body, about each axis
   double scale_relative_std = 0;
+  double growth_std_px = 0;  // of the outline, outwards, besides the look's own error
 };
 
 // Least squares of all offsets. Besides the causes, the model has the errors of a quick look: the
