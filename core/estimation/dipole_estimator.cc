@@ -29,6 +29,7 @@ struct Work {
   ChannelRows rows;
   bool estimated = false;  // there is a first estimate
   bool settled = false;    // another round would not change it
+  JointPulls joint_pulls;  // known from other channels
 };
 
 bool settled(const Estimate& before, const Estimate& after) {
@@ -84,27 +85,42 @@ class DipoleEstimator {
 
  private:
   // Once more those channels that doubt a quantity of the rig that all share, or of which all
-  // together doubt one.
+  // together doubt one. What only the channels of a material probably share is doubted as much as
+  // the channel itself or all of them together doubt it.
   void fit_with_joint_pulls() {
     const auto is_doubted = [](double pull) { return std::abs(pull) > kDoubtfulPull; };
-    for (const PriorPull& p : joint_pulls_of(e_.results).pulls) fit_.joint_pulls[p.name] = p.pull;
+    JointPulls shared;
+    for (const PriorPull& p : joint_pulls_of(e_.results).pulls) shared[p.name] = p.pull;
+    std::map<std::string, JointPulls> of_material;
+    for (const ChannelResult& r : e_.results) {
+      const auto [it, is_new] = of_material.try_emplace(r.material);
+      if (!is_new) continue;
+      for (const PriorPull& p : joint_pulls_of(e_.results, r.material).pulls) {
+        it->second[p.name] = p.pull;
+      }
+    }
     tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
       const Estimate& estimate = e_.results[i].estimate;
       if (!work_[i].estimated || !estimate.converged) return;
-      const std::vector<PriorPull>& own = estimate.pulls;
-      if (std::any_of(own.begin(), own.end(), [&](const PriorPull& p) {
-            const auto joint = fit_.joint_pulls.find(p.name);
-            return joint != fit_.joint_pulls.end() &&
-                   (is_doubted(p.pull) || is_doubted(joint->second));
-          })) {
-        final_fit(i);
+      JointPulls& joint = work_[i].joint_pulls = shared;
+      const JointPulls& material = of_material.at(e_.results[i].material);
+      bool again = false;
+      for (const PriorPull& p : estimate.pulls) {
+        const auto it = material.find(p.name);
+        if (it == material.end()) continue;
+        const bool own_is_larger = std::abs(p.pull) > std::abs(it->second);
+        const double known =
+            joint.try_emplace(p.name, own_is_larger ? p.pull : it->second).first->second;
+        again = again || is_doubted(p.pull) || is_doubted(known);
       }
+      if (again) final_fit(i);
     });
   }
 
-  DipoleFitOptions options_of(const MaterialChannel& channel) const {
+  DipoleFitOptions options_of(std::size_t i) const {
     DipoleFitOptions own = fit_;
-    own.eta_int_over_ext = channel.eta_int_over_ext;
+    own.eta_int_over_ext = e_.channels[i].eta_int_over_ext;
+    own.joint_pulls = work_[i].joint_pulls;
     return own;
   }
 
@@ -112,8 +128,8 @@ class DipoleEstimator {
     Work& work = work_[i];
     const MaterialChannel& channel = e_.channels[i];
     work.rows = channel_rows(e_.scene, channel);
-    const DipoleFit fit = fit_to_some(
-        FirstChannelImage(e_.scene, channel, work.rows, e_.kept.weights), channel, work.rows);
+    const DipoleFit fit =
+        fit_to_some(FirstChannelImage(e_.scene, channel, work.rows, e_.kept.weights), i);
     e_.results[i].estimate = fit.estimate;
     report_rows(channel, work.rows, e_.results[i]);
     work.estimated = fit.estimate.converged;
@@ -130,12 +146,11 @@ class DipoleEstimator {
 
   // To some thousand rows evenly among all, which determine a material well enough to begin with;
   // if not, to all of them.
-  DipoleFit fit_to_some(const ImageRows& image, const MaterialChannel& channel,
-                        const ChannelRows& rows) const {
+  DipoleFit fit_to_some(const ImageRows& image, std::size_t i) const {
     constexpr std::size_t kRows = 4096;
-    const DipoleFitOptions options = options_of(channel);
+    const DipoleFitOptions options = options_of(i);
     std::size_t used = 0;
-    for (const ChannelObservation& o : rows) used += o.rows_used;
+    for (const ChannelObservation& o : work_[i].rows) used += o.rows_used;
     if (used / kRows > 1) {
       const DenseSystem some = stacked(image, static_cast<Eigen::Index>(used / kRows));
       DipoleFit fit = fit_dipole(some, knots_, options);
@@ -193,7 +208,7 @@ class DipoleEstimator {
     const MaterialChannel& channel = e_.channels[i];
     ChannelResult& result = e_.results[i];
     const Estimate first = result.estimate;
-    const DipoleFitOptions options = options_of(channel);
+    const DipoleFitOptions options = options_of(i);
     const LitMedium medium{{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
                            first.scale.value};
     const ChannelImage image(e_.scene, channel, work_[i].rows, e_.kept.weights, knots_, medium,
@@ -227,15 +242,16 @@ class DipoleEstimator {
                                    channel.eta_int_over_ext},
                                   std::exp(fit.optimum.log_s), misfit);
     widen_by_mesh_scale(channel, result.estimate);
-    if (channel.shots.size() > 1) compare_shots(channel, image, shots, fit, result);
+    if (channel.shots.size() > 1) compare_shots(i, image, shots, fit, result);
     refuse_undetermined(result.estimate);
   }
 
   // Fits each shot by itself and widens the joint estimate by what they disagree.
-  void compare_shots(const MaterialChannel& channel, const ChannelImage& image,
+  void compare_shots(std::size_t i, const ChannelImage& image,
                      const std::vector<ShotInformation>& shots, const DipoleFit& fit,
                      ChannelResult& result) const {
-    const DipoleFitOptions options = options_of(channel);
+    const MaterialChannel& channel = e_.channels[i];
+    const DipoleFitOptions options = options_of(i);
     result.singles.clear();
     for (std::size_t s = 0; s < channel.shots.size(); ++s) {
       const ShotSystem own = image.shot(s);

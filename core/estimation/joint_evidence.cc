@@ -1,8 +1,8 @@
 #include "core/estimation/joint_evidence.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <string>
@@ -26,11 +26,11 @@ struct Shared {
   Eigen::VectorXd score;
 };
 
-Shared shared_part(const RigEvidence& e) {
+Shared shared_part(const RigEvidence& e, bool (*shared)(const Nuisance&)) {
   Shared out;
   std::vector<Eigen::Index> own;
   for (std::size_t k = 0; k < e.nuisances.size(); ++k) {
-    (is_shared(e.nuisances[k]) ? out.at : own).push_back(static_cast<Eigen::Index>(k));
+    (shared(e.nuisances[k]) ? out.at : own).push_back(static_cast<Eigen::Index>(k));
   }
   out.information = e.information(out.at, out.at);
   out.score = e.score(out.at);
@@ -43,28 +43,44 @@ Shared shared_part(const RigEvidence& e) {
   return out;
 }
 
-// As improbable as one pull of kMostPull.
-double least_probability() {
-  static const double kProbability = std::erfc(kMostPull * M_SQRT1_2);
-  return kProbability;
+bool is_of(const Nuisance& nuisance, std::initializer_list<std::string_view> groups) {
+  return nuisance.fitted && !nuisance.name.empty() &&
+         std::find(groups.begin(), groups.end(), nuisance.group) != groups.end();
 }
 
-void refuse_with_all_channels(const JointJudgement& joint, std::vector<ChannelResult>& results) {
-  const PriorPull* worst = contradiction(joint.pulls, kMostPull, kLeastPullImage);
+// The covariance of paths is itself an estimate from so many blocks: pulls by transport have longer
+// tails.
+double most_pull_of(const std::vector<ChannelResult>& results) {
+  return std::any_of(results.begin(), results.end(),
+                     [](const ChannelResult& r) { return r.model == "transport"; })
+             ? kMostPullByPaths
+             : kMostPull;
+}
+
+// As improbable as one pull of that many deviations.
+double probability_of(double pull) { return std::erfc(pull * M_SQRT1_2); }
+
+// Of one material, or of all (empty).
+void refuse_with_all_channels(const JointJudgement& joint, const std::string& material,
+                              std::vector<ChannelResult>& results) {
+  const double most_pull = most_pull_of(results);
+  const PriorPull* worst = contradiction(joint.pulls, most_pull, kLeastPullImage);
   std::string text;
   if (worst != nullptr) {
     text = "all channels together: " + contradiction_sentence(*worst);
-  } else if (joint.dof > 0.0 && chi_square_tail(joint.chi2, joint.dof) < least_probability()) {
+  } else if (joint.dof > 0.0 &&
+             chi_square_tail(joint.chi2, joint.dof) < probability_of(most_pull)) {
     // No single quantity is far off, but many are.
     worst = contradiction(joint.pulls, 0.0, kLeastPullImage);
     if (worst == nullptr) return;
     text = fmt::format(
-        "all channels together contradict the positions and directions that the rig states "
+        "all channels together contradict what the rig states "
         "(chi-square {:.0f} of {:.0f} quantities), most of all: {}",
         joint.chi2, joint.dof, contradiction_sentence(*worst));
   }
   if (worst == nullptr) return;
   for (ChannelResult& r : results) {
+    if (!material.empty() && r.material != material) continue;
     std::vector<std::string>& reasons = r.estimate.reasons;
     const auto& own = r.evidence.nuisances;
     const auto it = std::find_if(own.begin(), own.end(),
@@ -79,6 +95,17 @@ void refuse_with_all_channels(const JointJudgement& joint, std::vector<ChannelRe
 
 bool explains_its_image(const ChannelResult& r) {
   return r.estimate.converged && !misses_image(r.estimate);
+}
+
+// Of one material, or of all (empty).
+std::vector<const RigEvidence*> evidence_of(const std::vector<ChannelResult>& results,
+                                            const std::string& material) {
+  std::vector<const RigEvidence*> out;
+  for (const ChannelResult& r : results) {
+    if (!material.empty() && r.material != material) continue;
+    if (!r.evidence.nuisances.empty() && explains_its_image(r)) out.push_back(&r.evidence);
+  }
+  return out;
 }
 
 // Light that no lamp of the rig sends has another amount in each channel, but one cause: what one
@@ -105,7 +132,7 @@ void refuse_stray_light(const std::string& material, std::vector<ChannelResult>&
     }
     if (channels.size() < 2) continue;
     const double p_value = choices * chi_square_tail(chi2, static_cast<double>(channels.size()));
-    if (!(p_value < least_probability())) continue;
+    if (!(p_value < probability_of(most_pull_of(results)))) continue;
     for (auto& [r, pull] : channels) {
       if (r->refused() || !(pull.image_relative > kLeastPullImage)) continue;
       pull.pull = std::copysign(std::sqrt(chi2), pull.pull);
@@ -114,23 +141,46 @@ void refuse_stray_light(const std::string& material, std::vector<ChannelResult>&
   }
 }
 
+// Where the model misses the images of two channels, the rig is not as stated, and the third
+// channel may owe its good fit to wrong coefficients.
+void refuse_beside_missed(const std::string& material, std::vector<ChannelResult>& results) {
+  const ChannelResult* first = nullptr;
+  int missed = 0;
+  for (const ChannelResult& r : results) {
+    if (r.material != material || !r.estimate.converged || !r.refused()) continue;
+    if (!misses_image(r.estimate)) continue;
+    if (first == nullptr) first = &r;
+    ++missed;
+  }
+  if (missed < 2) return;
+  const std::string text =
+      fmt::format("channel {} of these shots: {}", first->channel, first->estimate.reasons.front());
+  for (ChannelResult& r : results) {
+    if (r.material == material && !r.refused()) r.estimate.reasons.push_back(text);
+  }
+}
+
 }  // namespace
 
 bool is_shared(const Nuisance& nuisance) {
-  constexpr std::array<std::string_view, 7> kGroups = {
-      "pose", "camera shift", "lens", "mesh position", "LED position", "LED axis", "LED exponent"};
-  return nuisance.fitted && !nuisance.name.empty() &&
-         std::find(kGroups.begin(), kGroups.end(), nuisance.group) != kGroups.end();
+  return is_of(nuisance, {"pose", "camera shift", "lens", "mesh position", "LED position",
+                          "LED axis", "LED exponent"});
 }
 
-JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels) {
+bool is_shared_by_material(const Nuisance& nuisance) {
+  return is_shared(nuisance) ||
+         is_of(nuisance, {"scale", "LED power", "exposure time", "eta", "edges", "surroundings"});
+}
+
+JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels,
+                           bool (*shared)(const Nuisance&)) {
   JointJudgement out;
   std::map<std::string, Eigen::Index> index;
   std::vector<Shared> parts;
   std::vector<double> image;  // by one deviation
   std::vector<double> std;
   for (const RigEvidence* e : channels) {
-    const Shared& part = parts.emplace_back(shared_part(*e));
+    const Shared& part = parts.emplace_back(shared_part(*e, shared));
     for (const Eigen::Index k : part.at) {
       const Nuisance& n = e->nuisances[static_cast<std::size_t>(k)];
       const auto [it, is_new] =
@@ -182,11 +232,12 @@ JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels) {
 }
 
 JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results) {
-  std::vector<const RigEvidence*> all;
-  for (const ChannelResult& r : results) {
-    if (!r.evidence.nuisances.empty() && explains_its_image(r)) all.push_back(&r.evidence);
-  }
-  return joint_pulls(all);
+  return joint_pulls(evidence_of(results, ""));
+}
+
+JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results,
+                              const std::string& material) {
+  return joint_pulls(evidence_of(results, material), is_shared_by_material);
 }
 
 void refuse_contradicted(std::vector<ChannelResult>& results) {
@@ -194,17 +245,22 @@ void refuse_contradicted(std::vector<ChannelResult>& results) {
   // channel whose model misses its image counts if a second channel contradicts the rig as well.
   std::map<std::string, std::pair<char, PriorPull>> contradicted, doubtful;
   for (const ChannelResult& r : results) {
-    const PriorPull* worst = contradiction(r.estimate.pulls, kMostPull, kLeastPullImage);
+    const PriorPull* worst =
+        contradiction(r.estimate.pulls, most_pull_of(results), kLeastPullImage);
     if (worst == nullptr || !r.estimate.converged) continue;
     const bool is_second = !doubtful.try_emplace(r.material, r.channel, *worst).second;
     if (explains_its_image(r) || is_second) {
       contradicted.try_emplace(r.material, r.channel, *worst);
     }
   }
-  refuse_with_all_channels(joint_pulls_of(results), results);
+  refuse_with_all_channels(joint_pulls_of(results), "", results);
   std::set<std::string> materials;
   for (const ChannelResult& r : results) materials.insert(r.material);
-  for (const std::string& material : materials) refuse_stray_light(material, results);
+  for (const std::string& material : materials) {
+    refuse_with_all_channels(joint_pulls_of(results, material), material, results);
+    refuse_stray_light(material, results);
+    refuse_beside_missed(material, results);
+  }
   for (ChannelResult& r : results) {
     const auto by = contradicted.find(r.material);
     if (by == contradicted.end() || r.refused()) continue;

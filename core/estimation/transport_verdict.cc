@@ -106,7 +106,7 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
                     100.0 * estimate.rms_relative, 100.0 * unexplained));
   }
   estimate.pulls = std::move(pulls);
-  if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
+  if (const PriorPull* worst = contradiction(estimate.pulls, kMostPullByPaths, kLeastPullImage)) {
     estimate.reasons.push_back(contradiction_sentence(*worst));
   }
   if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {

