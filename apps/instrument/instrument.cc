@@ -4,6 +4,7 @@
 #include <exception>
 #include <set>
 
+#include <fmt/core.h>
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include "apps/instrument/closer_look.h"
@@ -15,6 +16,7 @@
 #include "apps/instrument/outline_watch.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/shots/shot_cache.h"
+#include "core/base/chi_square.h"
 #include "core/base/input_error.h"
 #include "core/base/progress.h"
 
@@ -37,6 +39,28 @@ double distance_to_camera_mm(const Rig& rig, const ObjectScenes& objects,
         std::max(distance_mm, (view.center_in_world_mm() - object.box.center_mm()).norm());
   }
   return distance_mm;
+}
+
+// Pose points that scatter by far more than the rig states about the best pose: lens or marks are
+// not as stated, and no pose is right.
+std::optional<Finding> scattered_points(const Rig& rig, const PoseResult& pose,
+                                        const std::vector<std::size_t>& shots) {
+  constexpr double kMostRatio = 2.0;
+  constexpr double kLeastProbability = 1e-6;
+  const double stated_px = rig.pose.options.point_std_px;
+  const double dof =
+      2.0 * static_cast<double>(std::count(pose.inlier.begin(), pose.inlier.end(), true)) - 6.0;
+  const double ratio = pose.noise_std_px / stated_px;
+  if (!(ratio > kMostRatio) || chi_square_tail(dof * ratio * ratio, dof) > kLeastProbability) {
+    return std::nullopt;
+  }
+  return Finding{"pose points",
+                 fmt::format("pose points scatter by {:.2g} px about the best camera pose, {:.1f} "
+                             "times the {:.2g} px of pose.point_std_px",
+                             pose.noise_std_px, ratio, stated_px),
+                 "check camera.intrinsics (was the lens focused again?) and the marks' positions, "
+                 "or state how well they were read",
+                 shots};
 }
 
 std::vector<MergedBracket> brackets_of(const std::vector<ObservedShot>& shots) {
@@ -211,6 +235,11 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   if (smooth && !without_noise) {
     of_light = LightLook(rig_.scene, lit_, shots, kept->weights).findings();
     watch.lap("first look");
+  }
+  if (pose_ && !without_noise) {
+    if (auto points = scattered_points(rig_, *pose_, source.shot_idxs)) {
+      outlines.findings.push_back(std::move(*points));
+    }
   }
   out.notes = outlines.notes;
   out.brackets = brackets_of(shots);

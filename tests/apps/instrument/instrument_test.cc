@@ -1,5 +1,6 @@
 #include "apps/instrument/instrument.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -129,6 +130,28 @@ TEST_F(InstrumentTest, IdealSamplesNeedAPose) {
   const capture::SampleSource none = [](std::size_t, const SampleMap&) { return CfaSamples{}; };
   EXPECT_THROW(instrument.measure(capture::shots_from(board.scene, {0}, none)),
                std::invalid_argument);
+}
+
+// Points read far worse than stated belong to another lens or to other marks: no wider error makes
+// such a pose right.
+TEST_F(InstrumentTest, PosePointsThatScatterAreRefused) {
+  Rig rig = rig_;
+  rig.pose.options.point_std_px = 0.1;
+  for (std::size_t i = 0; i < rig.pose.points.size(); ++i) {
+    rig.pose.points[i].image_px.x() += i % 2 == 0 ? 0.6 : -0.6;
+  }
+  const auto refused_with = [&](double stated_px) {
+    rig.pose.options.point_std_px = stated_px;
+    Instrument instrument(rig, scenes_, options_);
+    const Measurement m = instrument.measure(
+        capture::shots_from(rig.scene, capture::all_shots(rig.scene), frames(3)));
+    const std::vector<std::string>& reasons = m.results.at(0).estimate.reasons;
+    return std::any_of(reasons.begin(), reasons.end(), [](const std::string& r) {
+      return r.find("pose points scatter by") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(refused_with(0.1));
+  EXPECT_FALSE(refused_with(0.6));
 }
 
 }  // namespace
