@@ -9,8 +9,9 @@ const std::vector<Deviation>& all_deviations() {
   static const std::vector<Deviation> all = [] {
     std::vector<Deviation> out = {
         {.name = "none", .words = {}, .unit = "", .sizes = {0}, .within = 1}};
-    for (const auto& rows : {mesh_deviations(), led_deviations(), stray_light_deviations(),
-                             camera_deviations(), sensor_deviations(), object_deviations()}) {
+    for (const auto& rows :
+         {mesh_deviations(), led_deviations(), stray_light_deviations(), camera_deviations(),
+          sensor_deviations(), object_deviations(), drawn_deviations()}) {
       out.insert(out.end(), rows.begin(), rows.end());
     }
     return out;

@@ -49,7 +49,8 @@ struct DeviationNeeds {
   bool volume = false;  // not with shots rendered by the dipole
 };
 
-// One kind of deviation. Exactly one of the three functions is set, except for the control.
+// One kind of deviation. Exactly one of the three functions is set, except for the control and for
+// the rigs that deviate in everything.
 struct Deviation {
   std::string name;
   std::vector<std::string> words;  // a refusal that contains one of them names the cause
@@ -74,6 +75,7 @@ std::vector<Deviation> stray_light_deviations();
 std::vector<Deviation> camera_deviations();
 std::vector<Deviation> sensor_deviations();
 std::vector<Deviation> object_deviations();
+std::vector<Deviation> drawn_deviations();
 
 // All of them, the control (no deviation) first.
 const std::vector<Deviation>& all_deviations();

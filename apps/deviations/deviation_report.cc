@@ -1,7 +1,9 @@
 #include "apps/deviations/deviation_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/core.h>
 #include <fmt/format.h>
@@ -36,8 +38,19 @@ void add_row(TextTable& table, const std::string& kind, const std::string& size,
   table.add_row({kind, size, mark, std::to_string(n.runs), std::to_string(n.wrong_ok),
                  n.wrong_ok > 0 ? fmt::format("{:.1f}", n.worst_by_std) : "-",
                  percent(n.right + n.wrong_ok, n.runs), percent(n.refused, n.runs),
-                 percent(n.named, n.refused)});
+                 percent(n.named, n.refused), percent(n.in_interval, 2 * (n.right + n.wrong_ok))});
 }
+
+// The share of the variance that a cause adds to one coefficient, summed over answers.
+struct CauseShare {
+  double variance = 0, wider = 0;
+  void add(double by_cause, double std) {
+    const double share = std > 0.0 ? std::min(by_cause * by_cause / (std * std), 1.0) : 0.0;
+    variance += share;
+    // Bounded: nearly all of a variance may be by one cause.
+    wider += 1.0 / std::sqrt(std::max(1.0 - share, 1e-4)) - 1.0;
+  }
+};
 
 }  // namespace
 
@@ -47,6 +60,7 @@ void DeviationCount::add(const JudgedAnswer& answer) {
   wrong_ok += answer.verdict == DeviationVerdict::kWrongOk ? 1 : 0;
   refused += answer.verdict == DeviationVerdict::kRefused ? 1 : 0;
   named += answer.names_cause ? 1 : 0;
+  in_interval += answer.in_interval;
   worst_by_std = std::max(worst_by_std, answer.wrong_by_std);
 }
 
@@ -56,11 +70,13 @@ void DeviationCount::add(const DeviationCount& other) {
   wrong_ok += other.wrong_ok;
   refused += other.refused;
   named += other.named;
+  in_interval += other.in_interval;
   worst_by_std = std::max(worst_by_std, other.worst_by_std);
 }
 
 double DeviationCount::answered_share() const { return share(right + wrong_ok, runs); }
 double DeviationCount::named_share() const { return share(named, refused); }
+double DeviationCount::coverage95() const { return share(in_interval, 2 * (right + wrong_ok)); }
 
 DeviationSummary summarise(const std::vector<DeviationResult>& results) {
   DeviationSummary out;
@@ -124,7 +140,8 @@ std::string deviation_table(const std::vector<DeviationResult>& results) {
                    {"worst [s]"},
                    {"answered"},
                    {"refused"},
-                   {"by name"}});
+                   {"by name"},
+                   {"in 95 %"}});
   for (const DeviationKindCount& k : summary.kinds) {
     bool is_first = true;
     for (std::size_t s = 0; s < k.by_size.size(); ++s) {
@@ -142,6 +159,33 @@ std::string deviation_table(const std::vector<DeviationResult>& results) {
   add_row(table, "all", "", "", summary.total);
   add_row(table, "within what the rig states", "", "within", summary.within);
   return table.text();
+}
+
+std::string deviation_budget_table(const std::vector<DeviationResult>& results) {
+  std::map<std::string, std::array<CauseShare, 2>> causes;
+  int answers = 0;
+  for (const DeviationResult& r : results) {
+    const Estimate& e = r.estimate;
+    if (!r.run.within() || !e.reasons.empty()) continue;
+    ++answers;
+    for (const BudgetLine& line : e.budget) {
+      std::array<CauseShare, 2>& of = causes[line.cause];
+      of[0].add(line.std_sigma_s_prime_per_mm, e.sigma_s_prime_per_mm.std);
+      of[1].add(line.std_sigma_a_per_mm, e.sigma_a_per_mm.std);
+    }
+  }
+  using Align = TextTable::Align;
+  TextTable table({{"cause", Align::kLeft},
+                   {"of sigma_s' variance"},
+                   {"wider by"},
+                   {"of sigma_a variance"},
+                   {"wider by"}});
+  const auto mean = [&](double sum) { return fmt::format("{:.1f} %", 100.0 * sum / answers); };
+  for (const auto& [cause, of] : causes) {
+    table.add_row(
+        {cause, mean(of[0].variance), mean(of[0].wider), mean(of[1].variance), mean(of[1].wider)});
+  }
+  return causes.empty() ? "" : table.text();
 }
 
 std::string deviation_csv(const std::vector<DeviationResult>& results) {
@@ -167,6 +211,7 @@ std::string deviation_csv(const std::vector<DeviationResult>& results) {
            "reduced_chi2",
            "rms_relative",
            "names_cause",
+           "largest_pulls",
            "seconds",
            "reasons"});
   for (const DeviationResult& r : results) {
@@ -194,6 +239,7 @@ std::string deviation_csv(const std::vector<DeviationResult>& results) {
          csv_number(e.reduced_chi2),
          csv_number(e.rms_relative),
          e.reasons.empty() ? "" : (r.judged.names_cause ? "yes" : "no"),
+         largest_pulls(e.pulls),
          csv_number(r.seconds),
          fmt::format("{}", fmt::join(e.reasons, " "))});
   }

@@ -14,11 +14,13 @@ struct DeviationCount {
   int runs = 0;
   int right = 0, wrong_ok = 0, refused = 0;
   int named = 0;            // of the refused
+  int in_interval = 0;      // of the 95 % intervals of the answers, two for each
   double worst_by_std = 0;  // of the wrong
   void add(const JudgedAnswer& answer);
   void add(const DeviationCount& other);
   double answered_share() const;  // NaN for none
   double named_share() const;     // of the refusals; NaN for none
+  double coverage95() const;      // of the intervals; NaN for none
 };
 
 // Counts of a kind: of each size, and of all.
@@ -40,6 +42,10 @@ DeviationSummary summarise(const std::vector<DeviationResult>& results);
 std::string deviation_line(const DeviationResult& result);
 // A row for each kind and size, and the totals.
 std::string deviation_table(const std::vector<DeviationResult>& results);
+// By cause of the budget, over the answers to rigs within what is stated: the share of the stated
+// variance that would vanish if the cause were known exactly, and by how much the cause widens the
+// stated deviation. In the mean over the answers; causes that no answer has are absent.
+std::string deviation_budget_table(const std::vector<DeviationResult>& results);
 // A row for each answer.
 std::string deviation_csv(const std::vector<DeviationResult>& results);
 // The kinds with sizes, units and words.

@@ -75,6 +75,11 @@ JudgedAnswer judge_answer(const Estimate& estimate, const TrueCoefficients& trut
   }
   out.sigma_s_prime = answer_error(estimate.sigma_s_prime_per_mm, truth.sigma_s_prime_per_mm);
   out.sigma_a = answer_error(estimate.sigma_a_per_mm, truth.sigma_a_per_mm);
+  const auto holds = [](const Quantity& q, const TrueRange& range) {
+    return q.low95 <= range.high && q.high95 >= range.low;
+  };
+  out.in_interval = (holds(estimate.sigma_s_prime_per_mm, truth.sigma_s_prime_per_mm) ? 1 : 0) +
+                    (holds(estimate.sigma_a_per_mm, truth.sigma_a_per_mm) ? 1 : 0);
   const bool wrong_s = is_wrong(out.sigma_s_prime, kWrongRelativeScattering);
   const bool wrong_a = is_wrong(out.sigma_a, kWrongRelativeAbsorption);
   out.verdict = wrong_s || wrong_a ? DeviationVerdict::kWrongOk : DeviationVerdict::kRight;

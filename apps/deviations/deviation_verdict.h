@@ -43,6 +43,7 @@ bool is_wrong(const AnswerError& error, double relative_limit);
 struct JudgedAnswer {
   DeviationVerdict verdict = DeviationVerdict::kRefused;
   AnswerError sigma_s_prime, sigma_a;  // if answered
+  int in_interval = 0;  // of the two 95 % intervals, those that reach into the true range
   // Error of the wrong coefficient in stated deviations, the larger of two; 0 unless wrong.
   double wrong_by_std = 0;
   bool names_cause = false;  // if refused: a reason contains one of the words, in any case

@@ -59,6 +59,25 @@ TEST(DeviationReport, Counts) {
   EXPECT_EQ(s.kinds[3].all.wrong_ok, 1);  // counted there, not in the total
 }
 
+TEST(DeviationReport, IntervalsThatHold) {
+  const DeviationSummary s = summarise(made_up());
+  // 1.0 +- 0.01 holds both coefficients, 1.1 and 1.2 +- 0.01 only sigma_a.
+  EXPECT_EQ(s.total.in_interval, 4);
+  EXPECT_NEAR(s.total.coverage95(), 4.0 / 6.0, 1e-12);
+}
+
+TEST(DeviationReport, BudgetByCause) {
+  DeviationResult r = result("none", 0, 1.0, 0.01);
+  r.estimate.budget = {{"scale", 0.008, 0.0}, {"noise", 0.006, 1e-3}};
+  const std::string table =
+      deviation_budget_table({r, result("mesh displaced in x", 2, 1.1, 0.01)});
+  // 0.64 and 0.36 of the variance: 1 / 0.6 and 1 / 0.8 as wide.
+  EXPECT_THAT(table, HasSubstr("64.0 %"));
+  EXPECT_THAT(table, HasSubstr("66.7 %"));
+  EXPECT_THAT(table, HasSubstr("25.0 %"));
+  EXPECT_EQ(deviation_budget_table({result("mesh displaced in x", 2, 1.1, 0.01)}), "");
+}
+
 TEST(DeviationReport, Texts) {
   const std::vector<DeviationResult> results = made_up();
   const std::string table = deviation_table(results);

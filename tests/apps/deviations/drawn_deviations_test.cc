@@ -1,0 +1,49 @@
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "apps/bench/estimate_statistics.h"
+#include "apps/deviations/deviation_runs.h"
+#include "core/scene/default_uncertainty.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// Over many draws, what is drawn has the deviation that the rig states.
+TEST(DrawnDeviations, SpreadIsAsStated) {
+  const DeviationRun run{.kind = &deviation_named("rig drawn as stated"), .body = "cube"};
+  const Rig stated = stated_rig(run, 320);
+  const TrueSetup plain = true_setup(stated, "cube");
+  constexpr int kDraws = 400;
+  std::vector<double> eta, responsivity, focal_length, mark_px, left_mm;
+  for (int i = 0; i < kDraws; ++i) {
+    const DeviationDraw draw{1.0, 1.0, static_cast<std::uint64_t>(i)};
+    TrueSetup setup = plain;
+    run.kind->truth(setup, draw);
+    eta.push_back(setup.rig.scene.objects.front().eta_int_over_ext);
+    responsivity.push_back((*setup.rig.scene.camera.responsivity)[1] /
+                           (*plain.rig.scene.camera.responsivity)[1]);
+    focal_length.push_back(setup.rig.scene.camera.intrinsics.fx_px /
+                           plain.rig.scene.camera.intrinsics.fx_px);
+    left_mm.push_back(bounds(setup.mesh).center_mm().x());
+    EXPECT_TRUE(setup.marks_by_true_camera);
+    EXPECT_GT(setup.shots.front().lights.size(), plain.shots.front().lights.size());
+    Rig read = stated;
+    run.kind->stated(read, draw);
+    mark_px.push_back(read.pose.points.front().image_px.x());
+  }
+  // The relative error of a deviation from so many draws is 3.5 %.
+  constexpr double kFar = 0.15;
+  const auto expect_std = [&](const std::vector<double>& values, double std) {
+    EXPECT_NEAR(sampled_std(values), std, kFar * std);
+  };
+  expect_std(eta, default_uncertainty::kEta);
+  expect_std(responsivity, 0.02);
+  expect_std(focal_length, default_uncertainty::kFocalLength);
+  expect_std(left_mm, default_uncertainty::kObjectPosition_mm);
+  expect_std(mark_px, stated.pose.options.point_std_px);
+}
+
+}  // namespace
+}  // namespace scattermeter::apps
