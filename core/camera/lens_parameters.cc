@@ -136,10 +136,15 @@ LensModel lens_model_of(const std::vector<std::string>& names) {
 
 Eigen::Matrix<double, 2, kLensParameters> ray_per_lens_parameter(const CameraIntrinsics& intrinsics,
                                                                  const Eigen::Vector2d& ray) {
+  return ray_per_lens_parameter(Lens(intrinsics), lens_parameters(intrinsics), ray);
+}
+
+Eigen::Matrix<double, 2, kLensParameters> ray_per_lens_parameter(const Lens& lens,
+                                                                 const LensParameters& parameters,
+                                                                 const Eigen::Vector2d& ray) {
   Eigen::Matrix<double, 2, 3> by_point;
-  Lens(intrinsics).project(ray.homogeneous(), &by_point);
-  return -by_point.leftCols<2>().inverse() *
-         shift_per_lens_parameter(lens_parameters(intrinsics), ray);
+  lens.project(ray.homogeneous(), &by_point);
+  return -by_point.leftCols<2>().inverse() * shift_per_lens_parameter(parameters, ray);
 }
 
 LensRoot lens_root(const std::vector<std::string>& parameters, const Eigen::MatrixXd& covariance) {

@@ -10,6 +10,8 @@
 
 namespace scattermeter {
 
+class Lens;
+
 inline constexpr int kLensParameters = 12;
 // fx_px fy_px cx_px cy_px k1 k2 p1 p2 k3 k4 k5 k6 (core/camera/distortion.h).
 using LensParameters = Eigen::Matrix<double, kLensParameters, 1>;
@@ -27,6 +29,10 @@ Eigen::Matrix<double, 2, kLensParameters> shift_per_lens_parameter(const LensPar
 // J_ray d(ray) + shift_per_lens_parameter() d(parameter) = 0. Units as there. NaN outside the
 // domain of Distortion.
 Eigen::Matrix<double, 2, kLensParameters> ray_per_lens_parameter(const CameraIntrinsics& intrinsics,
+                                                                 const Eigen::Vector2d& ray);
+// The same for many rays through one lens, of these parameters.
+Eigen::Matrix<double, 2, kLensParameters> ray_per_lens_parameter(const Lens& lens,
+                                                                 const LensParameters& parameters,
                                                                  const Eigen::Vector2d& ray);
 
 // Each value includes all terms of the preceding ones.

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/diffusion/source_cloud.h"
-#include "core/estimation/channel_weights.h"
 
 namespace scattermeter {
 namespace {
@@ -73,7 +72,7 @@ Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const Di
       return Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(media.size()));
     }
     const SourceCloud sources(light, object.box.center_mm());
-    return smooth_weights(seen.sites, sources, knots, pair_options(knots)) *
+    return smooth_weights(seen.sites, sources, coarse_knots(knots), coarse_pair_options(knots)) *
            scaled_curves(media, knots, eta);
   };
   return (image(gained) - image(lost)) / width_mm;

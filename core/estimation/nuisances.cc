@@ -7,6 +7,7 @@
 
 #include "core/base/covariance_root.h"
 #include "core/base/cross_matrix.h"
+#include "core/camera/lens.h"
 #include "core/camera/lens_parameters.h"
 #include "core/camera/pose_shift.h"
 #include "core/estimation/even_light.h"
@@ -133,8 +134,10 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
   Eigen::Matrix<double, Eigen::Dynamic, 6> by_pose_root(n, 6);
   Eigen::MatrixXd by_lens_root(n, lens_root.cols());
   Eigen::Matrix<double, Eigen::Dynamic, 2> by_shift(n, 2);
-  const CameraIntrinsics& lens = scene_.camera.intrinsics;
-  const Eigen::Array2d ray_per_px(1.0 / lens.fx_px, 1.0 / lens.fy_px);
+  const CameraIntrinsics& intrinsics = scene_.camera.intrinsics;
+  const Eigen::Array2d ray_per_px(1.0 / intrinsics.fx_px, 1.0 / intrinsics.fy_px);
+  const Lens lens(intrinsics);
+  const LensParameters parameters = lens_parameters(intrinsics);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto row = static_cast<std::size_t>(columns.rows()[static_cast<std::size_t>(i)]);
     const Eigen::Vector3d& site_mm = seen.sites[row].center_mm;
@@ -145,7 +148,7 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
     by_shift.row(i) = (per_mm.col(i).transpose() * by_ray).array() * ray_per_px.transpose();
     if (lens_root.cols() == 0) continue;
     const Eigen::Matrix<double, 3, kLensParameters> by_lens =
-        by_ray * ray_per_lens_parameter(scene_.camera.intrinsics, (pose * site_mm).hnormalized()) +
+        by_ray * ray_per_lens_parameter(lens, parameters, (pose * site_mm).hnormalized()) +
         by_pose * shot.pose.per_lens_parameter;
     by_lens_root.row(i) = per_mm.col(i).transpose() * by_lens * lens_root;
   }
