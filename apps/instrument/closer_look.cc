@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/pose/shot_pose.h"
 #include "calib/pose/silhouette_check.h"
-#include "core/base/input_error.h"
 
 namespace scattermeter::apps {
 
@@ -57,30 +55,6 @@ bool closer_look_agrees(const Rig& rig, const ObjectScenes& objects, const PoseR
           std::all_of(check.shots.begin(), check.shots.end(), [&](const calib::SilhouetteShot& s) {
             return s.shift_px.norm() < kSmall_px;
           }));
-}
-
-PoseResult pose_with_outlines(const Rig& rig, const ObjectScenes& objects,
-                              const capture::ShotSource& source, OutlineFindings& outlines) {
-  try {
-    calib::PoseSource pose = rig.pose;
-    pose.edge_std_px = line_std_px(rig, objects, *outlines.prior);
-    return calib::pose_from_silhouettes(rig.scene, pose, objects, *outlines.prior, source);
-  } catch (const calib::OutlineContradiction&) {
-    Finding finding;
-    finding.cause = "pose contradicted";
-    finding.text = "pose contradicted by the outlines of the objects, which are " +
-                   shift_phrase(*outlines.diagnosis) + " of where it puts them";
-    outlines.notes.pop_back();
-    finding.advice =
-        "take the pose points again, and check that neither camera nor object has moved since and "
-        "that the mesh is that of the object";
-    finding.shots = outlines.looked_at;
-    outlines.findings.push_back(finding);
-  } catch (const InputError&) {
-    // The outline was not found well enough to contradict anything.
-    if (!outlines.diagnosis->improves_pose) outlines.notes.pop_back();
-  }
-  return *outlines.pose;
 }
 
 }  // namespace scattermeter::apps

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "apps/instrument/outline_watch.h"
 #include "apps/rig/rig.h"
 #include "capture/shots/shot_source.h"
 #include "core/camera/camera_pose.h"
@@ -21,10 +20,5 @@ double edge_cut_px(const CameraIntrinsics& intrinsics, const ObjectScene& object
 // where the rig puts it. The quick look may take the dark side of a body for background.
 bool closer_look_agrees(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
                         const capture::FrameSource& frames, const std::vector<std::size_t>& shots);
-
-// The pose improved by the outlines, OutlineFindings::pose being that of the quick look: by the
-// careful search where it succeeds. Adds a finding if that contradicts the pose of the rig.
-PoseResult pose_with_outlines(const Rig& rig, const ObjectScenes& objects,
-                              const capture::ShotSource& source, OutlineFindings& outlines);
 
 }  // namespace scattermeter::apps

@@ -1,24 +1,23 @@
 #include "apps/instrument/instrument.h"
 
 #include <algorithm>
-#include <exception>
 #include <set>
 
 #include <fmt/core.h>
-#include <oneapi/tbb/parallel_invoke.h>
 
 #include "apps/instrument/closer_look.h"
 #include "apps/instrument/first_look.h"
 #include "apps/instrument/focus.h"
 #include "apps/instrument/frame_watch.h"
 #include "apps/instrument/light_look.h"
-#include "apps/instrument/open_shots.h"
 #include "apps/instrument/outline_watch.h"
+#include "apps/instrument/seen_shots.h"
 #include "calib/pose/shot_pose.h"
-#include "capture/shots/shot_cache.h"
 #include "core/base/chi_square.h"
 #include "core/base/input_error.h"
 #include "core/base/progress.h"
+#include "core/estimation/joint_evidence.h"
+#include "core/estimation/view_shift.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -104,32 +103,6 @@ Skipped skipped_of(const std::vector<ObservedShot>& shots, const LitObjects& lit
   return out;
 }
 
-// Reads the shots and, at the same time, computes W for their views and lights, as neither depends
-// on the other.
-std::vector<ObservedShot> open_and_light(const Rig& rig, const capture::ShotSource& source,
-                                         const ObjectScenes& objects, LitObjects& lit,
-                                         const SharedView& view, Progress* progress,
-                                         Weights& weights) {
-  std::vector<ObservedShot> unread(source.shot_idxs.size());
-  for (std::size_t i = 0; i < unread.size(); ++i) {
-    unread[i].stated = &rig.scene.shots.at(source.shot_idxs[i]);
-    unread[i].seen = view.objects.at(unread[i].stated->object);
-  }
-  std::vector<ObservedShot> shots;
-  std::exception_ptr of_light;
-  tbb::parallel_invoke([&] { shots = open_shots(rig, source, objects, lit, view, progress); },
-                       [&] {
-                         try {
-                           add_smooth_weights(rig.scene, unread, lit, nullptr, weights);
-                         } catch (...) {
-                           // An error in a shot is reported first.
-                           of_light = std::current_exception();
-                         }
-                       });
-  if (of_light) std::rethrow_exception(of_light);
-  return shots;
-}
-
 // The estimate of all channels but those that the findings refuse.
 std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
                                            const std::vector<ObservedShot>& shots,
@@ -179,8 +152,48 @@ Measurement Instrument::forecast(const capture::ShotSource& source,
   return measure(source, watch, true, opened);
 }
 
+// Opens the shots, looks at outlines, frames, lights and pose points meanwhile, and opens the shots
+// again from where the outlines show the objects.
+std::vector<Finding> Instrument::look_first(const capture::ShotSource& source, bool smooth,
+                                            SeenShots& seen, std::vector<std::string>& notes,
+                                            Stopwatch& watch) {
+  OutlineFindings outlines;
+  if (view_) {
+    OutlineWatch looks(rig_, objects_, *pose_);
+    FrameWatch frames(rig_.scene);
+    seen.open(capture::shown_to(
+        [&](std::size_t shot_idx, const capture::RawFrame& frame) {
+          looks.look(shot_idx, frame);
+          frames.look(shot_idx, frame);
+        },
+        source));
+    outlines = looks.findings(source);
+    // Shots of which something is wrong or a little off are looked at again next time.
+    if (!outlines.findings.empty() || !outlines.shifts.empty()) seen.forget();
+    if (!outlines.shifts.empty()) seen.open_from(outlines.shifts);
+    for (Finding& f : frames.findings()) {
+      outlines.findings.insert(outlines.findings.begin(), std::move(f));
+    }
+  } else {
+    seen.open();
+  }
+  watch.lap("shots");
+  std::vector<Finding> of_light;
+  if (smooth) {
+    of_light = LightLook(rig_.scene, lit_, seen.shots(), seen.kept().weights).findings();
+    watch.lap("first look");
+  }
+  if (pose_) {
+    if (auto points = scattered_points(rig_, *pose_, source.shot_idxs)) {
+      outlines.findings.push_back(std::move(*points));
+    }
+  }
+  notes = outlines.notes;
+  return in_order(outlines.findings, of_light);
+}
+
 Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& watch,
-                                bool without_noise, std::vector<ObservedShot>& shots) {
+                                bool without_noise, std::vector<ObservedShot>& opened) {
   EstimateOptions options = options_.estimate;
   options.without_noise = without_noise;
   if (without_noise) options.model = "dipole";
@@ -196,59 +209,41 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
                    calib::pose_from_silhouettes(rig_.scene, rig_.pose, objects_, *pose_, source));
   }
   const bool smooth = estimator(options.model).on_smooth_knots;
-  KeptLight of_improved_pose;
-  KeptLight* kept = &kept_;
-  const auto open = [&](const capture::ShotSource& from) {
-    return view && smooth
-               ? open_and_light(rig_, from, objects_, lit_, *view, progress_, kept->weights)
-               : open_shots(rig_, from, objects_, lit_, view, progress_);
-  };
-  OutlineFindings outlines;
-  if (view_ && !without_noise) {
-    OutlineWatch looks(rig_, objects_, *pose_);
-    FrameWatch frames(rig_.scene);
-    shots = open(capture::shown_to(
-        [&](std::size_t shot_idx, const capture::RawFrame& frame) {
-          looks.look(shot_idx, frame);
-          frames.look(shot_idx, frame);
-        },
-        source));
-    outlines = looks.findings(source);
-    if (outlines.pose) {
-      kept = &of_improved_pose;
-      view =
-          see_all(rig_.scene, objects_, lit_, pose_with_outlines(rig_, objects_, source, outlines));
-      shots = open(source);
-    }
-    for (Finding& f : frames.findings()) {
-      outlines.findings.insert(outlines.findings.begin(), std::move(f));
-    }
-    // Shots of a wrong rig, or of a pose that is a little off, are looked at again next time.
-    if ((!outlines.findings.empty() || outlines.pose) && source.cache != nullptr) {
-      source.cache->forget();
-    }
+  SeenShots seen(rig_, objects_, lit_, source, std::move(view), smooth, kept_, progress_);
+  std::vector<Finding> findings;
+  if (without_noise) {
+    seen.open();
+    watch.lap("shots");
   } else {
-    shots = open(source);
+    findings = look_first(source, smooth, seen, out.notes, watch);
   }
-  watch.lap("shots");
-  std::vector<Finding> of_light;
-  if (smooth && !without_noise) {
-    of_light = LightLook(rig_.scene, lit_, shots, kept->weights).findings();
-    watch.lap("first look");
+  out.brackets = brackets_of(seen.shots());
+  for (int views = 1;; ++views) {
+    std::map<std::string, PoseShift> shifts;
+    const auto stay = [&](const JointJudgement& joint) {
+      constexpr int kMostViews = 4;
+      if (smooth && !without_noise && views < kMostViews) {
+        shifts = visible_shifts(rig_.scene, seen.shots(), joint.pulls);
+      }
+      return shifts.empty();
+    };
+    // Where the dipole does not hold, its derivatives do not tell where the object lies.
+    options.goes_on_from_dipole = [&](const std::vector<ChannelResult>& results) {
+      return stay(joint_pulls_of(results));
+    };
+    out.results = estimate_others(rig_.scene, lit_, seen.shots(), findings, options, seen.kept(),
+                                  watch, progress_);
+    if (options.model == "dipole") stay(most_probable_pulls_of(out.results));
+    if (shifts.empty()) break;
+    seen.open_from(shifts);
+    watch.lap("shots");
   }
-  if (pose_ && !without_noise) {
-    if (auto points = scattered_points(rig_, *pose_, source.shot_idxs)) {
-      outlines.findings.push_back(std::move(*points));
-    }
-  }
-  out.notes = outlines.notes;
-  out.brackets = brackets_of(shots);
-  out.results = estimate_others(rig_.scene, lit_, shots, in_order(outlines.findings, of_light),
-                                options, *kept, watch, progress_);
-  if (!without_noise) widen_by_blur(shots, out.results);
-  out.skipped = skipped_of(shots, lit_);
+  opened = seen.shots();
+  if (!without_noise) widen_by_blur(opened, out.results);
+  out.skipped = skipped_of(opened, lit_);
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;
-  out.skipped.channels_not_asked = material_channels(rig_.scene, shots).size() - out.results.size();
+  out.skipped.channels_not_asked =
+      material_channels(rig_.scene, opened).size() - out.results.size();
   return out;
 }
 

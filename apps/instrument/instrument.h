@@ -3,8 +3,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "apps/instrument/finding.h"
 #include "apps/instrument/measure.h"
 #include "apps/rig/rig.h"
 #include "capture/shots/shot_source.h"
@@ -16,6 +18,8 @@
 #include "core/scene/seen_object.h"
 
 namespace scattermeter::apps {
+
+class SeenShots;
 
 class Instrument {
  public:
@@ -31,10 +35,12 @@ class Instrument {
   // view and light are computed when first needed; they are kept if the pose comes from the rig's
   // points alone, but not with a board or silhouettes. The digits are the same either way. Before
   // any fit, outlines and light of the shots are looked at (outline_watch.h, light_look.h):
-  // channels whose shots contradict the rig are refused at once, and a pose that the outlines show
-  // to be off within its uncertainty is corrected by them. Fills in results, patch sizes, timing
-  // and the notes of these looks; inputs are left to the caller. Throws InputError as measure()
-  // does. Must not be called from several threads at once (it uses all of them).
+  // channels whose shots contradict the rig are refused at once. Where the outlines, and then the
+  // fit of all channels, show that the objects stand elsewhere within the rig's uncertainty, the
+  // shots are opened again and fitted from there (core/estimation/view_shift.h). Fills in results,
+  // patch sizes, timing and the notes of these looks; inputs are left to the caller. Throws
+  // InputError as measure() does. Must not be called from several threads at once (it uses all of
+  // them).
   Measurement measure(const capture::ShotSource& source);
   Measurement measure(const capture::ShotSource& source,
                       Stopwatch& watch);  // records the timing there only
@@ -47,8 +53,10 @@ class Instrument {
   const std::optional<PoseResult>& pose_of_points() const { return pose_; }
 
  private:
+  std::vector<Finding> look_first(const capture::ShotSource& source, bool smooth, SeenShots& seen,
+                                  std::vector<std::string>& notes, Stopwatch& watch);
   Measurement measure(const capture::ShotSource& source, Stopwatch& watch, bool without_noise,
-                      std::vector<ObservedShot>& shots);
+                      std::vector<ObservedShot>& opened);
 
   const Rig& rig_;
   const ObjectScenes& objects_;

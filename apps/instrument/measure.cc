@@ -94,7 +94,7 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
   }
   if (cache) {
     cache->remove_others();
-    out.skipped.shots_from_cache = cache->found();
+    out.skipped.shots_from_cache = std::min(cache->found(), source.shot_idxs.size());
     if (const std::string problem = cache->problem(); !problem.empty()) {
       out.notes.push_back("decoded shots are not kept: " + problem);
     }

@@ -10,7 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/instrument/closer_look.h"
-#include "core/base/cross_matrix.h"
+#include "apps/instrument/outline_finding.h"
 #include "core/mesh/creases.h"
 #include "core/view/camera_view.h"
 
@@ -38,16 +38,6 @@ constexpr std::size_t kShotsAgain = 4;  // of each object
 // Of an object put down as exactly as that, about each axis: at a distance of its own size.
 double turn_std_rad(const ObjectScene& object) { return kPlaceStd_mm / object.size_mm(); }
 
-// Adds the uncertainty of the object's place and orientation: the pose relative to the object.
-void add_place(const ObjectScene& object, PoseResult& pose) {
-  const Eigen::Matrix3d r = pose.camera_from_world.rotation.toRotationMatrix();
-  Eigen::Matrix<double, 6, 6> by = Eigen::Matrix<double, 6, 6>::Zero();
-  by.bottomLeftCorner<3, 3>() = kPlaceStd_mm * r;
-  by.topRightCorner<3, 3>() = turn_std_rad(object) * r;
-  by.bottomRightCorner<3, 3>() = turn_std_rad(object) * r * cross_matrix(object.box.center_mm());
-  pose.covariance += by * by.transpose();
-}
-
 // Share of the points that lie on the contour, wherever it stands.
 double share_alone(const calib::OutlineLook& look, const std::vector<calib::ContourPoint>& contour,
                    const CameraIntrinsics& intrinsics, const PoseResult& pose,
@@ -56,42 +46,6 @@ double share_alone(const calib::OutlineLook& look, const std::vector<calib::Cont
   const calib::OutlineModel model({{"", 0, &contour, look, Eigen::Vector3d::Zero()}}, intrinsics,
                                   pose, {center_mm});
   return model.share_on_place(0, kOnPlace_cells) * look.found_share();
-}
-
-std::string advice_for(const calib::OutlineExplanation& e, const std::string& object) {
-  switch (e.cause) {
-    case OutlineCause::kMeshScale:
-      return fmt::format("measure the object and scale the mesh of objects.{}", object);
-    case OutlineCause::kCamera:
-      return "take the pose points again, or all shots";
-    case OutlineCause::kShotMoved:
-      return "take this shot again";
-    default:
-      return fmt::format(
-          "put the object back or place the mesh of objects.{} where it stands; if the camera was "
-          "moved, take the pose points again",
-          object);
-  }
-}
-
-std::string class_of(OutlineCause cause) {
-  switch (cause) {
-    case OutlineCause::kNone:
-      return "none";
-    case OutlineCause::kMeshDisplaced:
-      return "mesh displaced";
-    case OutlineCause::kMeshTurned:
-      return "mesh turned";
-    case OutlineCause::kMeshScale:
-      return "mesh scaled";
-    case OutlineCause::kMeshMisplaced:
-      return "mesh displaced and turned";
-    case OutlineCause::kCamera:
-      return "camera moved";
-    case OutlineCause::kShotMoved:
-      return "shot moved";
-  }
-  return "";
 }
 
 }  // namespace
@@ -263,28 +217,19 @@ void OutlineWatch::conclude(OutlineFindings& out) const {
     return;
   }
   if (d.agrees) {
-    if (!d.deserves_closer_look) return;
-    out.pose = d.pose;
-    out.prior = pose_;
-    add_place(objects_.at(names_[body_of(out.looked_at.front())]), *out.prior);
+    if (d.shifts.empty()) return;
+    for (std::size_t b = 0; b < names_.size(); ++b) out.shifts[names_[b]] = d.shifts[b];
     out.notes.push_back(
         fmt::format("outline {} of where the pose puts it (± {:.1f}), within the stated "
-                    "uncertainty: the pose was "
-                    "corrected by it",
+                    "uncertainty: the search "
+                    "for where the object stands begins there",
                     shift_phrase(d), d.shift_std_px));
     return;
   }
   const calib::OutlineExplanation& best = d.explanations.at(1);
   const bool of_shot = best.cause == OutlineCause::kShotMoved;
   const bool of_mesh = !of_shot && best.cause != OutlineCause::kCamera;
-  Finding finding;
-  finding.cause = class_of(best.cause);
-  finding.text = best.text;
-  for (std::size_t k = 2; k < d.explanations.size() && k <= d.likely; ++k) {
-    finding.text += (k == 2 ? " (cannot be told from: " : ", ") + d.explanations[k].text;
-    if (k + 1 == d.explanations.size() || k == d.likely) finding.text += ")";
-  }
-  finding.advice = advice_for(best, of_mesh ? names_[best.which] : "");
+  Finding finding = outline_finding(d, of_mesh ? names_[best.which] : "");
   for (std::size_t i = 0; i < out.looked_at.size(); ++i) {
     const std::size_t idx = out.looked_at[i];
     if (of_shot ? i == best.which : !of_mesh || body_of(idx) == best.which) {

@@ -20,10 +20,9 @@ namespace scattermeter::apps {
 struct OutlineFindings {
   std::vector<Finding> findings;  // the most probable first
   std::vector<std::string> notes;
-  // Present if the outlines improve the pose within its uncertainty, or may: the pose relative to
-  // the objects from both (the given one if they only may), and the given one with the uncertainty
-  // of the objects' places added.
-  std::optional<PoseResult> pose, prior;
+  // By object, if the outlines show where the objects stand within the rig's uncertainty: the shift
+  // of the pose relative to them. Empty otherwise.
+  std::map<std::string, PoseShift> shifts;
   // Absent without a shot whose outline was seen.
   std::optional<calib::OutlineDiagnosis> diagnosis;
   std::vector<std::size_t> looked_at;  // indices of the shots in the scene, as in the diagnosis

@@ -12,23 +12,12 @@
 #include "calib/led/led_frame.h"
 #include "calib/led/led_start.h"
 #include "core/base/solver_options.h"
+#include "core/camera/pose_shift.h"
 
 namespace scattermeter::calib {
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
-
-Rigid3d moved(const Rigid3d& pose, const Eigen::Matrix<double, 6, 1>& by) {
-  Rigid3d out = pose;
-  const double angle = by.head<3>().norm();
-  if (angle > 0.0) {
-    out.rotation =
-        (Eigen::Quaterniond(Eigen::AngleAxisd(angle, by.head<3>() / angle)) * pose.rotation)
-            .normalized();
-  }
-  out.translation_mm += by.tail<3>();
-  return out;
-}
 
 struct HighlightCost {
   const LedFrame& frame;
@@ -41,8 +30,9 @@ struct HighlightCost {
     s.radius_mm += s.radius_std_mm * sphere[3];
     const Eigen::Map<const Eigen::Matrix<double, 6, 1>> z(pose);
     return calib::highlight_px(
-        frame.lens, moved(scene.views[seen.view].camera_from_world, frame.pose_root[seen.view] * z),
-        s, frame.at(led));
+        frame.lens,
+        shifted_pose(scene.views[seen.view].camera_from_world, frame.pose_root[seen.view] * z), s,
+        frame.at(led));
   }
 
   bool operator()(const double* led, const double* pose, const double* sphere,

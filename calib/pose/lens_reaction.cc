@@ -4,24 +4,9 @@
 
 #include "calib/pose/silhouette_pose.h"
 #include "core/camera/lens_parameters.h"
+#include "core/camera/pose_shift.h"
 
 namespace scattermeter::calib {
-namespace {
-
-// A pose displaced by (w, dt), see PoseResult::covariance.
-Rigid3d moved_pose(const Rigid3d& pose, const Eigen::Matrix<double, 6, 1>& by) {
-  Rigid3d out = pose;
-  const double angle = by.head<3>().norm();
-  if (angle > 0.0) {
-    out.rotation =
-        Eigen::Quaterniond(Eigen::AngleAxisd(angle, by.head<3>() / angle)) * pose.rotation;
-  }
-  out.translation_mm += by.tail<3>();
-  return out;
-}
-
-}  // namespace
-
 PosePerLens combined_per_lens_parameter(const Silhouette& silhouette,
                                         const CameraIntrinsics& intrinsics, const PoseResult& prior,
                                         const LensParameters& steps) {
@@ -30,7 +15,7 @@ PosePerLens combined_per_lens_parameter(const Silhouette& silhouette,
     lens[parameter] += by;
     PoseResult other = prior;
     other.camera_from_world =
-        moved_pose(prior.camera_from_world, by * prior.per_lens_parameter.col(parameter));
+        shifted_pose(prior.camera_from_world, by * prior.per_lens_parameter.col(parameter));
     return fit_with_pose(silhouette, intrinsics_of(lens, intrinsics.width_px, intrinsics.height_px),
                          other)
         .camera_from_world;

@@ -11,7 +11,6 @@
 #include <fmt/core.h>
 
 #include "core/base/chi_square.h"
-#include "core/base/cross_matrix.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -153,33 +152,13 @@ class Causes {
   Eigen::VectorXd known_;
 };
 
-// The pose relative to the mesh from the fit of the rig as it is: places and turns of the body
-// about its centre are motions of the pose.
-PoseResult pose_of(const OutlineModel& model, const OutlineModel::Fit& fit, const PoseResult& pose,
+// From the fit of the rig as it is: places and turns of a body about its centre are shifts of the
+// pose.
+PoseShift shift_of(const OutlineModel& model, const OutlineModel::Fit& fit, const Rigid3d& pose,
                    std::size_t body, const Eigen::Vector3d& center_mm) {
-  PoseResult out = pose;
-  const Eigen::Matrix3d r = pose.camera_from_world.rotation.toRotationMatrix();
-  Eigen::MatrixXd by = Eigen::MatrixXd::Zero(6, model.columns());
-  by.leftCols<6>().setIdentity();
-  by.block<3, 3>(3, model.place(body)) = r;
-  by.block<3, 3>(0, model.turn(body)) = r;
-  by.block<3, 3>(3, model.turn(body)) = r * cross_matrix(center_mm);
-  const Eigen::Matrix<double, 6, 1> v = by * fit.value;
-  const double angle = v.head<3>().norm();
-  if (angle > 0) {
-    out.camera_from_world.rotation =
-        (Eigen::Quaterniond(Eigen::AngleAxisd(angle, v.head<3>() / angle)) *
-         pose.camera_from_world.rotation)
-            .normalized();
-  }
-  out.camera_from_world.translation_mm += v.tail<3>();
-  out.covariance = by * fit.covariance * by.transpose();
-  const Eigen::Matrix3d rt = out.camera_from_world.rotation.conjugate().toRotationMatrix();
-  Eigen::Matrix<double, 3, 6> center;
-  center << -rt * cross_matrix(out.camera_from_world.translation_mm), -rt;
-  out.center_std_mm =
-      (center * out.covariance * center.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
-  return out;
+  PoseShift place;
+  place << fit.value.segment<3>(model.place(body)), fit.value.segment<3>(model.turn(body));
+  return fit.value.head<kOutlinePose>() + pose_shift_by_place(pose, center_mm) * place;
 }
 
 }  // namespace
@@ -215,12 +194,10 @@ OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
   // One shift of all shots, with pose and place exact.
   Eigen::VectorXd errors = causes.known();
   errors.head<kOutlinePose>().setZero();
-  std::size_t body = 0;
   for (std::size_t b = 0; b < centers_mm.size(); ++b) {
     errors.segment<3>(model.place(b)).setZero();
     errors.segment<3>(model.turn(b)).setZero();
   }
-  for (const OutlineShot& shot : shots) body = static_cast<std::size_t>(shot.body_idx);
   const OutlineModel::Fit exact = model.fit(errors, false);
   const OutlineModel::Fit known = model.fit(causes.known(), true);
   double n = 0;
@@ -233,11 +210,11 @@ OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
   }
   out.shift_px /= std::max(1.0, n);
   out.shift_std_px = kShotShift * model.cell_px() / std::sqrt(std::max(1.0, n));
-  out.improves_pose =
-      out.agrees && chi_square_tail(std::max(0.0, exact.chi2 - known.chi2), 6) < kOutlineDoubt;
-  out.deserves_closer_look =
-      out.improves_pose || (out.agrees && out.shift_px.norm() > kShotShift * model.cell_px());
-  out.pose = out.improves_pose ? pose_of(model, known, pose, body, centers_mm[body]) : pose;
+  if (out.agrees && chi_square_tail(std::max(0.0, exact.chi2 - known.chi2), 6) < kOutlineDoubt) {
+    for (std::size_t b = 0; b < centers_mm.size(); ++b) {
+      out.shifts.push_back(shift_of(model, known, pose.camera_from_world, b, centers_mm[b]));
+    }
+  }
   return out;
 }
 

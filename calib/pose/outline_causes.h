@@ -10,6 +10,7 @@
 #include "calib/pose/outline_model.h"
 #include "core/camera/camera_model.h"
 #include "core/camera/camera_pose.h"
+#include "core/camera/pose_shift.h"
 
 namespace scattermeter::calib {
 
@@ -49,13 +50,10 @@ struct OutlineDiagnosis {
   // place.
   Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();
   double shift_std_px = 0;
-  // The outlines show that pose and place are off by a part of their stated uncertainty (p below
-  // 10^-4): `pose` is then the pose relative to the mesh from both.
-  bool improves_pose = false;
-  // They improve it, or lie farther from where they should than one shot's may by chance: a more
-  // careful search may improve the pose.
-  bool deserves_closer_look = false;
-  PoseResult pose;
+  // Of each body, if the outlines show that pose and place are off by a part of their stated
+  // uncertainty (p below 10^-4): the shift from the given pose to the most probable one relative to
+  // the body. Empty otherwise.
+  std::vector<PoseShift> shifts;
 };
 
 struct OutlineOptions {

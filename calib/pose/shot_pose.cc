@@ -92,9 +92,6 @@ PoseResult refined(const Scene& scene, const PoseSource& source, const PoseResul
     throw InputError(where, name + ": " + silhouette.message);
   }
   PoseResult pose = combine(silhouette, scene.camera.intrinsics, prior);
-  if (pose.status == PoseStatus::kNoConsensus) {
-    throw OutlineContradiction(where, name + ": " + pose.message);
-  }
   if (pose.status != PoseStatus::kOk) throw InputError(where, name + ": " + pose.message);
   pose.per_lens_parameter = combined_per_lens_parameter(silhouette, scene.camera.intrinsics, prior,
                                                         scene.camera.lens_root.rowwise().norm());

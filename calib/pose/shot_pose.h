@@ -8,16 +8,10 @@
 #include "calib/pose/pose_source.h"
 #include "capture/raw/raw_frame.h"
 #include "capture/shots/shot_source.h"
-#include "core/base/input_error.h"
 #include "core/scene/object_scene.h"
 #include "core/scene/scene.h"
 
 namespace scattermeter::calib {
-
-// The outline of an object was found, and contradicts the pose that it should refine.
-struct OutlineContradiction : InputError {
-  using InputError::InputError;
-};
 
 // Pose from point pairs. Throws InputError naming the line when the layout is degenerate or no pose
 // explains it.

@@ -40,6 +40,7 @@ std::string shot_key(const Scene& scene, const ShotDecoding& decoding, const Obs
   key.number(pose.translation_mm.x()).number(pose.translation_mm.y());
   key.number(pose.translation_mm.z());
   const SeenObject& seen = *shot.seen;
+  for (const double v : seen.shift) key.number(v);
   key.text(digests.of(seen.object->stated->mesh_path));
   key.number(seen.patches->patch_size_mm()).number(seen.object->stated->eta_int_over_ext);
   return key.hex();

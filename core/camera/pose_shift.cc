@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/cross_matrix.h"
+
 namespace scattermeter {
 namespace {
 
@@ -11,6 +13,35 @@ Eigen::Matrix3d onto_plane(const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
 }
 
 }  // namespace
+
+Rigid3d shifted_pose(const Rigid3d& camera_from_world, const PoseShift& by) {
+  const double angle = by.head<3>().norm();
+  Rigid3d out = camera_from_world;
+  if (angle > 0.0) {
+    out.rotation =
+        (Eigen::Quaterniond(Eigen::AngleAxisd(angle, by.head<3>() / angle)) * out.rotation)
+            .normalized();
+  }
+  out.translation_mm += by.tail<3>();
+  return out;
+}
+
+Eigen::Matrix<double, 6, 6> pose_shift_by_place(const Rigid3d& camera_from_world,
+                                                const Eigen::Vector3d& center_mm) {
+  const Eigen::Matrix3d rotation = camera_from_world.rotation.toRotationMatrix();
+  Eigen::Matrix<double, 6, 6> out = Eigen::Matrix<double, 6, 6>::Zero();
+  out.topRightCorner<3, 3>() = rotation;
+  out.bottomLeftCorner<3, 3>() = rotation;
+  out.bottomRightCorner<3, 3>() = rotation * cross_matrix(center_mm);
+  return out;
+}
+
+PoseShift pose_shift_by_size(const Rigid3d& camera_from_world, const Eigen::Vector3d& center_mm) {
+  PoseShift out;
+  // The camera's centre moves by -s (centre - center_mm).
+  out << Eigen::Vector3d::Zero(), -(camera_from_world * center_mm);
+  return out;
+}
 
 Eigen::Matrix<double, 3, 6> surface_shift_by_pose(const Rigid3d& camera_from_world,
                                                   const Eigen::Vector3d& point_mm,

@@ -1,4 +1,4 @@
-// Shift of the surface point that a sample sees, per change of camera pose or ray.
+// Small changes of a camera's pose, and the shift of the surface point that a sample then sees.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,6 +6,20 @@
 #include "core/camera/rigid3d.h"
 
 namespace scattermeter {
+
+// (w in rad, dt in mm), in camera axes: as in PoseResult::covariance.
+using PoseShift = Eigen::Matrix<double, 6, 1>;
+// rotation' = exp([w]_x) rotation, translation' = translation + dt.
+Rigid3d shifted_pose(const Rigid3d& camera_from_world, const PoseShift& by);
+
+// The shift of the pose relative to an object that is displaced (mm, first three columns) and
+// turned about `center_mm` (rad, last three), in world axes: 6 x 6.
+Eigen::Matrix<double, 6, 6> pose_shift_by_place(const Rigid3d& camera_from_world,
+                                                const Eigen::Vector3d& center_mm);
+
+// The shift of the pose relative to an object that is larger by the factor 1 + s about `center_mm`,
+// per s: the object in units of its own size is seen from nearer.
+PoseShift pose_shift_by_size(const Rigid3d& camera_from_world, const Eigen::Vector3d& center_mm);
 
 // Shift (world, mm) of the surface point that a fixed sample sees, per unit of a small change of
 // pose: 3 x 6, columns (w in rad, dt in mm) with rotation' = exp([w]_x) rotation, translation' =

@@ -153,7 +153,9 @@ ChannelImage::ChannelImage(const Scene& scene, const MaterialChannel& channel,
 DenseSystem ChannelImage::rows_of_shot(std::size_t shot) const {
   DenseSystem system = channel_system(scene_, channel_, shot, rows_[shot], weights_,
                                       1.0 / sigma_t_per_mm(first_.medium), patch_mm_);
-  system.l -= scene_nuisances_.light_by_plane(*channel_.shots[shot], used_rows(rows_[shot]));
+  const std::vector<Eigen::Index> used = used_rows(rows_[shot]);
+  system.l -= scene_nuisances_.light_by_plane(*channel_.shots[shot], used);
+  system.l -= scene_nuisances_.light_by_shift(*channel_.shots[shot], used);
   add_errors_of_method(system);
   return system;
 }

@@ -163,8 +163,8 @@ void refuse_beside_missed(const std::string& material, std::vector<ChannelResult
 }  // namespace
 
 bool is_shared(const Nuisance& nuisance) {
-  return is_of(nuisance, {"pose", "camera shift", "lens", "mesh position", "LED position",
-                          "LED axis", "LED exponent"});
+  return is_of(nuisance, {"pose", "camera shift", "lens", "mesh position", "mesh scale",
+                          "LED position", "LED axis", "LED exponent"});
 }
 
 bool is_shared_by_material(const Nuisance& nuisance) {
@@ -233,6 +233,16 @@ JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels,
 
 JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results) {
   return joint_pulls(evidence_of(results, ""));
+}
+
+JointJudgement most_probable_pulls_of(const std::vector<ChannelResult>& results) {
+  std::vector<const RigEvidence*> evidence = evidence_of(results, "");
+  if (evidence.empty()) {
+    for (const ChannelResult& r : results) {
+      if (r.estimate.converged && !r.evidence.nuisances.empty()) evidence.push_back(&r.evidence);
+    }
+  }
+  return joint_pulls(evidence);
 }
 
 JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results,

@@ -33,6 +33,9 @@ JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels,
                            bool (*shared)(const Nuisance&) = is_shared);
 // Of the results whose model explains their image.
 JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results);
+// Of all results that converged where no model explains its image: what the rig most probably is
+// like, and no judgement on it.
+JointJudgement most_probable_pulls_of(const std::vector<ChannelResult>& results);
 // Of those of one material, with what its channels probably share.
 JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results,
                               const std::string& material);

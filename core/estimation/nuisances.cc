@@ -85,6 +85,45 @@ Eigen::VectorXd SceneNuisances::light_by_plane(const ObservedShot& shot,
   return plane_below(scene_, *shot.seen->object).in(channel_).albedo * change;
 }
 
+// Change of each row's l where what its samples see shifts along the surface.
+Eigen::Matrix3Xd SceneNuisances::change_per_mm(const ObservedShot& shot,
+                                               const std::vector<Eigen::Index>& rows) const {
+  Eigen::Matrix3Xd per_mm = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(rows.size()));
+  for (const std::string& name : shot.stated->lights) {
+    const SceneLight& light = scene_.light(name);
+    if (light->is_fitted()) continue;
+    const ChannelSensitivity& own =
+        sensitivities_.at({shot.seen.get(), name, light.channel_of(channel_)});
+    const double power = light->power()[static_cast<Eigen::Index>(channel_)];
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto along = tangents(shot.seen->patches->normal(
+          shot.seen->map.patch_of_row[static_cast<std::size_t>(rows[i])]));
+      for (std::size_t t = 0; t < 2; ++t) {
+        per_mm.col(static_cast<Eigen::Index>(i)) +=
+            power * own.sensitivity->per_tangent_mm[t](rows[i], own.medium) * along[t];
+      }
+    }
+  }
+  return per_mm;
+}
+
+Eigen::VectorXd SceneNuisances::light_by_shift(const ObservedShot& shot,
+                                               const std::vector<Eigen::Index>& rows) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+  const SeenObject& seen = *shot.seen;
+  if (seen.shift.isZero(0.0)) return out;
+  const Eigen::Matrix3Xd per_mm = change_per_mm(shot, rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto row = static_cast<std::size_t>(rows[i]);
+    const auto at = static_cast<Eigen::Index>(i);
+    out[at] = -per_mm.col(at).dot(
+        surface_shift_by_pose(shot.pose.camera_from_world, seen.sites[row].center_mm,
+                              seen.patches->normal(seen.map.patch_of_row[row])) *
+        seen.shift);
+  }
+  return out;
+}
+
 // The uncertainties of the radiance calibration: each shot's black, the glare, the shutter.
 void SceneNuisances::add_radiance(const ObservedShot& shot, const ChannelObservation& observed,
                                   const Eigen::VectorXd& predicted, Columns& columns) const {
@@ -122,8 +161,7 @@ void SceneNuisances::add_radiance(const ObservedShot& shot, const ChannelObserva
 
 // The effect of pose and lens on the rows. The lens is common to all shots; a pose fitted with a
 // wrong lens has absorbed part of its error (PoseResult::per_lens_parameter), so the two change
-// together. The pose's own uncertainty is independent of that. per_mm: change of each row's l where
-// what its samples see shifts along the surface.
+// together. The pose's own uncertainty is independent of that. per_mm: of change_per_mm().
 void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
                               Columns& columns) const {
   const SeenObject& seen = *shot.seen;
@@ -166,23 +204,21 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
   }
 }
 
-// The effect of the object's position and orientation: what the samples see shifts along the
-// surface as if the camera moved, and every LED moves the other way.
+// The effect of the object's position, orientation and size: what the samples see shifts along the
+// surface as if the camera moved, and every LED moves the other way. A larger object looks like the
+// mesh with camera and LEDs nearer to its centre, LEDs of less power, and coefficients that are
+// larger by as much (core/estimation/mesh_scale.h).
 void SceneNuisances::add_place(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
                                Columns& columns) const {
   const SeenObject& seen = *shot.seen;
-  const double std_mm = seen.object->stated->position_std_mm;
-  if (!(std_mm > 0.0)) return;
+  const SceneObject& stated = *seen.object->stated;
+  if (!(stated.position_std_mm > 0.0) && !(stated.scale_relative_std > 0.0)) return;
   const Rigid3d& pose = shot.pose.camera_from_world;
   const Eigen::Vector3d& center_mm = seen.object->box.center_mm();
-  const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   const auto n = static_cast<Eigen::Index>(columns.rows().size());
-  // Columns: translation, mm, and rotation about the centre, rad, in the world frame.
-  Eigen::Matrix<double, 6, 6> pose_by_place = Eigen::Matrix<double, 6, 6>::Zero();
-  pose_by_place.topRightCorner<3, 3>() = rotation;
-  pose_by_place.bottomLeftCorner<3, 3>() = rotation;
-  pose_by_place.bottomRightCorner<3, 3>() = rotation * cross_matrix(center_mm);
-  Eigen::Matrix<double, Eigen::Dynamic, 6> change(n, 6);
+  Eigen::Matrix<double, 6, 7> pose_by_place;
+  pose_by_place << pose_shift_by_place(pose, center_mm), pose_shift_by_size(pose, center_mm);
+  Eigen::Matrix<double, Eigen::Dynamic, 7> change(n, 7);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto row = static_cast<std::size_t>(columns.rows()[static_cast<std::size_t>(i)]);
     change.row(i) = per_mm.col(i).transpose() *
@@ -195,20 +231,27 @@ void SceneNuisances::add_place(const ObservedShot& shot, const Eigen::Matrix3Xd&
     const LedLight* led = light.led();
     if (led == nullptr || !led->moves()) continue;
     const ChannelSensitivity& own = sensitivities_.at({shot.seen.get(), name, 0});
+    const double power = light->power()[static_cast<Eigen::Index>(channel_)];
     Eigen::Matrix<double, Eigen::Dynamic, 3> by_position(n, 3);
     for (Eigen::Index k = 0; k < 3; ++k) {
       by_position.col(k) =
           columns.of(own.sensitivity->per_change[static_cast<std::size_t>(k)], own.medium);
     }
-    by_position *= light->power()[static_cast<Eigen::Index>(channel_)];
+    by_position *= power;
+    const Eigen::Vector3d from_center_mm = led->led.position_mm - center_mm;
     change.leftCols<3>() -= by_position;
     // The LED moves by -(w x (p - c)).
-    change.rightCols<3>() += by_position * cross_matrix(led->led.position_mm - center_mm);
+    change.middleCols<3>(3) += by_position * cross_matrix(from_center_mm);
+    change.col(6) -=
+        by_position * from_center_mm + 2.0 * power * columns.of(own.sensitivity->l, own.medium);
   }
-  const double std_rad = std_mm / seen.object->size_mm();
-  for (Eigen::Index k = 0; k < 6; ++k) {
-    columns.add(seen.object->stated->name + ".position" + std::to_string(k), "mesh position",
-                k < 3 ? std_mm : std_rad, change.col(k));
+  const double std_mm = stated.position_std_mm;
+  for (Eigen::Index k = 0; k < 6 && std_mm > 0.0; ++k) {
+    columns.add(stated.name + ".position" + std::to_string(k), "mesh position",
+                k < 3 ? std_mm : std_mm / seen.object->size_mm(), change.col(k));
+  }
+  if (stated.scale_relative_std > 0.0) {
+    columns.add(stated.name + ".size", "mesh scale", stated.scale_relative_std, change.col(6));
   }
 }
 
@@ -228,7 +271,6 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
   Columns columns(rows);
   const auto n = static_cast<Eigen::Index>(rows.size());
   Eigen::VectorXd predicted = Eigen::VectorXd::Zero(n);
-  Eigen::Matrix3Xd per_mm = Eigen::Matrix3Xd::Zero(3, n);
   Eigen::VectorXd per_eta = Eigen::VectorXd::Zero(n);
   bool has_view = false;
   const double eta_std = shot.seen->object->stated->eta_std;
@@ -242,14 +284,6 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
     add_light(light, own, columns);
     if (light->is_fitted()) continue;
     has_view = true;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::Index row = rows[static_cast<std::size_t>(i)];
-      const auto along = tangents(
-          shot.seen->patches->normal(shot.seen->map.patch_of_row[static_cast<std::size_t>(row)]));
-      for (std::size_t t = 0; t < 2; ++t) {
-        per_mm.col(i) += intensity * s.per_tangent_mm[t](row, own.medium) * along[t];
-      }
-    }
     per_eta += intensity * columns.of(s.per_eta, own.medium);
     if (s.per_edge_mm.size() > 0) {
       columns.add(shot.seen->object->stated->name + ".edges", "edges",
@@ -258,6 +292,7 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
     }
   }
   if (has_view) {
+    const Eigen::Matrix3Xd per_mm = change_per_mm(shot, rows);
     add_view(shot, per_mm, columns);
     add_place(shot, per_mm, columns);
     add_even_light(shot, columns);

@@ -30,7 +30,8 @@ struct NuisanceColumn {
 };
 
 // The uncertain quantities of the scene: those of every light in use (Light::nuisances()); the
-// objects' positions (six, each object moved and turned against camera and lights); even light on
+// objects' positions and sizes (seven, each object moved, turned and enlarged against camera and
+// lights); even light on
 // each shot; the shift of its picture; pose (six independent combinations of each pose's
 // covariance); lens (as many as its calibration has parameters, common to all shots, each with the
 // resulting change of the pose fitted with that lens; its effect on calibrated LEDs and scale is
@@ -47,6 +48,11 @@ class SceneNuisances {
   // some rows of a shot's map: part of the observed l, but not of W r. Zero without a plane.
   Eigen::VectorXd light_by_plane(const ObservedShot& shot,
                                  const std::vector<Eigen::Index>& rows) const;
+  // The change of l by the shift from the pose of a shot's map back to the shot's pose
+  // (SeenObject::shift), on some rows of the map: part of the observed l, but not of W r, so that
+  // poses and positions keep the values about which they vary. Zero without a shift.
+  Eigen::VectorXd light_by_shift(const ObservedShot& shot,
+                                 const std::vector<Eigen::Index>& rows) const;
   // On some rows of a shot's map, ascending. Which nuisances are returned depends on the shot only.
   std::vector<NuisanceColumn> columns(const ObservedShot& shot, const ChannelObservation& observed,
                                       const std::vector<Eigen::Index>& rows) const;
@@ -54,6 +60,8 @@ class SceneNuisances {
  private:
   class Columns;
 
+  Eigen::Matrix3Xd change_per_mm(const ObservedShot& shot,
+                                 const std::vector<Eigen::Index>& rows) const;
   void add_light(const SceneLight& light, const ChannelSensitivity& own, Columns& columns) const;
   void add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm, Columns& columns) const;
   void add_place(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm, Columns& columns) const;

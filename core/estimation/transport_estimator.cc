@@ -15,6 +15,7 @@ template <class Wants>
 void estimate_from_dipole(Estimation& e, const char* otherwise, const Wants& wants_transport) {
   std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
   estimate_dipole(e, &systems);
+  if (e.options.goes_on_from_dipole && !e.options.goes_on_from_dipole(e.results)) return;
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
     e.results[i].model = otherwise;

@@ -26,6 +26,13 @@ void widen(const BudgetLine& by, double covariance, Estimate& estimate) {
   grow(s, by.std_sigma_s_prime_per_mm);
   grow(a, by.std_sigma_a_per_mm);
   if (s.std > 0.0 && a.std > 0.0) estimate.correlation = covariance / (s.std * a.std);
+  for (BudgetLine& line : estimate.budget) {
+    if (line.cause != by.cause) continue;
+    line.std_sigma_s_prime_per_mm =
+        std::hypot(line.std_sigma_s_prime_per_mm, by.std_sigma_s_prime_per_mm);
+    line.std_sigma_a_per_mm = std::hypot(line.std_sigma_a_per_mm, by.std_sigma_a_per_mm);
+    return;
+  }
   estimate.budget.push_back(by);
 }
 

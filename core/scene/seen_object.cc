@@ -1,6 +1,6 @@
 #include "core/scene/seen_object.h"
 
-#include <utility>
+#include <vector>
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -8,9 +8,10 @@ namespace scattermeter {
 
 std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& objects,
                                       const LitObjects& lit, const std::string& object,
-                                      const PoseResult& pose) {
-  const CameraView view{scene.camera.intrinsics, pose.camera_from_world};
+                                      const PoseResult& pose, const PoseShift& shift) {
+  const CameraView view{scene.camera.intrinsics, shifted_pose(pose.camera_from_world, shift)};
   auto seen = std::make_shared<SeenObject>();
+  seen->shift = shift;
   seen->object = &objects.at(object);
   seen->patches = &lit.patches(object);
   seen->camera_center_mm = view.center_in_world_mm();
@@ -26,15 +27,23 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
 }
 
 SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObjects& lit,
-                   const PoseResult& pose) {
+                   const PoseResult& pose, const std::map<std::string, PoseShift>& shifts) {
   SharedView view{pose, {}};
-  std::vector<std::pair<const std::string*, std::shared_ptr<const SeenObject>*>> list;
+  struct Item {
+    const std::string& name;
+    PoseShift shift;
+    std::shared_ptr<const SeenObject>& seen;
+  };
+  std::vector<Item> list;
   for (const auto& [name, object] : objects) {
-    require_in_view(scene, objects, {scene.camera.intrinsics, pose.camera_from_world}, name);
-    list.push_back({&name, &view.objects[name]});
+    const auto at = shifts.find(name);
+    const PoseShift shift = at == shifts.end() ? PoseShift(PoseShift::Zero()) : at->second;
+    require_in_view(scene, objects,
+                    {scene.camera.intrinsics, shifted_pose(pose.camera_from_world, shift)}, name);
+    list.push_back({name, shift, view.objects[name]});
   }
   tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) {
-    *list[i].second = see(scene, objects, lit, *list[i].first, pose);
+    list[i].seen = see(scene, objects, lit, list[i].name, pose, list[i].shift);
   });
   return view;
 }

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/camera/camera_pose.h"
+#include "core/camera/pose_shift.h"
 #include "core/mesh/exit_site.h"
 #include "core/mesh/patch_mesh.h"
 #include "core/scene/lit_objects.h"
@@ -21,6 +22,8 @@ struct SeenObject {
   const ObjectScene* object = nullptr;
   const PatchMesh* patches = nullptr;
   Eigen::Vector3d camera_center_mm = Eigen::Vector3d::Zero();
+  // From the pose that the rig states to the one of this map: where the shots showed the object.
+  PoseShift shift = PoseShift::Zero();
   SampleMap map;
   std::vector<ExitSite> sites;  // of the map's rows
   // The geometry that shadows an LED, if it is more than the object itself (changed_weights());
@@ -28,10 +31,11 @@ struct SeenObject {
   const RayScene* shadows = nullptr;
 };
 
-// Precondition: require_in_view() accepts the object.
+// Seen from `pose`, shifted by `shift`. Precondition: require_in_view() accepts the object.
 std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& objects,
                                       const LitObjects& lit, const std::string& object,
-                                      const PoseResult& pose);
+                                      const PoseResult& pose,
+                                      const PoseShift& shift = PoseShift::Zero());
 
 // One pose common to all shots, and the objects as seen from it.
 struct SharedView {
@@ -39,8 +43,9 @@ struct SharedView {
   std::map<std::string, std::shared_ptr<const SeenObject>> objects;
 };
 
-// Throws InputError when an object is out of view.
+// shifts: of the pose relative to each object, by its name; none: zero. Throws InputError when an
+// object is out of view.
 SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObjects& lit,
-                   const PoseResult& pose);
+                   const PoseResult& pose, const std::map<std::string, PoseShift>& shifts = {});
 
 }  // namespace scattermeter

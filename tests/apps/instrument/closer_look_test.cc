@@ -1,6 +1,5 @@
 #include "apps/instrument/closer_look.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "apps/simulation/bodies_rig.h"
@@ -11,8 +10,6 @@
 
 namespace scattermeter::apps {
 namespace {
-
-using ::testing::HasSubstr;
 
 // A cube under two LEDs, which stands elsewhere in the shots than its mesh.
 class CloserLookTest : public ::testing::Test {
@@ -45,36 +42,6 @@ TEST_F(CloserLookTest, AgreesWithAGoodRigOnly) {
   const capture::ShotSource off = shots({0.7, 0, 0});
   EXPECT_FALSE(closer_look_agrees(rig_, scenes_, pose_, std::get<capture::FrameSource>(off.open),
                                   off.shot_idxs));
-}
-
-TEST_F(CloserLookTest, APoseThatTheOutlinesContradictIsAFinding) {
-  OutlineFindings outlines;
-  outlines.notes = {"note"};
-  outlines.prior = pose_;
-  outlines.pose = pose_;
-  outlines.diagnosis.emplace().shift_px = {3.2, -0.4};
-  const capture::ShotSource off = shots({0.7, 0, 0});
-  outlines.looked_at = off.shot_idxs;
-  pose_with_outlines(rig_, scenes_, off, outlines);
-  ASSERT_EQ(outlines.findings.size(), 1U);
-  EXPECT_THAT(outlines.findings[0].text,
-              HasSubstr("which are 3.2 px right and 0.4 px high of where it puts them"));
-  EXPECT_TRUE(outlines.notes.empty());
-}
-
-TEST_F(CloserLookTest, APoseWithinItsUncertaintyIsImproved) {
-  OutlineFindings outlines;
-  outlines.prior = pose_;
-  outlines.prior->covariance.diagonal().tail<3>().array() += 0.04;
-  outlines.pose = pose_;
-  outlines.diagnosis.emplace();
-  const PoseResult better = pose_with_outlines(rig_, scenes_, shots({0.1, 0, 0}), outlines);
-  EXPECT_TRUE(outlines.findings.empty());
-  const Eigen::Vector3d center = scenes_.at("cube").box.center_mm();
-  const Eigen::Vector3d moved = center + Eigen::Vector3d(0.1, 0, 0);
-  const Eigen::Vector2d seen = (better.camera_from_world * center).hnormalized();
-  const Eigen::Vector2d true_place = (pose_.camera_from_world * moved).hnormalized();
-  EXPECT_LT((seen - true_place).norm() * rig_.scene.camera.intrinsics.fx_px, 0.15);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kPoseSeeds = 400;
 
-struct Scene {
+struct UncertainScene {
   std::string name;
   CameraIntrinsics camera;
   Rigid3d pose;
@@ -22,7 +22,7 @@ struct Scene {
   double noise_px;
 };
 
-std::vector<Scene> scenes() {
+std::vector<UncertainScene> scenes() {
   std::mt19937_64 random(2027);
   const auto plane = slab_points(30, 10, 0, &random);
   const auto volume = slab_points(20, 60, 80, &random);
@@ -38,7 +38,7 @@ std::vector<Scene> scenes() {
 class PoseUncertainty : public ::testing::TestWithParam<int> {};
 
 TEST_P(PoseUncertainty, PredictedIsSampled) {
-  const Scene scene = scenes()[static_cast<size_t>(GetParam())];
+  const UncertainScene scene = scenes()[static_cast<size_t>(GetParam())];
   SCOPED_TRACE(scene.name);
   PoseOptions options;
   options.point_std_px = 1e-3;  // so that the residuals alone tell the noise

@@ -1,5 +1,7 @@
 #include "core/camera/pose_shift.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace scattermeter {
@@ -61,6 +63,45 @@ TEST(PoseShift, FollowsAnotherRay) {
     const Eigen::Vector3d numeric = (meets(ray + h) - meets(ray - h)) / 2e-6;
     EXPECT_LT((shift.col(k) - numeric).norm(), 1e-6 * numeric.norm()) << "column " << k;
   }
+}
+
+// An object that moves, turns or grows by a little has the same picture as one that stays before a
+// camera with the shifted pose.
+TEST(PoseShift, OfPlaceAndSize) {
+  Rigid3d pose;
+  pose.rotation =
+      Eigen::Quaterniond(Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, 0.2, -0.3).normalized()));
+  pose.translation_mm = {3, -8, 180};
+  const Eigen::Vector3d center(2, 5, 9);
+  const Eigen::Matrix<double, 6, 6> by_place = pose_shift_by_place(pose, center);
+  const PoseShift by_size = pose_shift_by_size(pose, center);
+  constexpr double kStep = 1e-5;
+  for (const Eigen::Vector3d& point : {Eigen::Vector3d(4, -3, 11), Eigen::Vector3d(-9, 6, 1)}) {
+    const auto image = [&](const Rigid3d& p, const Eigen::Vector3d& x) -> Eigen::Vector2d {
+      return 200.0 * (p * x).hnormalized();
+    };
+    for (int k = 0; k < 7; ++k) {
+      Eigen::Vector3d moved = point;
+      if (k < 3) moved[k] += kStep;
+      if (k >= 3 && k < 6) moved += kStep * Eigen::Vector3d::Unit(k - 3).cross(point - center);
+      if (k == 6) moved += kStep * (point - center);
+      const PoseShift shift = kStep * (k < 6 ? PoseShift(by_place.col(k)) : by_size);
+      const Eigen::Vector2d expected = image(pose, moved) - image(pose, point);
+      const Eigen::Vector2d found = image(shifted_pose(pose, shift), point) - image(pose, point);
+      EXPECT_LT((found - expected).norm(), 1e-4 * expected.norm() + 1e-9) << "column " << k;
+    }
+  }
+}
+
+TEST(PoseShift, IsARotationAndATranslation) {
+  Rigid3d pose;
+  pose.translation_mm = {1, 2, 100};
+  PoseShift by;
+  by << 0.0, 0.0, 0.5, 1.0, -1.0, 3.0;
+  const Rigid3d found = shifted_pose(pose, by);
+  const Eigen::Vector3d expected(std::cos(0.5) + 2.0, std::sin(0.5) + 1.0, 103.0);
+  EXPECT_LT((found * Eigen::Vector3d::UnitX() - expected).norm(), 1e-12);
+  EXPECT_EQ(shifted_pose(pose, PoseShift::Zero()).translation_mm, pose.translation_mm);
 }
 
 }  // namespace

@@ -82,6 +82,28 @@ TEST(JointEvidence, WhatIsNotSharedIsEliminated) {
   EXPECT_EQ(pulls[1].name, "pose0");
 }
 
+// A channel whose model misses its image says nothing beside one whose model explains it, and what
+// is most probable without.
+TEST(JointEvidence, MostProbableWhereNothingIsExplained) {
+  std::vector<ChannelResult> results = three_channels_and_one();
+  for (std::size_t i = 0; i < 4; ++i) {
+    results[i].evidence = {{kPosition},
+                           Eigen::MatrixXd::Constant(1, 1, 9.0),
+                           Eigen::VectorXd::Constant(1, i == 0 ? 10.0 : 20.0),
+                           Eigen::VectorXd::Constant(1, 0.01)};
+  }
+  const auto miss = [](ChannelResult& r) {
+    r.estimate.misfit_p_value = 0.0;
+    r.estimate.misfit_relative = 0.01;
+  };
+  for (std::size_t i = 1; i < 4; ++i) miss(results[i]);
+  ASSERT_EQ(most_probable_pulls_of(results).pulls.size(), 1U);
+  EXPECT_NEAR(most_probable_pulls_of(results).pulls[0].offset, 1.0 * 0.2, 1e-12);
+  miss(results[0]);
+  EXPECT_NEAR(most_probable_pulls_of(results).pulls[0].offset, 70.0 / 37.0 * 0.2, 1e-12);
+  EXPECT_TRUE(joint_pulls_of(results).pulls.empty());
+}
+
 // An offset of 3.5 deviations is no reason, one of 5.3 is: channels that see the quantity are
 // refused, one that does not see it is not.
 TEST(JointEvidence, RefusesWhatAllContradict) {

@@ -13,8 +13,10 @@
 #include "apps/simulation/virtual_shots.h"
 #include "calib/lens/camera_calibration_file.h"
 #include "calib/pose/shot_pose.h"
+#include "core/base/covariance_root.h"
 #include "core/camera/lens.h"
 #include "core/camera/lens_parameters.h"
+#include "core/camera/pose_shift.h"
 #include "core/light/incident_light.h"
 #include "core/material/dipole.h"
 
@@ -288,6 +290,110 @@ TEST_F(CalibratedNuisances, SensitivitiesByFullDifferences) {
     expect_near("site", s.per_tangent_mm[t], shifted(t, step_mm), shifted(t, -step_mm),
                 2.0 * step_mm, 0.05);
   }
+}
+
+// The light by a shift of the view is that of the pose's columns, the other way.
+TEST_F(CalibratedNuisances, LightByAShiftedView) {
+  PoseResult pose = calib::pose_from_points(exact_.scene, exact_.pose);
+  LitObjects library(exact_.scene, scenes_, std::nullopt, 180.0);
+  PoseShift shift;
+  shift << 2e-4, -1e-4, 3e-4, 0.02, 0.03, -0.1;
+  // Columns "pose0" to "pose5" in units of the shift's own parts.
+  pose.covariance = shift.cwiseAbs2().asDiagonal();
+  const std::string name = exact_.scene.shots[0].object;
+  const SharedView view = see_all(exact_.scene, scenes_, library, pose, {{name, shift}});
+  const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
+    return shots_.frame(i, 1, k);
+  };
+  const std::vector<ObservedShot> opened = open_shots(
+      exact_, capture::shots_from(exact_.scene, {0}, frames), scenes_, library, view, nullptr);
+  const SeenObject& seen = *opened[0].seen;
+  EXPECT_EQ(seen.shift, shift);
+  const SceneLight& light = exact_.scene.light(opened[0].stated->lights.at(0));
+  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
+  const LitMedium medium{{1.0, 0.003, 1.3}, 1.0};
+  const WeightMatrix weights = smooth_weights(
+      seen.sites, SourceCloud(library.light(name, light.name, 0), seen.object->box.center_mm()),
+      knots, pair_options(knots));
+  const LightSensitivity s = sensitivity(
+      seen, weights, changed_images(seen, light, 0, library, knots, {medium}), {medium}, knots);
+  const SceneNuisances nuisances(exact_.scene, 1, {{{&seen, light.name, 0}, {&s, 0}}});
+  const std::vector<Eigen::Index> rows = {0, 3, 7, 20};
+  // A root of a diagonal covariance has the signs and the order of its own choice.
+  const Eigen::Matrix<double, 6, 1> signs =
+      (covariance_root(pose.covariance).transpose() * shift)
+          .cwiseQuotient(covariance_root(pose.covariance).colwise().squaredNorm().transpose());
+  Eigen::VectorXd expected = Eigen::VectorXd::Zero(4);
+  for (const NuisanceColumn& c :
+       nuisances.columns(opened[0], opened[0].observation.channel[1], rows)) {
+    if (c.nuisance.group == "pose") expected -= signs[c.nuisance.name.back() - '0'] * c.change;
+  }
+  const Eigen::VectorXd found = nuisances.light_by_shift(opened[0], rows);
+  EXPECT_GT(expected.norm(), 0.0);
+  EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm());
+}
+
+// A larger piece is nearer to camera and LED, and catches no more power.
+TEST_F(CalibratedNuisances, SizeColumnOfMovedLightAndCamera) {
+  Rig rig = exact_;
+  for (SceneLight& light : rig.scene.lights) light.led()->position_std_mm = 0.3;
+  rig.scene.objects.front().position_std_mm = 0.1;
+  rig.scene.objects.front().scale_relative_std = 0.002;
+  const ObjectScenes scenes = bodies_scenes(rig);
+  const PoseResult pose = calib::pose_from_points(rig.scene, rig.pose);
+  LitObjects library(rig.scene, scenes, std::nullopt, 180.0);
+  const std::string name = rig.scene.shots[0].object;
+  const SharedView view = see_all(rig.scene, scenes, library, pose);
+  const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
+    return shots_.frame(i, 1, k);
+  };
+  const std::vector<ObservedShot> opened =
+      open_shots(rig, capture::shots_from(rig.scene, {0}, frames), scenes, library, view, nullptr);
+  const SeenObject& seen = *opened[0].seen;
+  const SceneLight& light = rig.scene.light(opened[0].stated->lights.at(0));
+  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
+  const LitMedium medium{{1.0, 0.003, 1.3}, 1.0};
+  const auto image = [&](const Led& led, double size) -> Eigen::VectorXd {
+    std::vector<ExitSite> sites;
+    const Eigen::Vector3d center = seen.object->box.center_mm();
+    for (std::size_t j = 0; j < seen.sites.size(); ++j) {
+      const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
+      const Eigen::Vector3d by =
+          surface_shift_by_pose(pose.camera_from_world, seen.sites[j].center_mm, normal) *
+          ((size - 1.0) * pose_shift_by_size(pose.camera_from_world, center));
+      sites.push_back(moved(seen.sites[j], by));
+    }
+    const IncidentLight lit =
+        illuminate(*seen.patches, *seen.object->rays, led, seen.object->stated->eta_int_over_ext);
+    return smooth_weights(sites, SourceCloud(lit, center), knots, pair_options(knots)) *
+           scaled_curves({medium}, knots, seen.object->stated->eta_int_over_ext);
+  };
+  constexpr double kStep = 0.005;
+  const auto grown = [&](double size) -> Eigen::VectorXd {
+    const Eigen::Vector3d center = seen.object->box.center_mm();
+    Led led = light.led()->led;
+    led.position_mm = center + (led.position_mm - center) / size;
+    return image(led, size) / (size * size);
+  };
+  const WeightMatrix weights = smooth_weights(
+      seen.sites, SourceCloud(library.light(name, light.name, 0), seen.object->box.center_mm()),
+      knots, pair_options(knots));
+  const LightSensitivity s = sensitivity(
+      seen, weights, changed_images(seen, light, 0, library, knots, {medium}), {medium}, knots);
+  std::vector<Eigen::Index> rows;
+  for (std::size_t j = 0; j < seen.sites.size(); ++j) rows.push_back(static_cast<Eigen::Index>(j));
+  const Eigen::VectorXd expected =
+      light->power()[1] * (grown(1.0 + kStep) - grown(1.0 - kStep)) / (2.0 * kStep);
+  bool found = false;
+  for (const NuisanceColumn& c : SceneNuisances(rig.scene, 1, {{{&seen, light.name, 0}, {&s, 0}}})
+                                     .columns(opened[0], opened[0].observation.channel[1], rows)) {
+    if (c.nuisance.group != "mesh scale") continue;
+    found = true;
+    EXPECT_EQ(c.nuisance.name, name + ".size");
+    EXPECT_EQ(c.nuisance.std, 0.002);
+    EXPECT_LT((c.change - expected).norm(), 0.1 * expected.norm());
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST_F(CalibratedNuisances, LensIsInTheBudget) {

@@ -1,0 +1,63 @@
+#include "apps/instrument/outline_finding.h"
+
+#include <cstddef>
+
+#include <fmt/core.h>
+
+namespace scattermeter::apps {
+namespace {
+
+using calib::OutlineCause;
+
+std::string advice_for(const calib::OutlineExplanation& e, const std::string& object) {
+  switch (e.cause) {
+    case OutlineCause::kMeshScale:
+      return fmt::format("measure the object and scale the mesh of objects.{}", object);
+    case OutlineCause::kCamera:
+      return "take the pose points again, or all shots";
+    case OutlineCause::kShotMoved:
+      return "take this shot again";
+    default:
+      return fmt::format(
+          "put the object back or place the mesh of objects.{} where it stands; if the camera was "
+          "moved, take the pose points again",
+          object);
+  }
+}
+
+std::string class_of(OutlineCause cause) {
+  switch (cause) {
+    case OutlineCause::kNone:
+      return "none";
+    case OutlineCause::kMeshDisplaced:
+      return "mesh displaced";
+    case OutlineCause::kMeshTurned:
+      return "mesh turned";
+    case OutlineCause::kMeshScale:
+      return "mesh scaled";
+    case OutlineCause::kMeshMisplaced:
+      return "mesh displaced and turned";
+    case OutlineCause::kCamera:
+      return "camera moved";
+    case OutlineCause::kShotMoved:
+      return "shot moved";
+  }
+  return "";
+}
+
+}  // namespace
+
+Finding outline_finding(const calib::OutlineDiagnosis& diagnosis, const std::string& object) {
+  const calib::OutlineExplanation& best = diagnosis.explanations.at(1);
+  Finding finding;
+  finding.cause = class_of(best.cause);
+  finding.text = best.text;
+  for (std::size_t k = 2; k < diagnosis.explanations.size() && k <= diagnosis.likely; ++k) {
+    finding.text += (k == 2 ? " (cannot be told from: " : ", ") + diagnosis.explanations[k].text;
+    if (k + 1 == diagnosis.explanations.size() || k == diagnosis.likely) finding.text += ")";
+  }
+  finding.advice = advice_for(best, object);
+  return finding;
+}
+
+}  // namespace scattermeter::apps

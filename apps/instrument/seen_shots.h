@@ -1,0 +1,60 @@
+// The shots of a measurement, opened from one view after another.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/rig/rig.h"
+#include "capture/shots/shot_source.h"
+#include "core/base/progress.h"
+#include "core/camera/pose_shift.h"
+#include "core/estimation/estimation.h"
+#include "core/scene/lit_objects.h"
+#include "core/scene/object_scene.h"
+#include "core/scene/observed_shot.h"
+#include "core/scene/seen_object.h"
+
+namespace scattermeter::apps {
+
+class SeenShots {
+ public:
+  // view: common to all shots; absent: each has its own. on_smooth_knots: W on them is computed
+  // while the shots are read. kept: the light of that view. All references must outlive it.
+  SeenShots(const Rig& rig, const ObjectScenes& objects, LitObjects& lit,
+            const capture::ShotSource& source, std::optional<SharedView> view, bool on_smooth_knots,
+            KeptLight& kept, Progress* progress);
+  SeenShots(const SeenShots&) = delete;
+  SeenShots& operator=(const SeenShots&) = delete;
+
+  const std::vector<ObservedShot>& shots() const { return shots_; }
+  // The light of the view that is open.
+  KeptLight& kept() const { return *kept_; }
+
+  // Throws InputError and Cancelled as open_shots() does.
+  void open() { open(source_); }
+  // From another source of the same shots.
+  void open(const capture::ShotSource& from);
+  // Again, from a view that is shifted against each object (see_all()); does nothing without a
+  // common view.
+  void open_from(const std::map<std::string, PoseShift>& shifts);
+  // Takes these shots out of the cache, and keeps none from now on.
+  void forget();
+
+ private:
+  std::vector<ObservedShot> open_and_light(const capture::ShotSource& from) const;
+
+  const Rig& rig_;
+  const ObjectScenes& objects_;
+  LitObjects& lit_;
+  capture::ShotSource source_;
+  std::optional<SharedView> view_;
+  bool on_smooth_knots_;
+  KeptLight shifted_;
+  KeptLight* kept_;
+  Progress* progress_;
+  std::vector<ObservedShot> shots_;
+};
+
+}  // namespace scattermeter::apps

@@ -1,0 +1,110 @@
+#include "core/estimation/view_shift.h"
+
+#include <cmath>
+#include <string>
+
+#include "core/base/covariance_root.h"
+#include "core/base/cross_matrix.h"
+#include "core/base/dense_solve.h"
+#include "core/camera/lens.h"
+#include "core/camera/lens_parameters.h"
+
+namespace scattermeter {
+namespace {
+
+// d(X / Z, Y / Z) of a world point by a shift of the pose.
+Eigen::Matrix<double, 2, 6> ray_by_shift(const Rigid3d& pose, const Eigen::Vector3d& point_mm) {
+  const Eigen::Vector3d p = pose * point_mm;
+  Eigen::Matrix<double, 2, 3> by_point;
+  by_point << 1.0 / p.z(), 0.0, -p.x() / (p.z() * p.z()), 0.0, 1.0 / p.z(),
+      -p.y() / (p.z() * p.z());
+  Eigen::Matrix<double, 2, 6> out;
+  out.leftCols<3>() = -by_point * cross_matrix(pose.rotation * point_mm);
+  out.rightCols<3>() = by_point;
+  return out;
+}
+
+// The values of the nuisances "NAME0", "NAME1", ...
+Eigen::VectorXd values_of(const std::string& name, Eigen::Index n,
+                          const std::vector<PriorPull>& pulls) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
+  for (const PriorPull& p : pulls) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (p.name == name + std::to_string(k)) out[k] = p.offset;
+    }
+  }
+  return out;
+}
+
+// The shift of the pose that moves the picture of the sites as a change of the lens does.
+PoseShift shift_like_lens(const ObservedShot& shot, const CameraIntrinsics& intrinsics,
+                          const LensParameters& change) {
+  const Rigid3d& pose = shot.pose.camera_from_world;
+  const Lens lens(intrinsics);
+  const LensParameters parameters = lens_parameters(intrinsics);
+  const auto n = static_cast<Eigen::Index>(shot.seen->sites.size());
+  Eigen::MatrixXd by_shift(2 * n, 6);
+  Eigen::VectorXd by_lens(2 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Vector3d& site_mm = shot.seen->sites[static_cast<std::size_t>(i)].center_mm;
+    by_shift.middleRows<2>(2 * i) = ray_by_shift(pose, site_mm);
+    // A ray that leaves the camera in another direction is a world that moves the other way.
+    by_lens.segment<2>(2 * i) =
+        -ray_per_lens_parameter(lens, parameters, (pose * site_mm).hnormalized()) * change;
+  }
+  const Eigen::VectorXd unit = by_shift.colwise().norm().cwiseInverse();
+  const PivotedSolver solver(by_shift * unit.asDiagonal());
+  return unit.asDiagonal() * solver.solve(by_lens);
+}
+
+// Of the shot's sites across the line of sight, when the pose shifts.
+double rms_motion_mm(const ObservedShot& shot, const PoseShift& by) {
+  const Rigid3d& pose = shot.pose.camera_from_world;
+  double sum = 0.0;
+  for (const ExitSite& site : shot.seen->sites) {
+    const double depth_mm = (pose * site.center_mm).z();
+    sum += (depth_mm * ray_by_shift(pose, site.center_mm) * by).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(shot.seen->sites.size()));
+}
+
+}  // namespace
+
+PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
+                              const std::vector<PriorPull>& pulls) {
+  const ObjectScene& object = *shot.seen->object;
+  PoseShift out = covariance_root(shot.pose.covariance) * values_of("pose", 6, pulls);
+  out += pose_shift_by_place(shot.pose.camera_from_world, object.box.center_mm()) *
+         values_of(object.stated->name + ".position", 6, pulls);
+  for (const PriorPull& p : pulls) {
+    if (p.name != object.stated->name + ".size") continue;
+    out += p.offset * pose_shift_by_size(shot.pose.camera_from_world, object.box.center_mm());
+  }
+  const LensRoot& root = scene.camera.lens_root;
+  if (root.cols() == 0) return out;
+  const LensParameters lens = root * values_of("lens", root.cols(), pulls);
+  if (lens.isZero(0.0)) return out;
+  return out + shot.pose.per_lens_parameter * lens +
+         shift_like_lens(shot, scene.camera.intrinsics, lens);
+}
+
+std::map<std::string, PoseShift> visible_shifts(const Scene& scene,
+                                                std::span<const ObservedShot> shots,
+                                                const std::vector<PriorPull>& pulls) {
+  constexpr double kVisible = 0.02;  // of a patch
+  if (pulls.empty()) return {};
+  std::map<std::string, PoseShift> out;
+  bool any = false;
+  for (const ObservedShot& shot : shots) {
+    if (shot.has_own_pose) return {};
+    const auto [it, is_new] = out.try_emplace(shot.stated->object);
+    if (!is_new) continue;
+    it->second = most_probable_shift(scene, shot, pulls);
+    any = any || rms_motion_mm(shot, it->second - shot.seen->shift) >
+                     kVisible * shot.seen->patches->patch_size_mm();
+  }
+  if (!any) out.clear();
+  return out;
+}
+
+}  // namespace scattermeter

@@ -1,0 +1,92 @@
+#include "core/estimation/view_shift.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "core/camera/camera_model.h"
+#include "tests/fixtures/core/dipole_cube.h"
+
+namespace scattermeter {
+namespace {
+
+class ViewShiftTest : public ::testing::Test {
+ protected:
+  ViewShiftTest() { cube_.shots[0].pose.covariance = pose_std_.cwiseAbs2().asDiagonal(); }
+  const ObservedShot& shot() const { return cube_.shots[0]; }
+  const Rigid3d& pose() const { return shot().pose.camera_from_world; }
+  std::vector<Eigen::Vector2d> image(const CameraIntrinsics& lens, const Rigid3d& pose,
+                                     double size = 1.0) const {
+    const Eigen::Vector3d center = shot().seen->object->box.center_mm();
+    std::vector<Eigen::Vector3d> points;
+    for (const ExitSite& s : shot().seen->sites) {
+      points.push_back(center + size * (s.center_mm - center));
+    }
+    return project(lens, pose, points);
+  }
+  static double farthest_px(const std::vector<Eigen::Vector2d>& a,
+                            const std::vector<Eigen::Vector2d>& b) {
+    double out = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) out = std::max(out, (a[i] - b[i]).norm());
+    return out;
+  }
+
+  PoseShift pose_std_ = (PoseShift() << 1e-3, 2e-3, 1e-3, 0.1, 0.2, 0.5).finished();
+  test_support::DipoleCube cube_;
+};
+
+TEST_F(ViewShiftTest, OfThePose) {
+  PoseShift expected = PoseShift::Zero();
+  std::vector<PriorPull> pulls;
+  // Pose k is the k-th independent combination: the covariance's root is unique up to its order.
+  for (int k = 0; k < 6; ++k) pulls.push_back({"pose" + std::to_string(k), "pose", 0.0, 1.0});
+  const PoseShift found = most_probable_shift(cube_.scene, shot(), pulls);
+  for (Eigen::Index k = 0; k < 6; ++k) EXPECT_NEAR(std::abs(found[k]), pose_std_[k], 1e-12);
+  EXPECT_EQ(most_probable_shift(cube_.scene, shot(), {}), expected);
+}
+
+// The object 0.3 mm to the side and 0.4 % larger.
+TEST_F(ViewShiftTest, OfTheObject) {
+  const PoseShift found = most_probable_shift(cube_.scene, shot(),
+                                              {{"cube.position0", "mesh position", 0.0, 0.3},
+                                               {"cube.size", "mesh scale", 0.0, 0.004},
+                                               {"other.position0", "mesh position", 0.0, 9.0}});
+  const Rigid3d moved = pose() * Rigid3d{Eigen::Quaterniond::Identity(), {0.3, 0.0, 0.0}};
+  const CameraIntrinsics& lens = cube_.scene.camera.intrinsics;
+  const auto true_px = image(lens, moved, 1.004);
+  const double off = farthest_px(image(lens, pose()), true_px);
+  EXPECT_LT(farthest_px(image(lens, shifted_pose(pose(), found)), true_px), 0.01 * off);
+}
+
+// A principal point 3 px to the right moves the picture as a turn of the camera does.
+TEST_F(ViewShiftTest, OfTheLens) {
+  LensRoot root = LensRoot::Zero(kLensParameters, 1);
+  root(2, 0) = 1.0;
+  cube_.scene.camera.lens_root = root;
+  const PoseShift found = most_probable_shift(cube_.scene, shot(), {{"lens0", "lens", 0.0, 3.0}});
+  const CameraIntrinsics& lens = cube_.scene.camera.intrinsics;
+  CameraIntrinsics other = lens;
+  other.cx_px += 3.0;
+  const auto true_px = image(other, pose());
+  EXPECT_NEAR(farthest_px(image(lens, pose()), true_px), 3.0, 1e-9);
+  EXPECT_LT(farthest_px(image(lens, shifted_pose(pose(), found)), true_px), 0.1);
+}
+
+std::vector<PriorPull> at_side(double mm) { return {{"cube.position0", "mesh position", 0.0, mm}}; }
+
+TEST_F(ViewShiftTest, IsVisibleAgainstThePatch) {
+  const auto shifts = visible_shifts(cube_.scene, cube_.shots, at_side(0.2));
+  ASSERT_EQ(shifts.size(), 1U);
+  EXPECT_NEAR(shifts.at("cube").tail<3>().norm(), 0.2, 1e-3);
+  EXPECT_TRUE(visible_shifts(cube_.scene, cube_.shots, at_side(0.002)).empty());
+  // Seen from there already.
+  cube_.shots[0].seen =
+      see(cube_.scene, cube_.objects, cube_.lit, "cube", shot().pose, shifts.at("cube"));
+  EXPECT_TRUE(visible_shifts(cube_.scene, cube_.shots, at_side(0.2)).empty());
+  EXPECT_TRUE(visible_shifts(cube_.scene, cube_.shots, {}).empty());
+  cube_.shots[0].has_own_pose = true;
+  EXPECT_TRUE(visible_shifts(cube_.scene, cube_.shots, at_side(0.5)).empty());
+}
+
+}  // namespace
+}  // namespace scattermeter
