@@ -1,6 +1,7 @@
 #include "apps/instrument/instrument.h"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include <fmt/core.h>
@@ -39,6 +40,10 @@ double distance_to_camera_mm(const Rig& rig, const ObjectScenes& objects,
   }
   return distance_mm;
 }
+
+constexpr const char* kUnsettledReason =
+    "the shots do not tell from where the object is seen: its place keeps moving from fit to fit; "
+    "check the pose points and the position of its mesh, or add shots under another LED";
 
 // Pose points that scatter by far more than the rig states about the best pose: lens or marks are
 // not as stated, and no pose is right.
@@ -116,6 +121,42 @@ std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
                                [](const ChannelResult& r) { return !r.refused(); });
   if (any || findings.empty()) run(estimator(options.model), estimation);
   return std::move(estimation.results);
+}
+
+// Fits the shots, opens them again from where the fit shows the objects to lie, and so on until the
+// objects stay there.
+std::vector<ChannelResult> fitted_from_where_seen(
+    const Scene& scene, SeenShots& seen, EstimateOptions options,
+    const std::function<std::vector<ChannelResult>(const EstimateOptions&)>& fit,
+    Stopwatch& watch) {
+  constexpr int kMostViews = 8;
+  // Round bodies approach their place in turns from either side.
+  constexpr int kWholeSteps = 2;
+  constexpr double kHalf = 0.5;
+  constexpr double kUnsettled = 2.0 * kVisibleMotion;
+  for (int views = 1;; ++views) {
+    SeenElsewhere found;
+    const bool may_go = views < kMostViews;
+    const auto stays = [&](const JointJudgement& joint) {
+      found = seen_elsewhere(scene, seen.shots(), joint.pulls, views <= kWholeSteps ? 1.0 : kHalf);
+      return !may_go || !(found.motion > kVisibleMotion);
+    };
+    // Where the dipole does not hold, its derivatives do not tell where the object lies.
+    options.goes_on_from_dipole = [&](const std::vector<ChannelResult>& results) {
+      return stays(joint_pulls_of(results));
+    };
+    std::vector<ChannelResult> results = fit(options);
+    if (options.model == "dipole") stays(most_probable_pulls_of(results));
+    if (!may_go || !(found.motion > kVisibleMotion)) {
+      if (!(found.motion > kUnsettled)) return results;
+      for (ChannelResult& r : results) {
+        if (!r.refused()) r.estimate.reasons.emplace_back(kUnsettledReason);
+      }
+      return results;
+    }
+    seen.open_from(found.shifts);
+    watch.lap("shots");
+  }
 }
 
 }  // namespace
@@ -218,26 +259,13 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     findings = look_first(source, smooth, seen, out.notes, watch);
   }
   out.brackets = brackets_of(seen.shots());
-  for (int views = 1;; ++views) {
-    std::map<std::string, PoseShift> shifts;
-    const auto stay = [&](const JointJudgement& joint) {
-      constexpr int kMostViews = 4;
-      if (smooth && !without_noise && views < kMostViews) {
-        shifts = visible_shifts(rig_.scene, seen.shots(), joint.pulls);
-      }
-      return shifts.empty();
-    };
-    // Where the dipole does not hold, its derivatives do not tell where the object lies.
-    options.goes_on_from_dipole = [&](const std::vector<ChannelResult>& results) {
-      return stay(joint_pulls_of(results));
-    };
-    out.results = estimate_others(rig_.scene, lit_, seen.shots(), findings, options, seen.kept(),
-                                  watch, progress_);
-    if (options.model == "dipole") stay(most_probable_pulls_of(out.results));
-    if (shifts.empty()) break;
-    seen.open_from(shifts);
-    watch.lap("shots");
-  }
+  const auto fit = [&](const EstimateOptions& how) {
+    return estimate_others(rig_.scene, lit_, seen.shots(), findings, how, seen.kept(), watch,
+                           progress_);
+  };
+  out.results = smooth && !without_noise
+                    ? fitted_from_where_seen(rig_.scene, seen, options, fit, watch)
+                    : fit(options);
   opened = seen.shots();
   if (!without_noise) widen_by_blur(opened, out.results);
   out.skipped = skipped_of(opened, lit_);

@@ -1,5 +1,6 @@
 #include "core/estimation/view_shift.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -88,22 +89,20 @@ PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
          shift_like_lens(shot, scene.camera.intrinsics, lens);
 }
 
-std::map<std::string, PoseShift> visible_shifts(const Scene& scene,
-                                                std::span<const ObservedShot> shots,
-                                                const std::vector<PriorPull>& pulls) {
-  constexpr double kVisible = 0.02;  // of a patch
-  if (pulls.empty()) return {};
-  std::map<std::string, PoseShift> out;
-  bool any = false;
+SeenElsewhere seen_elsewhere(const Scene& scene, std::span<const ObservedShot> shots,
+                             const std::vector<PriorPull>& pulls, double step) {
+  SeenElsewhere out;
+  if (pulls.empty()) return out;
   for (const ObservedShot& shot : shots) {
     if (shot.has_own_pose) return {};
-    const auto [it, is_new] = out.try_emplace(shot.stated->object);
+    const PoseShift& now = shot.seen->shift;
+    const auto [it, is_new] = out.shifts.try_emplace(shot.stated->object, now);
     if (!is_new) continue;
-    it->second = most_probable_shift(scene, shot, pulls);
-    any = any || rms_motion_mm(shot, it->second - shot.seen->shift) >
-                     kVisible * shot.seen->patches->patch_size_mm();
+    const PoseShift by = most_probable_shift(scene, shot, pulls) - now;
+    it->second += step * by;
+    out.motion =
+        std::max(out.motion, rms_motion_mm(shot, by) / shot.seen->patches->patch_size_mm());
   }
-  if (!any) out.clear();
   return out;
 }
 

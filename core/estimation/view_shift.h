@@ -20,13 +20,20 @@ namespace scattermeter {
 PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
                               const std::vector<PriorPull>& pulls);
 
-// By object, the shifts of the views from where the shots show the objects to stand, if one of them
-// moves an object visibly against the view of its shots: by 0.02 of a patch (rms, across the line
-// of sight). There the derivatives by pose and position no longer describe the image exactly
-// enough. pulls: of all channels together. Empty otherwise, without pulls, and for shots with poses
-// of their own.
-std::map<std::string, PoseShift> visible_shifts(const Scene& scene,
-                                                std::span<const ObservedShot> shots,
-                                                const std::vector<PriorPull>& pulls);
+// A motion of the object against the view of its shots (rms, across the line of sight), as a share
+// of a patch, beyond which the derivatives by pose and position no longer describe the image
+// exactly enough: it is to be seen from elsewhere.
+inline constexpr double kVisibleMotion = 0.02;
+
+struct SeenElsewhere {
+  double motion = 0;                        // of the object that moves most, in patches
+  std::map<std::string, PoseShift> shifts;  // by object: for the next view (see_all())
+};
+
+// Where the shots show the objects to lie, against their views, by the pulls of all channels
+// together. The next view goes the share `step` of the way. Nothing without pulls, and for shots
+// with poses of their own.
+SeenElsewhere seen_elsewhere(const Scene& scene, std::span<const ObservedShot> shots,
+                             const std::vector<PriorPull>& pulls, double step = 1.0);
 
 }  // namespace scattermeter

@@ -75,17 +75,24 @@ TEST_F(ViewShiftTest, OfTheLens) {
 std::vector<PriorPull> at_side(double mm) { return {{"cube.position0", "mesh position", 0.0, mm}}; }
 
 TEST_F(ViewShiftTest, IsVisibleAgainstThePatch) {
-  const auto shifts = visible_shifts(cube_.scene, cube_.shots, at_side(0.2));
-  ASSERT_EQ(shifts.size(), 1U);
-  EXPECT_NEAR(shifts.at("cube").tail<3>().norm(), 0.2, 1e-3);
-  EXPECT_TRUE(visible_shifts(cube_.scene, cube_.shots, at_side(0.002)).empty());
+  const double patch_mm = shot().seen->patches->patch_size_mm();
+  const SeenElsewhere far = seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2));
+  ASSERT_EQ(far.shifts.size(), 1U);
+  EXPECT_NEAR(far.shifts.at("cube").tail<3>().norm(), 0.2, 1e-3);
+  EXPECT_GT(far.motion, kVisibleMotion);
+  EXPECT_NEAR(far.motion, 0.2 / patch_mm, 1e-3);  // seen from above
+  EXPECT_NEAR(seen_elsewhere(cube_.scene, cube_.shots, at_side(0.02)).motion, 0.1 * far.motion,
+              1e-6);
+  const SeenElsewhere half = seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2), 0.5);
+  EXPECT_LT((half.shifts.at("cube") - 0.5 * far.shifts.at("cube")).norm(), 1e-12);
+  EXPECT_EQ(half.motion, far.motion);
   // Seen from there already.
   cube_.shots[0].seen =
-      see(cube_.scene, cube_.objects, cube_.lit, "cube", shot().pose, shifts.at("cube"));
-  EXPECT_TRUE(visible_shifts(cube_.scene, cube_.shots, at_side(0.2)).empty());
-  EXPECT_TRUE(visible_shifts(cube_.scene, cube_.shots, {}).empty());
+      see(cube_.scene, cube_.objects, cube_.lit, "cube", shot().pose, far.shifts.at("cube"));
+  EXPECT_LT(seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2)).motion, 1e-9);
+  EXPECT_EQ(seen_elsewhere(cube_.scene, cube_.shots, {}).motion, 0.0);
   cube_.shots[0].has_own_pose = true;
-  EXPECT_TRUE(visible_shifts(cube_.scene, cube_.shots, at_side(0.5)).empty());
+  EXPECT_EQ(seen_elsewhere(cube_.scene, cube_.shots, at_side(0.5)).motion, 0.0);
 }
 
 }  // namespace
