@@ -134,20 +134,32 @@ std::vector<ChannelResult> fitted_from_where_seen(
   constexpr int kWholeSteps = 2;
   constexpr double kHalf = 0.5;
   constexpr double kUnsettled = 2.0 * kVisibleMotion;
+  // Paths are traced anew for the larger motions only, and once.
+  constexpr double kWorthPaths = 2.0 * kVisibleMotion;
+  bool by_transport = false;  // the view is where transport shows the objects to lie
   for (int views = 1;; ++views) {
-    SeenElsewhere found;
-    const bool may_go = views < kMostViews;
-    const auto stays = [&](const JointJudgement& joint) {
-      found = seen_elsewhere(scene, seen.shots(), joint.pulls, views <= kWholeSteps ? 1.0 : kHalf);
-      return !may_go || !(found.motion > kVisibleMotion);
+    const auto from = [&](const JointJudgement& joint) {
+      return seen_elsewhere(scene, seen.shots(), joint.pulls, views <= kWholeSteps ? 1.0 : kHalf);
     };
+    const bool is_last = views == kMostViews || by_transport;
+    SeenElsewhere found;
     // Where the dipole does not hold, its derivatives do not tell where the object lies.
     options.goes_on_from_dipole = [&](const std::vector<ChannelResult>& results) {
-      return stays(joint_pulls_of(results));
+      if (by_transport) return true;
+      found = from(joint_pulls_of(results));
+      return is_last || !(found.motion > kVisibleMotion);
     };
     std::vector<ChannelResult> results = fit(options);
-    if (options.model == "dipole") stays(most_probable_pulls_of(results));
-    if (!may_go || !(found.motion > kVisibleMotion)) {
+    if (options.model == "dipole") found = from(most_probable_pulls_of(results));
+    const bool has_paths = std::any_of(results.begin(), results.end(), [](const ChannelResult& r) {
+      return r.model == "transport" && r.estimate.converged;
+    });
+    if (has_paths && !by_transport && !(found.motion > kVisibleMotion)) {
+      found = from(joint_pulls_of(results));
+      by_transport = found.motion > kWorthPaths;
+      if (!by_transport) found = {};
+    }
+    if (is_last || !(found.motion > kVisibleMotion)) {
       if (!(found.motion > kUnsettled)) return results;
       for (ChannelResult& r : results) {
         if (!r.refused()) r.estimate.reasons.emplace_back(kUnsettledReason);
