@@ -4,7 +4,6 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "calib/pose/blur_ellipse.h"
 #include "calib/pose/cell_means.h"
 #include "calib/pose/edge_strip.h"
 #include "core/base/median.h"
@@ -92,13 +91,11 @@ double edge_blur_px(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
     strip.max_blur_px = 6.0;
     found[i] = locate_edge(shot.samples, c.at_cell, c.point.outward, strip);
   });
-  std::vector<EdgeBlur> blurs;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i].found) {
-      blurs.push_back({candidates[i * stride].point.outward, found[i].blur_px});
-    }
+  std::vector<double> blurs;
+  for (const EdgeStrip& s : found) {
+    if (s.found) blurs.push_back(s.blur_px);
   }
-  return blurs.size() < kLeastPieces ? 0.0 : widest_blur_px(blurs);
+  return blurs.size() < kLeastPieces ? 0.0 : upper_median(blurs);
 }
 
 std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
