@@ -107,21 +107,26 @@ Eigen::Matrix3Xd SceneNuisances::change_per_mm(const ObservedShot& shot,
   return per_mm;
 }
 
-Eigen::VectorXd SceneNuisances::light_by_shift(const ObservedShot& shot,
-                                               const std::vector<Eigen::Index>& rows) const {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+// Change of each row's l by a small change of the pose, with per_mm of change_per_mm().
+Eigen::Matrix<double, Eigen::Dynamic, 6> SceneNuisances::change_by_pose(
+    const ObservedShot& shot, const std::vector<Eigen::Index>& rows,
+    const Eigen::Matrix3Xd& per_mm) {
   const SeenObject& seen = *shot.seen;
-  if (seen.shift.isZero(0.0)) return out;
-  const Eigen::Matrix3Xd per_mm = change_per_mm(shot, rows);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto row = static_cast<std::size_t>(rows[i]);
-    const auto at = static_cast<Eigen::Index>(i);
-    out[at] = -per_mm.col(at).dot(
-        surface_shift_by_pose(shot.pose.camera_from_world, seen.sites[row].center_mm,
-                              seen.patches->normal(seen.map.patch_of_row[row])) *
-        seen.shift);
+  Eigen::Matrix<double, Eigen::Dynamic, 6> out(per_mm.cols(), 6);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
+    out.row(i) = per_mm.col(i).transpose() *
+                 surface_shift_by_pose(shot.pose.camera_from_world, seen.sites[row].center_mm,
+                                       seen.patches->normal(seen.map.patch_of_row[row]));
   }
   return out;
+}
+
+Eigen::VectorXd SceneNuisances::light_by_shift(const ObservedShot& shot,
+                                               const std::vector<Eigen::Index>& rows) const {
+  const PoseShift& shift = shot.seen->shift;
+  if (shift.isZero(0.0)) return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+  return -change_by_pose(shot, rows, change_per_mm(shot, rows)) * shift;
 }
 
 // The uncertainties of the radiance calibration: each shot's black, the glare, the shutter.
@@ -218,14 +223,8 @@ void SceneNuisances::add_place(const ObservedShot& shot, const Eigen::Matrix3Xd&
   const auto n = static_cast<Eigen::Index>(columns.rows().size());
   Eigen::Matrix<double, 6, 7> pose_by_place;
   pose_by_place << pose_shift_by_place(pose, center_mm), pose_shift_by_size(pose, center_mm);
-  Eigen::Matrix<double, Eigen::Dynamic, 7> change(n, 7);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto row = static_cast<std::size_t>(columns.rows()[static_cast<std::size_t>(i)]);
-    change.row(i) = per_mm.col(i).transpose() *
-                    surface_shift_by_pose(pose, seen.sites[row].center_mm,
-                                          seen.patches->normal(seen.map.patch_of_row[row])) *
-                    pose_by_place;
-  }
+  Eigen::Matrix<double, Eigen::Dynamic, 7> change =
+      change_by_pose(shot, columns.rows(), per_mm) * pose_by_place;
   for (const std::string& name : shot.stated->lights) {
     const SceneLight& light = scene_.light(name);
     const LedLight* led = light.led();

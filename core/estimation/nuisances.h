@@ -62,6 +62,9 @@ class SceneNuisances {
 
   Eigen::Matrix3Xd change_per_mm(const ObservedShot& shot,
                                  const std::vector<Eigen::Index>& rows) const;
+  static Eigen::Matrix<double, Eigen::Dynamic, 6> change_by_pose(
+      const ObservedShot& shot, const std::vector<Eigen::Index>& rows,
+      const Eigen::Matrix3Xd& per_mm);
   void add_light(const SceneLight& light, const ChannelSensitivity& own, Columns& columns) const;
   void add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm, Columns& columns) const;
   void add_place(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm, Columns& columns) const;
