@@ -1,9 +1,12 @@
 #include <csignal>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include <malloc.h>
 
 #include "apps/program/command_line.h"
 #include "apps/program/ranks.h"
@@ -28,6 +31,11 @@ int run(const std::vector<std::string>& arguments, std::ostream& out, std::ostre
 }  // namespace
 
 int main(int argc, char** argv) {
+  // The memory of one frame serves the next: to return it to the system, and to get it back filled
+  // with zeros, takes as long as the decoding.
+  constexpr int kLargestThreshold = 32 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLargestThreshold);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
   // Exceeding the limit of a file's size is then an error of the write, with a message.
   std::signal(SIGXFSZ, SIG_IGN);
   try {

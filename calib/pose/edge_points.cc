@@ -1,6 +1,7 @@
 #include "calib/pose/edge_points.h"
 
 #include <algorithm>
+#include <span>
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -26,7 +27,7 @@ Eigen::Vector2d cell_of(const Eigen::Vector2d& px, int factor) {
   return (px.array() + 0.5) / factor - 0.5;
 }
 
-std::vector<Candidate> predict(const std::vector<EdgeShot>& shots, const Lens& lens, double fx_px,
+std::vector<Candidate> predict(std::span<const EdgeShot> shots, const Lens& lens, double fx_px,
                                const Rigid3d& camera_from_world, const EdgePointOptions& options) {
   VisibleEdgesOptions seen;
   seen.step_rad = options.piece_px * options.factor / fx_px;
@@ -81,7 +82,7 @@ double edge_blur_px(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
   options.half_width_px = 12.0;
   options.search_px = 8.0;
   std::vector<Candidate> candidates =
-      predict({shot}, Lens(intrinsics), intrinsics.fx_px, camera_from_world, options);
+      predict({&shot, 1}, Lens(intrinsics), intrinsics.fx_px, camera_from_world, options);
   std::erase_if(candidates, [](const Candidate& c) { return c.point.kind != EdgeKind::kContour; });
   const std::size_t stride = 1 + candidates.size() / kMostPieces;
   std::vector<EdgeStrip> found((candidates.size() + stride - 1) / stride);

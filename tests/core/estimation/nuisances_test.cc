@@ -1,63 +1,16 @@
 #include "core/estimation/nuisances.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include <gtest/gtest.h>
 
-#include "apps/instrument/instrument.h"
-#include "apps/instrument/open_shots.h"
-#include "apps/simulation/bodies_rig.h"
-#include "apps/simulation/plastics_rig.h"
-#include "apps/simulation/virtual_shots.h"
-#include "calib/lens/camera_calibration_file.h"
 #include "calib/pose/shot_pose.h"
-#include "core/base/covariance_root.h"
-#include "core/camera/lens.h"
-#include "core/camera/lens_parameters.h"
-#include "core/camera/pose_shift.h"
 #include "core/light/incident_light.h"
 #include "core/material/dipole.h"
+#include "tests/fixtures/apps/calibrated_nuisances.h"
 
 namespace scattermeter::apps {
 namespace {
-
-double part(const Estimate& e, const std::string& cause) {
-  for (const BudgetLine& line : e.budget) {
-    if (line.cause == cause) return line.std_sigma_s_prime_per_mm;
-  }
-  return 0.0;
-}
-
-Rig one_shot() {
-  Rig rig = plastics_rig(240);
-  rig.scene.shots.resize(1);
-  return rig;
-}
-
-class CalibratedNuisances : public ::testing::Test {
- protected:
-  CalibratedNuisances()
-      : exact_(one_shot()),
-        scenes_(bodies_scenes(exact_)),
-        shots_(exact_, scenes_, {.noise = true}) {}
-
-  Estimate measured(const Rig& rig) const { return result(rig).estimate; }
-  ChannelResult result(const Rig& rig) const {
-    MeasureOptions options;
-    options.estimate.model = "dipole";
-    Instrument instrument(rig, scenes_, options);
-    const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
-      return shots_.frame(i, 1, k);
-    };
-    return instrument.measure(capture::shots_from(rig.scene, {0}, frames)).results.at(1);
-  }
-
-  Rig exact_;
-  ObjectScenes scenes_;
-  VirtualShots shots_;
-};
 
 // A cause too small to count is left out, and nothing of the answer tells.
 TEST_F(CalibratedNuisances, WhatIsTooSmallToCountIsLeftOut) {
@@ -138,98 +91,6 @@ TEST_F(CalibratedNuisances, CorrelationIsKept) {
   EXPECT_LT(part(together, "LED calibration"), 0.5 * part(apart, "LED calibration"));
 }
 
-// A lens of f, centre, k1 and k2, known to these deviations.
-LensRoot lens_known_to(const Eigen::VectorXd& std) {
-  return lens_root(parameter_names({true, DistortionTerms::kK1K2}),
-                   std.cwiseAbs2().asDiagonal().toDenseMatrix());
-}
-
-// One column of the nuisances against what the rig's own functions give for another lens: the pose
-// fitted anew through it, the ray of the same pixel, where that meets the facet.
-TEST_F(CalibratedNuisances, LensColumnsByDifferences) {
-  const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
-    return shots_.frame(i, 1, k);
-  };
-  for (int parameter = 0; parameter < 5; ++parameter) {
-    Rig rig = exact_;
-    Eigen::VectorXd std = Eigen::VectorXd::Zero(5);
-    std[parameter] = parameter == 0  ? 1e-3 * rig.scene.camera.intrinsics.fx_px
-                     : parameter < 3 ? 0.5
-                                     : 0.02;
-    rig.scene.camera.lens_root = lens_known_to(std);
-    const PoseResult pose = calib::pose_from_points(rig.scene, rig.pose);
-    LitObjects library(rig.scene, scenes_, std::nullopt, 0.0);
-    const SharedView view = see_all(rig.scene, scenes_, library, pose);
-    const std::vector<ObservedShot> opened = open_shots(
-        rig, capture::shots_from(rig.scene, {0}, frames), scenes_, library, view, nullptr);
-    const SeenObject& seen = *opened[0].seen;
-    const SceneLight& light = rig.scene.light(opened[0].stated->lights.at(0));
-    const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
-    const WeightMatrix weights =
-        smooth_weights(seen.sites,
-                       SourceCloud(library.light(rig.scene.shots[0].object, light.name, 0),
-                                   seen.object->box.center_mm()),
-                       knots, pair_options(knots));
-    const LightSensitivity by_shift = sensitivity(
-        seen, weights, changed_images(seen, light, 0, library, knots, {{{1.0, 0.003, 1.3}, 1.0}}),
-        {{{1.0, 0.003, 1.3}, 1.0}}, knots);
-    const ChannelObservation& o = opened[0].observation.channel[1];
-    std::vector<Eigen::Index> used;
-    for (std::size_t j = 0; j < o.l.size(); ++j) {
-      if (o.state[j] == RowState::kUsed) used.push_back(static_cast<Eigen::Index>(j));
-    }
-    const std::vector<NuisanceColumn> columns =
-        SceneNuisances(rig.scene, 1, {{{&seen, light.name, 0}, {&by_shift, 0}}})
-            .columns(opened[0], o, used);
-    const NuisanceColumn* column = nullptr;
-    for (const NuisanceColumn& c : columns) {
-      if (c.nuisance.group != "lens" || c.change.isZero(0.0)) continue;
-      ASSERT_EQ(column, nullptr) << "one parameter, one column";
-      column = &c;
-    }
-    ASSERT_NE(column, nullptr);
-
-    const auto seen_through = [&](double by) {
-      Rig other = exact_;
-      LensParameters lens = lens_parameters(exact_.scene.camera.intrinsics);
-      lens += parameter_map({true, DistortionTerms::kK1K2}) * (by * std);
-      other.scene.camera.intrinsics = intrinsics_of(lens, exact_.scene.camera.intrinsics.width_px,
-                                                    exact_.scene.camera.intrinsics.height_px);
-      return CameraView{other.scene.camera.intrinsics,
-                        calib::pose_from_points(other.scene, other.pose).camera_from_world};
-    };
-    constexpr double kStep = 0.02;
-    const CameraView up = seen_through(kStep), down = seen_through(-kStep);
-    Eigen::Index row = 0;
-    double worst = 0.0, largest = 0.0;
-    for (std::size_t j = 0; j < o.l.size(); ++j) {
-      if (o.state[j] != RowState::kUsed) continue;
-      const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
-      const Eigen::Vector3d& site_mm = seen.sites[j].center_mm;
-      const Eigen::Vector2d pixel =
-          project(rig.scene.camera.intrinsics, pose.camera_from_world, {site_mm})[0];
-      const auto meets = [&](const CameraView& camera) {
-        const Eigen::Vector3d origin = camera.center_in_world_mm();
-        const Eigen::Vector3d direction = camera.camera_from_world.rotation.conjugate() *
-                                          Lens(camera.intrinsics).unproject(pixel).homogeneous();
-        return (origin + normal.dot(site_mm - origin) / normal.dot(direction) * direction).eval();
-      };
-      const Eigen::Vector3d moved_mm = (meets(up) - meets(down)) / (2.0 * kStep);
-      double expected = 0.0;
-      for (std::size_t t = 0; t < 2; ++t) {
-        expected += light->power()[1] *
-                    by_shift.per_tangent_mm[t](static_cast<Eigen::Index>(j), 0) *
-                    tangents(normal)[t].dot(moved_mm);
-      }
-      worst = std::max(worst, std::abs(column->change[row] - expected));
-      largest = std::max(largest, std::abs(expected));
-      ++row;
-    }
-    ASSERT_GT(largest, 0.0);
-    EXPECT_LT(worst, 1e-3 * largest) << "parameter " << parameter;
-  }
-}
-
 // Columns of LED and pose against differences of all that is measured with: patches, sites and
 // their quadrature.
 TEST_F(CalibratedNuisances, SensitivitiesByFullDifferences) {
@@ -290,129 +151,6 @@ TEST_F(CalibratedNuisances, SensitivitiesByFullDifferences) {
     expect_near("site", s.per_tangent_mm[t], shifted(t, step_mm), shifted(t, -step_mm),
                 2.0 * step_mm, 0.05);
   }
-}
-
-// The light by a shift of the view is that of the pose's columns, the other way.
-TEST_F(CalibratedNuisances, LightByAShiftedView) {
-  PoseResult pose = calib::pose_from_points(exact_.scene, exact_.pose);
-  LitObjects library(exact_.scene, scenes_, std::nullopt, 180.0);
-  PoseShift shift;
-  shift << 2e-4, -1e-4, 3e-4, 0.02, 0.03, -0.1;
-  // Columns "pose0" to "pose5" in units of the shift's own parts.
-  pose.covariance = shift.cwiseAbs2().asDiagonal();
-  const std::string name = exact_.scene.shots[0].object;
-  const SharedView view = see_all(exact_.scene, scenes_, library, pose, {{name, shift}});
-  const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
-    return shots_.frame(i, 1, k);
-  };
-  const std::vector<ObservedShot> opened = open_shots(
-      exact_, capture::shots_from(exact_.scene, {0}, frames), scenes_, library, view, nullptr);
-  const SeenObject& seen = *opened[0].seen;
-  EXPECT_EQ(seen.shift, shift);
-  const SceneLight& light = exact_.scene.light(opened[0].stated->lights.at(0));
-  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
-  const LitMedium medium{{1.0, 0.003, 1.3}, 1.0};
-  const WeightMatrix weights = smooth_weights(
-      seen.sites, SourceCloud(library.light(name, light.name, 0), seen.object->box.center_mm()),
-      knots, pair_options(knots));
-  const LightSensitivity s = sensitivity(
-      seen, weights, changed_images(seen, light, 0, library, knots, {medium}), {medium}, knots);
-  const SceneNuisances nuisances(exact_.scene, 1, {{{&seen, light.name, 0}, {&s, 0}}});
-  const std::vector<Eigen::Index> rows = {0, 3, 7, 20};
-  // A root of a diagonal covariance has the signs and the order of its own choice.
-  const Eigen::Matrix<double, 6, 1> signs =
-      (covariance_root(pose.covariance).transpose() * shift)
-          .cwiseQuotient(covariance_root(pose.covariance).colwise().squaredNorm().transpose());
-  Eigen::VectorXd expected = Eigen::VectorXd::Zero(4);
-  for (const NuisanceColumn& c :
-       nuisances.columns(opened[0], opened[0].observation.channel[1], rows)) {
-    if (c.nuisance.group == "pose") expected -= signs[c.nuisance.name.back() - '0'] * c.change;
-  }
-  const Eigen::VectorXd found = nuisances.light_by_shift(opened[0], rows);
-  EXPECT_GT(expected.norm(), 0.0);
-  EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm());
-}
-
-// A larger piece is nearer to camera and LED, and catches no more power.
-TEST_F(CalibratedNuisances, SizeColumnOfMovedLightAndCamera) {
-  Rig rig = exact_;
-  for (SceneLight& light : rig.scene.lights) light.led()->position_std_mm = 0.3;
-  rig.scene.objects.front().position_std_mm = 0.1;
-  rig.scene.objects.front().scale_relative_std = 0.002;
-  const ObjectScenes scenes = bodies_scenes(rig);
-  const PoseResult pose = calib::pose_from_points(rig.scene, rig.pose);
-  LitObjects library(rig.scene, scenes, std::nullopt, 180.0);
-  const std::string name = rig.scene.shots[0].object;
-  const SharedView view = see_all(rig.scene, scenes, library, pose);
-  const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
-    return shots_.frame(i, 1, k);
-  };
-  const std::vector<ObservedShot> opened =
-      open_shots(rig, capture::shots_from(rig.scene, {0}, frames), scenes, library, view, nullptr);
-  const SeenObject& seen = *opened[0].seen;
-  const SceneLight& light = rig.scene.light(opened[0].stated->lights.at(0));
-  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
-  const LitMedium medium{{1.0, 0.003, 1.3}, 1.0};
-  const auto image = [&](const Led& led, double size) -> Eigen::VectorXd {
-    std::vector<ExitSite> sites;
-    const Eigen::Vector3d center = seen.object->box.center_mm();
-    for (std::size_t j = 0; j < seen.sites.size(); ++j) {
-      const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
-      const Eigen::Vector3d by =
-          surface_shift_by_pose(pose.camera_from_world, seen.sites[j].center_mm, normal) *
-          ((size - 1.0) * pose_shift_by_size(pose.camera_from_world, center));
-      sites.push_back(moved(seen.sites[j], by));
-    }
-    const IncidentLight lit =
-        illuminate(*seen.patches, *seen.object->rays, led, seen.object->stated->eta_int_over_ext);
-    return smooth_weights(sites, SourceCloud(lit, center), knots, pair_options(knots)) *
-           scaled_curves({medium}, knots, seen.object->stated->eta_int_over_ext);
-  };
-  constexpr double kStep = 0.005;
-  const auto grown = [&](double size) -> Eigen::VectorXd {
-    const Eigen::Vector3d center = seen.object->box.center_mm();
-    Led led = light.led()->led;
-    led.position_mm = center + (led.position_mm - center) / size;
-    return image(led, size) / (size * size);
-  };
-  const WeightMatrix weights = smooth_weights(
-      seen.sites, SourceCloud(library.light(name, light.name, 0), seen.object->box.center_mm()),
-      knots, pair_options(knots));
-  const LightSensitivity s = sensitivity(
-      seen, weights, changed_images(seen, light, 0, library, knots, {medium}), {medium}, knots);
-  std::vector<Eigen::Index> rows;
-  for (std::size_t j = 0; j < seen.sites.size(); ++j) rows.push_back(static_cast<Eigen::Index>(j));
-  const Eigen::VectorXd expected =
-      light->power()[1] * (grown(1.0 + kStep) - grown(1.0 - kStep)) / (2.0 * kStep);
-  bool found = false;
-  for (const NuisanceColumn& c : SceneNuisances(rig.scene, 1, {{{&seen, light.name, 0}, {&s, 0}}})
-                                     .columns(opened[0], opened[0].observation.channel[1], rows)) {
-    if (c.nuisance.group != "mesh scale") continue;
-    found = true;
-    EXPECT_EQ(c.nuisance.name, name + ".size");
-    EXPECT_EQ(c.nuisance.std, 0.002);
-    EXPECT_LT((c.change - expected).norm(), 0.1 * expected.norm());
-  }
-  EXPECT_TRUE(found);
-}
-
-TEST_F(CalibratedNuisances, LensIsInTheBudget) {
-  const Estimate exact = measured(exact_);
-  Rig open = exact_, zero = exact_;
-  Eigen::VectorXd std(5);
-  std << 5e-3 * exact_.scene.camera.intrinsics.fx_px, 2.0, 2.0, 0.05, 0.0;
-  open.scene.camera.lens_root = lens_known_to(std);
-  zero.scene.camera.lens_root = lens_known_to(Eigen::VectorXd::Zero(5));
-  const Estimate with_lens = measured(open);
-  ASSERT_TRUE(exact.converged && with_lens.converged);
-  EXPECT_EQ(part(exact, "lens"), 0.0);
-  EXPECT_GT(part(with_lens, "lens"), 0.0);
-  EXPECT_GT(with_lens.sigma_s_prime_per_mm.std, exact.sigma_s_prime_per_mm.std);
-  // A covariance of zero is no lens error at all, to the last digit.
-  const Estimate same = measured(zero);
-  EXPECT_EQ(same.sigma_s_prime_per_mm.value, exact.sigma_s_prime_per_mm.value);
-  EXPECT_EQ(same.sigma_s_prime_per_mm.std, exact.sigma_s_prime_per_mm.std);
-  EXPECT_EQ(same.budget.size(), exact.budget.size());
 }
 
 }  // namespace

@@ -1,0 +1,153 @@
+// The nuisances of SceneNuisances that move what the samples see: pose, lens, the picture's shift,
+// and the object's position and size.
+#include <string>
+
+#include <Eigen/Core>
+#include <fmt/core.h>
+
+#include "core/base/covariance_root.h"
+#include "core/base/cross_matrix.h"
+#include "core/camera/lens.h"
+#include "core/camera/lens_parameters.h"
+#include "core/camera/pose_shift.h"
+#include "core/estimation/nuisance_columns.h"
+#include "core/estimation/nuisances.h"
+
+namespace scattermeter {
+
+// Change of each row's l where what its samples see shifts along the surface.
+Eigen::Matrix3Xd SceneNuisances::change_per_mm(const ObservedShot& shot,
+                                               const std::vector<Eigen::Index>& rows) const {
+  Eigen::Matrix3Xd per_mm = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(rows.size()));
+  for (const std::string& name : shot.stated->lights) {
+    const SceneLight& light = scene_.light(name);
+    if (light->is_fitted()) continue;
+    const ChannelSensitivity& own =
+        sensitivities_.at({shot.seen.get(), name, light.channel_of(channel_)});
+    const double power = light->power()[static_cast<Eigen::Index>(channel_)];
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto along = tangents(shot.seen->patches->normal(
+          shot.seen->map.patch_of_row[static_cast<std::size_t>(rows[i])]));
+      for (std::size_t t = 0; t < 2; ++t) {
+        per_mm.col(static_cast<Eigen::Index>(i)) +=
+            power * own.sensitivity->per_tangent_mm[t](rows[i], own.medium) * along[t];
+      }
+    }
+  }
+  return per_mm;
+}
+
+// Change of each row's l by a small change of the pose, with per_mm of change_per_mm().
+Eigen::Matrix<double, Eigen::Dynamic, 6> SceneNuisances::change_by_pose(
+    const ObservedShot& shot, const std::vector<Eigen::Index>& rows,
+    const Eigen::Matrix3Xd& per_mm) {
+  const SeenObject& seen = *shot.seen;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> out(per_mm.cols(), 6);
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
+    out.row(i) = per_mm.col(i).transpose() *
+                 surface_shift_by_pose(shot.pose.camera_from_world, seen.sites[row].center_mm,
+                                       seen.patches->normal(seen.map.patch_of_row[row]));
+  }
+  return out;
+}
+
+Eigen::VectorXd SceneNuisances::light_by_shift(const ObservedShot& shot,
+                                               const std::vector<Eigen::Index>& rows) const {
+  const PoseShift& shift = shot.seen->shift;
+  if (shift.isZero(0.0)) return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+  return -change_by_pose(shot, rows, change_per_mm(shot, rows)) * shift;
+}
+
+// The effect of pose and lens on the rows. The lens is common to all shots; a pose fitted with a
+// wrong lens has absorbed part of its error (PoseResult::per_lens_parameter), so the two change
+// together. The pose's own uncertainty is independent of that. per_mm: of change_per_mm().
+void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
+                              Columns& columns) const {
+  const SeenObject& seen = *shot.seen;
+  const Rigid3d& pose = shot.pose.camera_from_world;
+  const LensRoot& lens_root = scene_.camera.lens_root;
+  const auto n = static_cast<Eigen::Index>(columns.rows().size());
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> by_pose =
+      change_by_pose(shot, columns.rows(), per_mm);
+  const Eigen::Matrix<double, Eigen::Dynamic, 6> by_pose_root =
+      by_pose * covariance_root(shot.pose.covariance);
+  Eigen::MatrixXd by_lens_root(n, lens_root.cols());
+  Eigen::Matrix<double, Eigen::Dynamic, 2> by_shift(n, 2);
+  const CameraIntrinsics& intrinsics = scene_.camera.intrinsics;
+  const Eigen::Array2d ray_per_px(1.0 / intrinsics.fx_px, 1.0 / intrinsics.fy_px);
+  const Lens lens(intrinsics);
+  const LensParameters parameters = lens_parameters(intrinsics);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto row = static_cast<std::size_t>(columns.rows()[static_cast<std::size_t>(i)]);
+    const Eigen::Vector3d& site_mm = seen.sites[row].center_mm;
+    const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[row]);
+    const Eigen::Matrix<double, 1, 2> by_ray =
+        per_mm.col(i).transpose() * surface_shift_by_ray(pose, site_mm, normal);
+    by_shift.row(i) = by_ray.array() * ray_per_px.transpose();
+    if (lens_root.cols() == 0) continue;
+    by_lens_root.row(i) =
+        (by_ray * ray_per_lens_parameter(lens, parameters, (pose * site_mm).hnormalized()) +
+         by_pose.row(i) * shot.pose.per_lens_parameter) *
+        lens_root;
+  }
+  // One pose for all shots, or one per shot.
+  const std::string name = shot.has_own_pose ? "pose " + shot.stated->file : "pose";
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    columns.add(name + std::to_string(k), "pose", 1.0, by_pose_root.col(k));
+  }
+  for (Eigen::Index k = 0; k < 2 && !shot.has_own_pose && scene_.shot_shift_std_px > 0.0; ++k) {
+    columns.add(fmt::format("shift{} {}", k, shot.stated->file), "camera shift",
+                scene_.shot_shift_std_px, by_shift.col(k));
+  }
+  for (Eigen::Index k = 0; k < by_lens_root.cols(); ++k) {
+    columns.add("lens" + std::to_string(k), "lens", 1.0, by_lens_root.col(k));
+  }
+}
+
+// The effect of the object's position, orientation and size: what the samples see shifts along the
+// surface as if the camera moved, and every LED moves the other way. A larger object looks like the
+// mesh with camera and LEDs nearer to its centre, LEDs of less power, and coefficients that are
+// larger by as much (core/estimation/mesh_scale.h).
+void SceneNuisances::add_place(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
+                               Columns& columns) const {
+  const SeenObject& seen = *shot.seen;
+  const SceneObject& stated = *seen.object->stated;
+  if (!(stated.position_std_mm > 0.0) && !(stated.scale_relative_std > 0.0)) return;
+  const Rigid3d& pose = shot.pose.camera_from_world;
+  const Eigen::Vector3d& center_mm = seen.object->box.center_mm();
+  const auto n = static_cast<Eigen::Index>(columns.rows().size());
+  Eigen::Matrix<double, 6, 7> pose_by_place;
+  pose_by_place << pose_shift_by_place(pose, center_mm), pose_shift_by_size(pose, center_mm);
+  Eigen::Matrix<double, Eigen::Dynamic, 7> change =
+      change_by_pose(shot, columns.rows(), per_mm) * pose_by_place;
+  for (const std::string& name : shot.stated->lights) {
+    const SceneLight& light = scene_.light(name);
+    const LedLight* led = light.led();
+    if (led == nullptr || !led->moves()) continue;
+    const ChannelSensitivity& own = sensitivities_.at({shot.seen.get(), name, 0});
+    const double power = light->power()[static_cast<Eigen::Index>(channel_)];
+    Eigen::Matrix<double, Eigen::Dynamic, 3> by_position(n, 3);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      by_position.col(k) =
+          columns.of(own.sensitivity->per_change[static_cast<std::size_t>(k)], own.medium);
+    }
+    by_position *= power;
+    const Eigen::Vector3d from_center_mm = led->led.position_mm - center_mm;
+    change.leftCols<3>() -= by_position;
+    // The LED moves by -(w x (p - c)).
+    change.middleCols<3>(3) += by_position * cross_matrix(from_center_mm);
+    change.col(6) -=
+        by_position * from_center_mm + 2.0 * power * columns.of(own.sensitivity->l, own.medium);
+  }
+  const double std_mm = stated.position_std_mm;
+  for (Eigen::Index k = 0; k < 6 && std_mm > 0.0; ++k) {
+    columns.add(stated.name + ".position" + std::to_string(k), "mesh position",
+                k < 3 ? std_mm : std_mm / seen.object->size_mm(), change.col(k));
+  }
+  if (stated.scale_relative_std > 0.0) {
+    columns.add(stated.name + ".size", "mesh scale", stated.scale_relative_std, change.col(6));
+  }
+}
+
+}  // namespace scattermeter
