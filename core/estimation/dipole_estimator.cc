@@ -7,7 +7,9 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/base/median.h"
 #include "core/estimation/channel_image.h"
+#include "core/estimation/edge_light.h"
 #include "core/estimation/estimation.h"
 #include "core/estimation/joint_evidence.h"
 #include "core/estimation/mesh_scale.h"
@@ -57,8 +59,7 @@ class DipoleEstimator {
     e_.watch.lap("light");
     e_.for_open_channels("fitting", [&](std::size_t i) { first_fit(i); });
     e_.watch.lap("first fit");
-    std::vector<bool> open;
-    for (const Work& w : work_) open.push_back(w.estimated);
+    std::vector<bool> open = estimated();
     // What ambient light adds depends on the material itself: those channels are repeated until
     // they settle (an error falls to a sixth each time).
     constexpr int kRounds = 8;
@@ -79,11 +80,51 @@ class DipoleEstimator {
       }
       if (!again) break;
     }
+    if (const std::map<std::string, double> width_mm = other_edge_widths_mm(); !width_mm.empty()) {
+      sensitivities_ = sensitivities(e_, estimated(), knots_, width_mm);
+      e_.watch.lap("sensitivities");
+      tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
+        if (work_[i].estimated) final_fit(i);
+      });
+    }
     fit_with_joint_pulls();
     e_.watch.lap("fit");
   }
 
  private:
+  std::vector<bool> estimated() const {
+    std::vector<bool> out;
+    for (const Work& w : work_) out.push_back(w.estimated);
+    return out;
+  }
+
+  // Widths at which the edges of objects are found to be cut back, in the median over the channels,
+  // where that is visible and another width than the one whose effect has been fitted: the effect
+  // is not quite proportional to the width.
+  std::map<std::string, double> other_edge_widths_mm() const {
+    constexpr double kOther = 0.15;
+    constexpr double kVisible = 1e-3;  // of the image
+    constexpr double kNarrowest = 0.1, kWidest = 3.0;
+    std::map<std::string, double> out;
+    for (const SceneObject& object : e_.scene.objects) {
+      std::vector<double> widths_mm;
+      double image = 0.0;
+      for (const ChannelResult& r : e_.results) {
+        for (const PriorPull& p : r.estimate.pulls) {
+          if (p.name != object.name + ".edges") continue;
+          widths_mm.push_back(p.offset);
+          image = std::max(image, p.image_relative);
+        }
+      }
+      if (widths_mm.empty() || !(image > kVisible)) continue;
+      const double fitted_mm = chamfer_width_mm(object);
+      const double found_mm =
+          std::clamp(upper_median(widths_mm), kNarrowest * fitted_mm, kWidest * fitted_mm);
+      if (std::abs(found_mm - fitted_mm) > kOther * fitted_mm) out[object.name] = found_mm;
+    }
+    return out;
+  }
+
   // Once more those channels that doubt a quantity of the rig that all share, or of which all
   // together doubt one. What only the channels of a material probably share is doubted as much as
   // the channel itself or all of them together doubt it.

@@ -34,11 +34,10 @@ ChamferedEdge chamfered(const Crease& edge, double width_mm) {
 }
 
 Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const DistanceKnots& knots,
-                                const std::vector<LitMedium>& media) {
+                                const std::vector<LitMedium>& media, double width_mm) {
   const ObjectScene& object = *seen.object;
   const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
   const double eta = object.stated->eta_int_over_ext;
-  const double width_mm = chamfer_width_mm(*object.stated);
   const double patch_mm = seen.patches->patch_size_mm();
   IncidentLight lost, gained;
   lost.patch_power_sr = gained.patch_power_sr = {0.0};

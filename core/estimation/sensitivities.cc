@@ -46,9 +46,9 @@ const IncidentLight* light_above_plane(const Estimation& e, const LightKey& key)
 
 }  // namespace
 
-std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
-                                                   const std::vector<bool>& estimated,
-                                                   const DistanceKnots& knots) {
+std::shared_ptr<const Sensitivities> sensitivities(
+    const Estimation& e, const std::vector<bool>& estimated, const DistanceKnots& knots,
+    const std::map<std::string, double>& edge_width_mm) {
   std::map<LightKey, std::vector<LitMedium>> media;
   std::vector<std::map<LightKey, Eigen::Index>> column(e.channels.size());
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
@@ -96,7 +96,11 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
     item.out = sensitivity(seen, e.kept.weights.at(item.key),
                            images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
     if (const LedLight* led = e.scene.light(std::get<1>(item.key)).led()) {
-      item.out.per_edge_mm = change_by_edges(seen, led->led, knots, item.media);
+      const SceneObject& object = *seen.object->stated;
+      const auto width = edge_width_mm.find(object.name);
+      item.out.per_edge_mm =
+          change_by_edges(seen, led->led, knots, item.media,
+                          width == edge_width_mm.end() ? chamfer_width_mm(object) : width->second);
     }
     if (item.direct != nullptr) {
       item.out.per_albedo =

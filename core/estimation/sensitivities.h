@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "core/diffusion/distance_weights.h"
@@ -19,10 +20,11 @@ struct Sensitivities {
 };
 
 // estimated: for each channel, whether its result contains a first estimate; others get no
-// sensitivities. Precondition: e.kept.weights contains W for those channels' shots. Lights are
-// computed in parallel.
-std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
-                                                   const std::vector<bool>& estimated,
-                                                   const DistanceKnots& knots);
+// sensitivities. edge_width_mm: by object, the width of the chamfers at which the change by edges
+// holds (change_by_edges()); objects that are not listed: chamfer_width_mm(). Precondition:
+// e.kept.weights contains W for those channels' shots. Lights are computed in parallel.
+std::shared_ptr<const Sensitivities> sensitivities(
+    const Estimation& e, const std::vector<bool>& estimated, const DistanceKnots& knots,
+    const std::map<std::string, double>& edge_width_mm = {});
 
 }  // namespace scattermeter

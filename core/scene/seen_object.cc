@@ -4,6 +4,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/mesh/creases.h"
+
 namespace scattermeter {
 
 std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& objects,
@@ -15,7 +17,12 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
   seen->object = &objects.at(object);
   seen->patches = &lit.patches(object);
   seen->camera_center_mm = view.center_in_world_mm();
-  const SampleMapOptions options;
+  // Edges that are broken by hand are cut back by more than this once in twenty times.
+  constexpr double kReachOfEdges = 2.0;
+  SampleMapOptions options;
+  if (!is_round(seen->object->mesh())) {
+    options.edge_reach_mm = kReachOfEdges * seen->object->stated->edge_std_mm;
+  }
   const RayGrid rays = rays_around(view, seen->object->mesh(), 2 * options.guard_px);
   seen->map = map_samples(rays, *seen->object->rays, *seen->patches,
                           seen->object->stated->eta_int_over_ext, options);

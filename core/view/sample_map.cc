@@ -63,23 +63,13 @@ class Mapper {
 
   // Whether the surface continues smoothly as far as the guard reaches, in all eight directions.
   bool inside(int x, int y) const {
-    const Seen& s = seen_[index(x, y)];
-    const Eigen::Vector3d p = point(index(x, y));
-    const Eigen::Vector3d& n = patches_.facet_normal(s.facet);
+    const std::size_t i = index(x, y);
     const int g = options_.guard_px;
-    if (g == 0) return true;
     for (const auto& [dx, dy] : kNeighbours) {
-      const int xn = x + g * dx;
-      const int yn = y + g * dy;
-      if (xn < 0 || yn < 0 || xn >= rays_.width || yn >= rays_.height) return false;
-      const Seen& other = seen_[index(xn, yn)];
-      if (other.patch < 0) return false;
-      if (other.facet == s.facet) continue;
-      // Same sheet of surface: normals within 25 degrees, and the other point near the tangent
-      // plane.
-      if (n.dot(patches_.facet_normal(other.facet)) < 0.9) return false;
-      const Eigen::Vector3d step = point(index(xn, yn)) - p;
-      if (std::abs(n.dot(step)) > 0.5 * step.norm()) return false;
+      if (g > 0 && ahead(i, x + g * dx, y + g * dy) != Ahead::kSmooth) return false;
+      if (!(options_.edge_reach_mm > 0.0)) continue;
+      const int reach = reach_px(i, x + dx, y + dy);
+      if (reach > g && ahead(i, x + reach * dx, y + reach * dy) == Ahead::kBeyondEdge) return false;
     }
     return true;
   }
@@ -107,6 +97,36 @@ class Mapper {
   }
 
  private:
+  // What another sample sees: the same sheet of surface, what is beyond a convex edge of it, or
+  // what rises from it or covers it.
+  enum class Ahead { kSmooth, kBeyondEdge, kInFront };
+
+  Ahead ahead(std::size_t i, int xn, int yn) const {
+    if (xn < 0 || yn < 0 || xn >= rays_.width || yn >= rays_.height) return Ahead::kBeyondEdge;
+    const std::size_t other_idx = index(xn, yn);
+    const Seen& other = seen_[other_idx];
+    if (other.patch < 0) return Ahead::kBeyondEdge;
+    if (other.facet == seen_[i].facet) return Ahead::kSmooth;
+    const Eigen::Vector3d& n = patches_.facet_normal(seen_[i].facet);
+    const Eigen::Vector3d step = point(other_idx) - point(i);
+    const double height = n.dot(step);
+    // Same sheet of surface: normals within 25 degrees, and the other point near the tangent plane.
+    const bool is_smooth =
+        n.dot(patches_.facet_normal(other.facet)) >= 0.9 && std::abs(height) <= 0.5 * step.norm();
+    if (is_smooth) return Ahead::kSmooth;
+    return height < 0.0 ? Ahead::kBeyondEdge : Ahead::kInFront;
+  }
+
+  // The steps of a pixel, towards the neighbour (xn, yn), that lead as far as edge_reach_mm.
+  int reach_px(std::size_t i, int xn, int yn) const {
+    constexpr double kMost = 64.0;
+    if (xn < 0 || yn < 0 || xn >= rays_.width || yn >= rays_.height) return 0;
+    const std::size_t neighbour = index(xn, yn);
+    if (seen_[neighbour].patch < 0) return 0;
+    const double step_mm = (point(neighbour) - point(i)).norm();
+    return static_cast<int>(std::ceil(std::min(kMost, options_.edge_reach_mm / step_mm)));
+  }
+
   static constexpr std::array<std::pair<int, int>, 8> kNeighbours = {
       {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 

@@ -35,6 +35,9 @@ PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
 struct SampleMapOptions {
   int guard_px = 2;  // samples this near a silhouette, a step in depth or a crease are left out
   double min_coverage = 0.8;  // patches with a smaller visible, unguarded share have no row
+  // Samples this near a convex crease or the body's own silhouette, along the surface, are left out
+  // too: there, the edges of the piece may be cut back from those of the mesh.
+  double edge_reach_mm = 0;
 };
 
 // The visible patches, each a row of the linear system, and the samples of each row.
