@@ -7,9 +7,8 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "core/base/median.h"
 #include "core/estimation/channel_image.h"
-#include "core/estimation/edge_light.h"
+#include "core/estimation/edge_width.h"
 #include "core/estimation/estimation.h"
 #include "core/estimation/joint_evidence.h"
 #include "core/estimation/mesh_scale.h"
@@ -80,8 +79,10 @@ class DipoleEstimator {
       }
       if (!again) break;
     }
-    if (const std::map<std::string, double> width_mm = other_edge_widths_mm(); !width_mm.empty()) {
-      sensitivities_ = sensitivities(e_, estimated(), knots_, width_mm);
+    constexpr int kEdgeRounds = 3;
+    for (int round = 0; round < kEdgeRounds; ++round) {
+      if (!take_edge_widths(e_.scene, e_.results, edge_widths_mm_)) break;
+      sensitivities_ = sensitivities(e_, estimated(), knots_, edge_widths_mm_);
       e_.watch.lap("sensitivities");
       tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
         if (work_[i].estimated) final_fit(i);
@@ -95,33 +96,6 @@ class DipoleEstimator {
   std::vector<bool> estimated() const {
     std::vector<bool> out;
     for (const Work& w : work_) out.push_back(w.estimated);
-    return out;
-  }
-
-  // Widths at which the edges of objects are found to be cut back, in the median over the channels,
-  // where that is visible and another width than the one whose effect has been fitted: the effect
-  // is not quite proportional to the width.
-  std::map<std::string, double> other_edge_widths_mm() const {
-    constexpr double kOther = 0.15;
-    constexpr double kVisible = 1e-3;  // of the image
-    constexpr double kNarrowest = 0.1, kWidest = 3.0;
-    std::map<std::string, double> out;
-    for (const SceneObject& object : e_.scene.objects) {
-      std::vector<double> widths_mm;
-      double image = 0.0;
-      for (const ChannelResult& r : e_.results) {
-        for (const PriorPull& p : r.estimate.pulls) {
-          if (p.name != object.name + ".edges") continue;
-          widths_mm.push_back(p.offset);
-          image = std::max(image, p.image_relative);
-        }
-      }
-      if (widths_mm.empty() || !(image > kVisible)) continue;
-      const double fitted_mm = chamfer_width_mm(object);
-      const double found_mm =
-          std::clamp(upper_median(widths_mm), kNarrowest * fitted_mm, kWidest * fitted_mm);
-      if (std::abs(found_mm - fitted_mm) > kOther * fitted_mm) out[object.name] = found_mm;
-    }
     return out;
   }
 
@@ -312,6 +286,7 @@ class DipoleEstimator {
   DipoleFitOptions fit_;
   std::vector<Work> work_;
   std::shared_ptr<const Sensitivities> sensitivities_;
+  EdgeWidths edge_widths_mm_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "core/diffusion/source_cloud.h"
 
@@ -20,21 +21,10 @@ void add_rectangle(const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm,
   }
 }
 
-}  // namespace
-
-ChamferedEdge chamfered(const Crease& edge, double width_mm) {
-  const Eigen::Vector3d along = (edge.to_mm - edge.from_mm).normalized();
-  ChamferedEdge out;
-  // The edge runs counterclockwise about the second facet.
-  out.inward_mm = {width_mm * along.cross(edge.normals[0]),
-                   width_mm * edge.normals[1].cross(along)};
-  out.normal = (edge.normals[0] + edge.normals[1]).normalized();
-  out.is_convex = out.inward_mm[0].dot(edge.normals[1]) < 0.0;
-  return out;
-}
-
-Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const DistanceKnots& knots,
-                                const std::vector<LitMedium>& media, double width_mm) {
+// With chamfers of one width.
+Eigen::MatrixXd change_by_chamfers(const SeenObject& seen, const Led& led,
+                                   const DistanceKnots& knots, const std::vector<LitMedium>& media,
+                                   double width_mm) {
   const ObjectScene& object = *seen.object;
   const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
   const double eta = object.stated->eta_int_over_ext;
@@ -75,6 +65,38 @@ Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const Di
            scaled_curves(media, knots, eta);
   };
   return (image(gained) - image(lost)) / width_mm;
+}
+
+}  // namespace
+
+ChamferedEdge chamfered(const Crease& edge, double width_mm) {
+  const Eigen::Vector3d along = (edge.to_mm - edge.from_mm).normalized();
+  ChamferedEdge out;
+  // The edge runs counterclockwise about the second facet.
+  out.inward_mm = {width_mm * along.cross(edge.normals[0]),
+                   width_mm * edge.normals[1].cross(along)};
+  out.normal = (edge.normals[0] + edge.normals[1]).normalized();
+  out.is_convex = out.inward_mm[0].dot(edge.normals[1]) < 0.0;
+  return out;
+}
+
+Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const DistanceKnots& knots,
+                                const std::vector<LitMedium>& media,
+                                const std::vector<double>& widths_mm) {
+  std::map<double, std::vector<Eigen::Index>> of_width;
+  for (std::size_t m = 0; m < media.size(); ++m) {
+    of_width[widths_mm.at(m)].push_back(static_cast<Eigen::Index>(m));
+  }
+  Eigen::MatrixXd out;
+  for (const auto& [width_mm, columns] : of_width) {
+    std::vector<LitMedium> some;
+    for (const Eigen::Index m : columns) some.push_back(media[static_cast<std::size_t>(m)]);
+    const Eigen::MatrixXd change = change_by_chamfers(seen, led, knots, some, width_mm);
+    if (change.size() == 0) return {};
+    out.resize(change.rows(), static_cast<Eigen::Index>(media.size()));
+    out(Eigen::all, columns) = change;
+  }
+  return out;
 }
 
 double chamfer_width_mm(const SceneObject& object) {

@@ -30,12 +30,13 @@ double chamfer_width_mm(const SceneObject& object);
 
 // dl / dw on the rows of a view, w the mm of each face by which all convex edges of the mesh
 // sharper than 0.3 rad are cut back, per unit of the LED's intensity: rows x media. It is the
-// change by chamfers of width_mm > 0 over their width: light enters through the chamfer
-// instead of the strips of both faces. Its amount changes where one of the faces is dark; where it
-// enters, always, which is of second order in w and yet a per cent of the light just round an edge
-// for w a seventh of the mean free path. For points of edges that the LED sees; empty if there are
-// none, as on a round body.
+// change by chamfers of widths_mm > 0, one for each medium, over their width: light enters through
+// the chamfer instead of the strips of both faces. Its amount changes where one of the faces is
+// dark; where it enters, always, which is of second order in w and yet a per cent of the light just
+// round an edge for w a seventh of the mean free path. For points of edges that the LED sees; empty
+// if there are none, as on a round body.
 Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const DistanceKnots& knots,
-                                const std::vector<LitMedium>& media, double width_mm);
+                                const std::vector<LitMedium>& media,
+                                const std::vector<double>& widths_mm);
 
 }  // namespace scattermeter

@@ -46,10 +46,12 @@ const IncidentLight* light_above_plane(const Estimation& e, const LightKey& key)
 
 }  // namespace
 
-std::shared_ptr<const Sensitivities> sensitivities(
-    const Estimation& e, const std::vector<bool>& estimated, const DistanceKnots& knots,
-    const std::map<std::string, double>& edge_width_mm) {
+std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
+                                                   const std::vector<bool>& estimated,
+                                                   const DistanceKnots& knots,
+                                                   const EdgeWidths& edge_widths_mm) {
   std::map<LightKey, std::vector<LitMedium>> media;
+  std::map<LightKey, std::vector<double>> widths_mm;  // of the chamfers, by medium
   std::vector<std::map<LightKey, Eigen::Index>> column(e.channels.size());
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
     if (!estimated[i]) continue;
@@ -60,6 +62,10 @@ std::shared_ptr<const Sensitivities> sensitivities(
       if (is_new) {
         media[key].push_back({{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
                               first.scale.value});
+        const SceneObject& object = *std::get<0>(key)->object->stated;
+        const auto width = edge_widths_mm.find({e.channels[i].material, object.name});
+        widths_mm[key].push_back(width == edge_widths_mm.end() ? chamfer_width_mm(object)
+                                                               : width->second);
       }
     };
     for (const ObservedShot* shot : e.channels[i].shots) {
@@ -96,11 +102,8 @@ std::shared_ptr<const Sensitivities> sensitivities(
     item.out = sensitivity(seen, e.kept.weights.at(item.key),
                            images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
     if (const LedLight* led = e.scene.light(std::get<1>(item.key)).led()) {
-      const SceneObject& object = *seen.object->stated;
-      const auto width = edge_width_mm.find(object.name);
       item.out.per_edge_mm =
-          change_by_edges(seen, led->led, knots, item.media,
-                          width == edge_width_mm.end() ? chamfer_width_mm(object) : width->second);
+          change_by_edges(seen, led->led, knots, item.media, widths_mm.at(item.key));
     }
     if (item.direct != nullptr) {
       item.out.per_albedo =

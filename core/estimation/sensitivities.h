@@ -3,10 +3,10 @@
 
 #include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "core/diffusion/distance_weights.h"
+#include "core/estimation/edge_width.h"
 #include "core/estimation/estimation.h"
 #include "core/estimation/light_sensitivity.h"
 #include "core/estimation/nuisances.h"
@@ -20,11 +20,11 @@ struct Sensitivities {
 };
 
 // estimated: for each channel, whether its result contains a first estimate; others get no
-// sensitivities. edge_width_mm: by object, the width of the chamfers at which the change by edges
-// holds (change_by_edges()); objects that are not listed: chamfer_width_mm(). Precondition:
+// sensitivities. edge_widths_mm: at which the change by edges holds. Precondition:
 // e.kept.weights contains W for those channels' shots. Lights are computed in parallel.
-std::shared_ptr<const Sensitivities> sensitivities(
-    const Estimation& e, const std::vector<bool>& estimated, const DistanceKnots& knots,
-    const std::map<std::string, double>& edge_width_mm = {});
+std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
+                                                   const std::vector<bool>& estimated,
+                                                   const DistanceKnots& knots,
+                                                   const EdgeWidths& edge_widths_mm = {});
 
 }  // namespace scattermeter

@@ -17,8 +17,8 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
   seen->object = &objects.at(object);
   seen->patches = &lit.patches(object);
   seen->camera_center_mm = view.center_in_world_mm();
-  // Edges that are broken by hand are cut back by more than this once in twenty times.
-  constexpr double kReachOfEdges = 2.0;
+  // Standard deviations of the edges: they hardly reach farther.
+  constexpr double kReachOfEdges = 3.0;
   SampleMapOptions options;
   if (!is_round(seen->object->mesh())) {
     options.edge_reach_mm = kReachOfEdges * seen->object->stated->edge_std_mm;

@@ -29,8 +29,8 @@ TEST(EdgeLight, IsTheImageOfTheChangesAlongTheEdges) {
   const double eta = cube.scene.objects[0].eta_int_over_ext;
   const Medium medium{0.5, 0.01, eta};
   const double width_mm = chamfer_width_mm(*seen.object->stated);
-  const Eigen::MatrixXd image =
-      change_by_edges(seen, led, smooth_knots(cube.lit), {{medium, 1.0}, {medium, 2.0}}, width_mm);
+  const Eigen::MatrixXd image = change_by_edges(
+      seen, led, smooth_knots(cube.lit), {{medium, 1.0}, {medium, 2.0}}, {width_mm, width_mm});
   ASSERT_EQ(image.rows(), static_cast<Eigen::Index>(seen.sites.size()));
   EXPECT_LT((image.col(1) - 2.0 * image.col(0)).norm(), 1e-9 * image.norm());
   const Dipole dipole(medium);

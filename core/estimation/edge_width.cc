@@ -1,0 +1,49 @@
+#include "core/estimation/edge_width.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/median.h"
+#include "core/estimation/edge_light.h"
+
+namespace scattermeter {
+namespace {
+
+struct Found {
+  std::vector<double> widths_mm;  // by channel
+  double image_relative = 0;      // the largest effect on an image
+};
+
+}  // namespace
+
+bool take_edge_widths(const Scene& scene, const std::vector<ChannelResult>& results,
+                      EdgeWidths& widths_mm) {
+  constexpr double kOther = 0.1;
+  constexpr double kVisible = 1e-3;                  // of the image
+  constexpr double kNarrowest = 0.1, kWidest = 3.0;  // of the width before anything is known
+  bool any = false;
+  for (const SceneObject& object : scene.objects) {
+    std::map<std::string, Found> of_material;
+    for (const ChannelResult& r : results) {
+      for (const PriorPull& p : r.estimate.pulls) {
+        if (p.name != object.name + ".edges") continue;
+        Found& found = of_material[r.material];
+        found.widths_mm.push_back(p.offset);
+        found.image_relative = std::max(found.image_relative, p.image_relative);
+      }
+    }
+    const double first_mm = chamfer_width_mm(object);
+    for (const auto& [material, found] : of_material) {
+      if (!(found.image_relative > kVisible)) continue;
+      const double width_mm =
+          std::clamp(upper_median(found.widths_mm), kNarrowest * first_mm, kWidest * first_mm);
+      double& now_mm = widths_mm.try_emplace({material, object.name}, first_mm).first->second;
+      if (!(std::abs(width_mm - now_mm) > kOther * now_mm)) continue;
+      now_mm = width_mm;
+      any = true;
+    }
+  }
+  return any;
+}
+
+}  // namespace scattermeter
