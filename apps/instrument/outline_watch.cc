@@ -203,7 +203,7 @@ calib::OutlineDiagnosis OutlineWatch::look_again(const capture::FrameSource& fra
   return out;
 }
 
-void OutlineWatch::conclude(OutlineFindings& out) const {
+void OutlineWatch::conclude(const Looks& looks, OutlineFindings& out) const {
   const calib::OutlineDiagnosis& d = *out.diagnosis;
   double share = 0.0;
   for (const double s : d.fitting_share) {
@@ -230,11 +230,10 @@ void OutlineWatch::conclude(OutlineFindings& out) const {
   const bool of_shot = best.cause == OutlineCause::kShotMoved;
   const bool of_mesh = !of_shot && best.cause != OutlineCause::kCamera;
   Finding finding = outline_finding(d, of_mesh ? names_[best.which] : "");
-  for (std::size_t i = 0; i < out.looked_at.size(); ++i) {
-    const std::size_t idx = out.looked_at[i];
-    if (of_shot ? i == best.which : !of_mesh || body_of(idx) == best.which) {
-      finding.shots.push_back(idx);
-    }
+  if (of_shot) finding.shots.push_back(out.looked_at[best.which]);
+  // Not only those that were looked at again.
+  for (const auto& [idx, look] : looks) {
+    if (!of_shot && (!of_mesh || body_of(idx) == best.which)) finding.shots.push_back(idx);
   }
   out.findings.push_back(finding);
 }
@@ -256,7 +255,7 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
     }
   }
   const std::size_t others = out.findings.size();
-  conclude(out);
+  conclude(looks, out);
   if (out.findings.size() > others &&
       closer_look_agrees(rig_, objects_, pose_, *frames, out.findings.back().shots)) {
     out.findings.pop_back();

@@ -63,7 +63,7 @@ class OutlineWatch {
   calib::OutlineDiagnosis look_again(const capture::FrameSource& frames, const Looks& looks,
                                      calib::OutlineDiagnosis first,
                                      std::vector<std::size_t>& looked_at) const;
-  void conclude(OutlineFindings& out) const;
+  void conclude(const Looks& looks, OutlineFindings& out) const;
 
   const Rig& rig_;
   const ObjectScenes& objects_;

@@ -60,6 +60,16 @@ double most_pull_of(const std::vector<ChannelResult>& results) {
 // As improbable as one pull of that many deviations.
 double probability_of(double pull) { return std::erfc(pull * M_SQRT1_2); }
 
+// The largest pull that changes the image visibly; null: none.
+const PriorPull* most_of_all(const std::vector<PriorPull>& pulls) {
+  const PriorPull* most = nullptr;
+  for (const PriorPull& p : pulls) {
+    if (!(p.image_relative > kLeastPullImage)) continue;
+    if (most == nullptr || std::abs(p.pull) > std::abs(most->pull)) most = &p;
+  }
+  return most;
+}
+
 // Of one material, or of all (empty).
 void refuse_with_all_channels(const JointJudgement& joint, const std::string& material,
                               std::vector<ChannelResult>& results) {
@@ -69,9 +79,11 @@ void refuse_with_all_channels(const JointJudgement& joint, const std::string& ma
   if (worst != nullptr) {
     text = "all channels together: " + contradiction_sentence(*worst);
   } else if (joint.dof > 0.0 &&
-             chi_square_tail(joint.chi2, joint.dof) < probability_of(most_pull)) {
+             chi_square_tail(joint.chi2, joint.dof) < probability_of(most_pull) &&
+             std::sqrt(std::max(0.0, joint.chi2 - joint.dof)) >
+                 kLeastExplained * joint.data_length) {
     // No single quantity is far off, but many are.
-    worst = contradiction(joint.pulls, 0.0, kLeastPullImage);
+    worst = most_of_all(joint.pulls);
     if (worst == nullptr) return;
     text = fmt::format(
         "all channels together contradict what the rig states "
@@ -175,6 +187,9 @@ bool is_shared_by_material(const Nuisance& nuisance) {
 JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels,
                            bool (*shared)(const Nuisance&)) {
   JointJudgement out;
+  for (const RigEvidence* e : channels) {
+    out.data_length = std::hypot(out.data_length, e->data_length);
+  }
   std::map<std::string, Eigen::Index> index;
   std::vector<Shared> parts;
   std::vector<double> image;  // by one deviation
@@ -217,6 +232,7 @@ JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels,
     pull.pull = told(k, k) > kRounding ? v[k] / std::sqrt(told(k, k)) : 0.0;
     pull.offset = v[k] * std[static_cast<std::size_t>(k)];
     pull.image_relative = std::abs(v[k]) * image[static_cast<std::size_t>(k)];
+    pull.explained_relative = std::abs(pull.pull) / std::max(out.data_length, 1e-300);
   }
   // The score has the covariance information (1 + information) if all statements hold.
   const SymmetricEigen by = symmetric_eigen(information);

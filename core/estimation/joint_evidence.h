@@ -25,6 +25,7 @@ struct JointJudgement {
   // there are combinations of which the images tell anything.
   double chi2 = 0;
   double dof = 0;
+  double data_length = 0;  // of the whitened images of all channels
 };
 
 // The pulls of the nuisances for which `shared` is true, from the sum of the channels' evidence

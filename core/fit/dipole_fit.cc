@@ -260,7 +260,8 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
                                                 widened.sqrt_information.cols() + 1);
     widened.sqrt_information.rightCols(1) = test->per_offset;
     nuisances.push_back({name, std::abs(test->offset), false});
-    if (test->image_relative > options.max_offset_relative) {
+    if (test->image_relative > options.max_offset_relative &&
+        test->explained_relative > kLeastExplained) {
       estimate.reasons.push_back(sentence("the shots contradict the ", name,
                                           " that the rig states: the best fit differs from it by ",
                                           test->offset));

@@ -46,6 +46,9 @@ struct PriorPull {
   double pull = 0;            // standard normal if everything is as the rig states
   double offset = 0;          // most probable value minus the stated one, in the nuisance's unit
   double image_relative = 0;  // change of the image by the offset, relative to the image
+  // What the other quantities leave of that change and the residual confirms: the part of the
+  // residual that the offset explains, relative to the image.
+  double explained_relative = 1;
 };
 
 struct Estimate {

@@ -122,6 +122,7 @@ ModelJudgement judge(const WhitenedModel& model) {
   std::vector<PriorPull> pulls(model.nuisances.size());
   std::vector<bool> has_pull(model.nuisances.size());
   const double length = std::max(model.data_length, 1e-300);
+  out.evidence.data_length = model.data_length;
   out.evidence.information = information;
   out.evidence.score = b.transpose() * rest.residual;
   out.evidence.image_relative.resize(b.cols());
@@ -133,8 +134,12 @@ ModelJudgement judge(const WhitenedModel& model) {
   const auto report = [&](Eigen::Index i, double offset, double pull) {
     const Nuisance& nuisance = model.nuisances[static_cast<std::size_t>(i)];
     has_pull[static_cast<std::size_t>(i)] = true;
-    pulls[static_cast<std::size_t>(i)] = {nuisance.name, nuisance.group, pull, offset,
-                                          std::abs(offset) * model.columns.col(i).norm() / length};
+    pulls[static_cast<std::size_t>(i)] = {nuisance.name,
+                                          nuisance.group,
+                                          pull,
+                                          offset,
+                                          std::abs(offset) * model.columns.col(i).norm() / length,
+                                          std::abs(pull) / length};
   };
   for (std::size_t k = 0; k < moving.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
@@ -162,6 +167,7 @@ const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_
   const PriorPull* worst = nullptr;
   for (const PriorPull& p : pulls) {
     if (!(std::abs(p.pull) > most_pull) || !(p.image_relative > least_image)) continue;
+    if (!(p.explained_relative > kLeastExplained)) continue;
     if (worst == nullptr || std::abs(p.pull) > std::abs(worst->pull)) worst = &p;
   }
   return worst;

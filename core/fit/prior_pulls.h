@@ -29,6 +29,7 @@ struct RigEvidence {
   Eigen::MatrixXd information;
   Eigen::VectorXd score;
   Eigen::VectorXd image_relative;  // change of the image by one deviation, relative to the image
+  double data_length = 0;          // of the whitened image
 };
 
 struct ModelJudgement {
@@ -55,6 +56,9 @@ inline constexpr double kMostPull = 4.0;
 // The same for images simulated by paths, whose covariance is an estimate: one in 1.7 million.
 inline constexpr double kMostPullByPaths = 5.0;
 inline constexpr double kLeastPullImage = 1e-3;
+// Nor does a pull count that explains less of the residual than this, relative to the image: the
+// linear model leaves out the products of two deviations, one per cent of one per cent.
+inline constexpr double kLeastExplained = 1e-4;
 
 // The largest contradiction that is both significant (|pull| > most_pull) and visible
 // (image_relative > least_image); null if there is none.

@@ -37,6 +37,7 @@ ScoreTest score_test(const TestedImage& image, const Eigen::MatrixXd& fitted,
   if (!std::isfinite(chi2)) return out;
   out.p_value = chi_square_tail(chi2, 1.0);
   out.image_relative = std::abs(out.offset) * change.norm() / image.length;
+  out.explained_relative = std::abs(own.dot(rest)) / std::sqrt(information) / image.length;
   return out;
 }
 

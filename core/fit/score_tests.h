@@ -13,9 +13,11 @@ namespace scattermeter {
 
 // The offset of the best-fitting value of one stated quantity from its stated value, all else free.
 struct ScoreTest {
-  double offset = 0;           // best minus stated: of log scale, or of eta
-  double p_value = 1;          // of at least this offset if the stated value is true
-  double image_relative = 0;   // change of the image by the offset, relative to the image
+  double offset = 0;          // best minus stated: of log scale, or of eta
+  double p_value = 1;         // of at least this offset if the stated value is true
+  double image_relative = 0;  // change of the image by the offset, relative to the image
+  // Part of the residual that the offset explains, besides what was fitted, relative to the image.
+  double explained_relative = 0;
   Eigen::VectorXd per_offset;  // d (sqrt_information R) / d offset
 };
 

@@ -18,8 +18,9 @@ using ::testing::HasSubstr;
 // Cube and pyramid under two LEDs, 480 px wide; the object in the shots may be displaced.
 class OutlineWatchTest : public ::testing::Test {
  protected:
-  explicit OutlineWatchTest(const std::vector<std::string>& bodies = {"cube", "pyramid"})
-      : rig_(bodies_rig(480, 1.4, {{"m", plastic()}}, bodies)), scenes_(bodies_scenes(rig_)) {
+  explicit OutlineWatchTest(const std::vector<std::string>& bodies = {"cube", "pyramid"},
+                            const std::vector<NamedMedia>& materials = {{"m", plastic()}})
+      : rig_(bodies_rig(480, 1.4, materials, bodies)), scenes_(bodies_scenes(rig_)) {
     rig_.pose.options.point_std_px = 0.2;
   }
   capture::ShotSource shots(const Eigen::Vector3d& cube_moved_mm) {
@@ -134,6 +135,20 @@ class RoundBodyWatchTest : public OutlineWatchTest {
  protected:
   RoundBodyWatchTest() : OutlineWatchTest({"sphere", "scan"}) {}
 };
+
+// Pieces of three materials in one jig: six shots.
+class ManyPiecesWatchTest : public OutlineWatchTest {
+ protected:
+  ManyPiecesWatchTest()
+      : OutlineWatchTest({"cube"}, {{"a", plastic()}, {"b", plastic()}, {"c", plastic()}}) {}
+};
+
+// All shots of the displaced mesh are refused, not only those that were looked at again.
+TEST_F(ManyPiecesWatchTest, AllShotsOfADisplacedMesh) {
+  const OutlineFindings found = findings(shots({1.0, 0.0, 0.0}));
+  ASSERT_EQ(found.findings.size(), 1U);
+  EXPECT_EQ(found.findings[0].shots, (std::vector<std::size_t>{0, 1, 2, 3, 4, 5}));
+}
 
 // Their limb is as dark as the lamp leaves it, so they are not judged by their outline.
 TEST_F(RoundBodyWatchTest, AreNotJudged) {
