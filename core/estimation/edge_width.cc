@@ -18,8 +18,9 @@ struct Found {
 
 bool take_edge_widths(const Scene& scene, const std::vector<ChannelResult>& results,
                       EdgeWidths& widths_mm) {
-  constexpr double kOther = 0.1;
-  constexpr double kVisible = 1e-3;                  // of the image
+  // Of the image: a tenth of it is what the width leaves wrong, as much as counts
+  // (kLeastExplained).
+  constexpr double kVisible = 1e-3;
   constexpr double kNarrowest = 0.1, kWidest = 3.0;  // of the width before anything is known
   bool any = false;
   for (const SceneObject& object : scene.objects) {
@@ -34,11 +35,10 @@ bool take_edge_widths(const Scene& scene, const std::vector<ChannelResult>& resu
     }
     const double first_mm = chamfer_width_mm(object);
     for (const auto& [material, found] : of_material) {
-      if (!(found.image_relative > kVisible)) continue;
       const double width_mm =
           std::clamp(upper_median(found.widths_mm), kNarrowest * first_mm, kWidest * first_mm);
       double& now_mm = widths_mm.try_emplace({material, object.name}, first_mm).first->second;
-      if (!(std::abs(width_mm - now_mm) > kOther * now_mm)) continue;
+      if (!(found.image_relative * std::abs(width_mm / now_mm - 1.0) > kVisible)) continue;
       now_mm = width_mm;
       any = true;
     }

@@ -16,8 +16,7 @@ using EdgeWidths = std::map<std::pair<std::string, std::string>, double>;
 
 // The light lost at edges is not quite proportional to the width of their chamfers, so its
 // derivative is taken at the width found. Takes the widths that the channels of each material find,
-// in their median, where the light is visible and the width another one than before; returns
-// whether there is any.
+// in their median, where that changes the light visibly; returns whether there is any.
 bool take_edge_widths(const Scene& scene, const std::vector<ChannelResult>& results,
                       EdgeWidths& widths_mm);
 

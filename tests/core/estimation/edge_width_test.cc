@@ -47,7 +47,8 @@ TEST_F(EdgeWidth, IsThatOfEachPiece) {
 TEST_F(EdgeWidth, StaysWhereNothingIsVisibleOrNew) {
   EdgeWidths widths;
   EXPECT_FALSE(take_edge_widths(scene_, {channel("PP", 0.4, 1e-4)}, widths));
-  EXPECT_FALSE(take_edge_widths(scene_, {channel("PP", 1.05 * first_mm_, 0.01)}, widths));
+  EXPECT_FALSE(take_edge_widths(scene_, {channel("PP", 1.09 * first_mm_, 0.01)}, widths));
+  EXPECT_TRUE(take_edge_widths(scene_, {channel("PP", 1.2 * first_mm_, 0.01)}, widths));
   EXPECT_FALSE(take_edge_widths(scene_, {}, widths));
 }
 

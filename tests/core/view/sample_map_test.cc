@@ -123,7 +123,7 @@ double to_edge_mm(const Eigen::Vector3d& p) {
 // Where edges may be cut back by 0.5 mm, no sample that near to one takes part, however few pixels
 // that is on a slanted face, and no other sample is left out.
 TEST_F(CubeView, EdgeReachKeepsOffWhatMayBeCut) {
-  SampleMapOptions options{1, 0.1};
+  SampleMapOptions options{1, 0.0};
   const SampleMap bare = map_samples(rays_, scene_, patches_, 1.3, options);
   options.edge_reach_mm = 0.5;
   const SampleMap map = map_samples(rays_, scene_, patches_, 1.3, options);
@@ -135,7 +135,7 @@ TEST_F(CubeView, EdgeReachKeepsOffWhatMayBeCut) {
                                  scene_.first_hit(rays_.origin_in_world_mm, d).distance * d);
     if (map.row_of_sample[i] < 0) {
       ++left_out;
-      EXPECT_LT(mm, 0.7);
+      EXPECT_LT(mm, 0.8);  // a whole diagonal step more, on the most slanted face
     } else {
       EXPECT_GT(mm, 0.4);
     }
