@@ -7,7 +7,6 @@
 
 #include "calib/pose/cell_means.h"
 #include "calib/pose/edge_strip.h"
-#include "calib/pose/picture_blur.h"
 #include "core/base/median.h"
 #include "core/camera/lens.h"
 
@@ -93,12 +92,11 @@ double edge_blur_px(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
     strip.max_blur_px = 6.0;
     found[i] = locate_edge(shot.samples, c.at_cell, c.point.outward, strip);
   });
-  std::vector<EdgeBlur> blurs;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (!found[i].found) continue;
-    blurs.push_back({candidates[i * stride].point.outward, found[i].blur_px});
+  std::vector<double> blurs;
+  for (const EdgeStrip& s : found) {
+    if (s.found) blurs.push_back(s.blur_px);
   }
-  return blurs.size() < kLeastPieces ? 0.0 : picture_blur_px(blurs);
+  return blurs.size() < kLeastPieces ? 0.0 : upper_median(blurs);
 }
 
 std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,

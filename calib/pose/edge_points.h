@@ -54,8 +54,8 @@ std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
                                    const EdgePointOptions& options = {});
 
 // Blur of the outline of one shot, px: standard deviation across the edge, without the pixel's box;
-// picture_blur_px() of at most 24 pieces, by locate_edge() on the raw samples. Pieces are searched
-// up to 8 px away. Fewer than 8 pieces tell nothing: 0. Domain: up to 6 px.
+// the median of at most 24 pieces, by locate_edge() on the raw samples. Pieces are searched up to 8
+// px away. Fewer than 8 pieces tell nothing: 0. Domain: up to 6 px.
 double edge_blur_px(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
                     const Rigid3d& camera_from_world);
 

@@ -82,10 +82,13 @@ class DipoleEstimator {
     constexpr int kEdgeRounds = 3;
     for (int round = 0; round < kEdgeRounds; ++round) {
       if (!take_edge_widths(e_.scene, e_.results, edge_widths_mm_)) break;
-      sensitivities_ = sensitivities(e_, estimated(), knots_, edge_widths_mm_);
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        open[i] = work_[i].estimated && e_.results[i].estimate.converged;
+      }
+      sensitivities_ = sensitivities(e_, open, knots_, edge_widths_mm_);
       e_.watch.lap("sensitivities");
       tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
-        if (work_[i].estimated) final_fit(i);
+        if (open[i]) final_fit(i);
       });
     }
     fit_with_joint_pulls();

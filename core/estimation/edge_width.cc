@@ -5,6 +5,7 @@
 
 #include "core/base/median.h"
 #include "core/estimation/edge_light.h"
+#include "core/estimation/model_choice.h"
 
 namespace scattermeter {
 namespace {
@@ -26,6 +27,8 @@ bool take_edge_widths(const Scene& scene, const std::vector<ChannelResult>& resu
   for (const SceneObject& object : scene.objects) {
     std::map<std::string, Found> of_material;
     for (const ChannelResult& r : results) {
+      // Where the dipole does not hold, its fit does not tell the width.
+      if (!r.estimate.converged || misses_image(r.estimate)) continue;
       for (const PriorPull& p : r.estimate.pulls) {
         if (p.name != object.name + ".edges") continue;
         Found& found = of_material[r.material];
