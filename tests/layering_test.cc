@@ -147,7 +147,8 @@ TEST(Layering, EachForeignLibraryHasItsDoor) {
   for (const Include& i : includes()) {
     if (i.quoted) continue;
     // The standard library's and the system's headers have no slash and no .h, or are POSIX's.
-    static const std::regex standard("[a-z_0-9]+|malloc\\.h|unistd\\.h|fcntl\\.h|spawn\\.h|sys/[a-z]+\\.h");
+    static const std::regex standard(
+        "[a-z_0-9]+|malloc\\.h|unistd\\.h|fcntl\\.h|spawn\\.h|sys/[a-z]+\\.h");
     if (std::regex_match(i.what, standard)) continue;
     // Eigen stands everywhere; fmt and TBB in any source, but in no header.
     if (i.what.starts_with("Eigen/")) continue;
