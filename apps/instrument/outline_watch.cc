@@ -230,10 +230,13 @@ void OutlineWatch::conclude(const Looks& looks, OutlineFindings& out) const {
   const bool of_shot = best.cause == OutlineCause::kShotMoved;
   const bool of_mesh = !of_shot && best.cause != OutlineCause::kCamera;
   Finding finding = outline_finding(d, of_mesh ? names_[best.which] : "");
-  if (of_shot) finding.shots.push_back(out.looked_at[best.which]);
-  // Not only those that were looked at again.
-  for (const auto& [idx, look] : looks) {
-    if (!of_shot && (!of_mesh || body_of(idx) == best.which)) finding.shots.push_back(idx);
+  if (of_shot) {
+    finding.shots = {out.looked_at[best.which]};
+  } else {
+    // All of them, not only those that were looked at again.
+    for (const auto& [idx, look] : looks) {
+      if (!of_mesh || body_of(idx) == best.which) finding.shots.push_back(idx);
+    }
   }
   out.findings.push_back(finding);
 }

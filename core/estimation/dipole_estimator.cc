@@ -28,9 +28,10 @@ namespace {
 // The state of the estimation of one material and channel.
 struct Work {
   ChannelRows rows;
-  bool estimated = false;  // there is a first estimate
-  bool settled = false;    // another round would not change it
-  JointPulls joint_pulls;  // known from other channels
+  bool estimated = false;                              // there is a first estimate
+  bool settled = false;                                // another round would not change it
+  JointPulls joint_pulls;                              // known from other channels
+  std::shared_ptr<const Sensitivities> sensitivities;  // of the latest final fit
 };
 
 bool settled(const Estimate& before, const Estimate& after) {
@@ -58,20 +59,13 @@ class DipoleEstimator {
     e_.watch.lap("light");
     e_.for_open_channels("fitting", [&](std::size_t i) { first_fit(i); });
     e_.watch.lap("first fit");
-    std::vector<bool> open = estimated();
+    std::vector<bool> open(work_.size());
+    for (std::size_t i = 0; i < open.size(); ++i) open[i] = work_[i].estimated;
     // What ambient light adds depends on the material itself: those channels are repeated until
     // they settle (an error falls to a sixth each time).
     constexpr int kRounds = 8;
     for (int round = 0; round < kRounds; ++round) {
-      sensitivities_ = sensitivities(e_, open, knots_);
-      e_.watch.lap("sensitivities");
-      tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
-        if (!open[i]) return;
-        const Estimate before = e_.results[i].estimate;
-        final_fit(i);
-        work_[i].settled = !has_ambient(e_.channels[i]) || settled(before, e_.results[i].estimate);
-      });
-      e_.watch.lap("fit");
+      final_fits(open);
       bool again = false;
       for (std::size_t i = 0; i < open.size(); ++i) {
         open[i] = open[i] && !work_[i].settled && e_.results[i].estimate.converged;
@@ -85,21 +79,25 @@ class DipoleEstimator {
       for (std::size_t i = 0; i < open.size(); ++i) {
         open[i] = work_[i].estimated && e_.results[i].estimate.converged;
       }
-      sensitivities_ = sensitivities(e_, open, knots_, edge_widths_mm_);
-      e_.watch.lap("sensitivities");
-      tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
-        if (open[i]) final_fit(i);
-      });
+      final_fits(open);
     }
     fit_with_joint_pulls();
     e_.watch.lap("fit");
   }
 
  private:
-  std::vector<bool> estimated() const {
-    std::vector<bool> out;
-    for (const Work& w : work_) out.push_back(w.estimated);
-    return out;
+  // Of the open channels, with the nuisances' derivatives at their latest estimates.
+  void final_fits(const std::vector<bool>& open) {
+    const auto of_lights = sensitivities(e_, open, knots_, edge_widths_mm_);
+    e_.watch.lap("sensitivities");
+    tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
+      if (!open[i]) return;
+      work_[i].sensitivities = of_lights;
+      const Estimate before = e_.results[i].estimate;
+      final_fit(i);
+      work_[i].settled = !has_ambient(e_.channels[i]) || settled(before, e_.results[i].estimate);
+    });
+    e_.watch.lap("fit");
   }
 
   // Once more those channels that doubt a quantity of the rig that all share, or of which all
@@ -211,7 +209,7 @@ class DipoleEstimator {
 
   void remember(std::size_t i, const LitMedium& first, double image_in_std) {
     const auto rows = std::make_shared<const ChannelRows>(work_[i].rows);
-    const auto of_lights = sensitivities_;
+    const auto of_lights = work_[i].sensitivities;
     const Estimation& e = e_;
     const DistanceKnots knots = knots_;
     const auto image = [&e, i, rows, of_lights, knots, first] {
@@ -230,7 +228,7 @@ class DipoleEstimator {
     const LitMedium medium{{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
                            first.scale.value};
     const ChannelImage image(e_.scene, channel, work_[i].rows, e_.kept.weights, knots_, medium,
-                             sensitivities_->of_channel[i]);
+                             work_[i].sensitivities->of_channel[i]);
     result.nuisances_negligible = image.negligible_nuisances();
     std::vector<ShotInformation> shots;
     ImageInformation joint;
@@ -288,7 +286,6 @@ class DipoleEstimator {
   DistanceKnots knots_;
   DipoleFitOptions fit_;
   std::vector<Work> work_;
-  std::shared_ptr<const Sensitivities> sensitivities_;
   EdgeWidths edge_widths_mm_;
 };
 
