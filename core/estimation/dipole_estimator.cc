@@ -75,10 +75,8 @@ class DipoleEstimator {
     }
     constexpr int kEdgeRounds = 3;
     for (int round = 0; round < kEdgeRounds; ++round) {
-      if (!take_edge_widths(e_.scene, e_.results, edge_widths_mm_)) break;
-      for (std::size_t i = 0; i < open.size(); ++i) {
-        open[i] = work_[i].estimated && e_.results[i].estimate.converged;
-      }
+      open = take_edge_widths(e_.scene, e_.results, edge_widths_mm_);
+      if (std::find(open.begin(), open.end(), true) == open.end()) break;
       final_fits(open);
     }
     fit_with_joint_pulls();

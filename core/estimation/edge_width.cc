@@ -17,13 +17,13 @@ struct Found {
 
 }  // namespace
 
-bool take_edge_widths(const Scene& scene, const std::vector<ChannelResult>& results,
-                      EdgeWidths& widths_mm) {
+std::vector<bool> take_edge_widths(const Scene& scene, const std::vector<ChannelResult>& results,
+                                   EdgeWidths& widths_mm) {
   // Of the image: a tenth of it is what the width leaves wrong, as much as counts
   // (kLeastExplained).
   constexpr double kVisible = 1e-3;
   constexpr double kNarrowest = 0.1, kWidest = 3.0;  // of the width before anything is known
-  bool any = false;
+  std::vector<bool> taken(results.size());
   for (const SceneObject& object : scene.objects) {
     std::map<std::string, Found> of_material;
     for (const ChannelResult& r : results) {
@@ -43,10 +43,12 @@ bool take_edge_widths(const Scene& scene, const std::vector<ChannelResult>& resu
       double& now_mm = widths_mm.try_emplace({material, object.name}, first_mm).first->second;
       if (!(found.image_relative * std::abs(width_mm / now_mm - 1.0) > kVisible)) continue;
       now_mm = width_mm;
-      any = true;
+      for (std::size_t i = 0; i < results.size(); ++i) {
+        if (results[i].material == material && results[i].estimate.converged) taken[i] = true;
+      }
     }
   }
-  return any;
+  return taken;
 }
 
 }  // namespace scattermeter

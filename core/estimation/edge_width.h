@@ -16,8 +16,9 @@ using EdgeWidths = std::map<std::pair<std::string, std::string>, double>;
 
 // The light lost at edges is not quite proportional to the width of their chamfers, so its
 // derivative is taken at the width found. Takes the widths that the channels of each material find,
-// in their median, where that changes the light visibly; returns whether there is any.
-bool take_edge_widths(const Scene& scene, const std::vector<ChannelResult>& results,
-                      EdgeWidths& widths_mm);
+// in their median, where that changes the light visibly; returns for which of the converged results
+// the width is another one now.
+std::vector<bool> take_edge_widths(const Scene& scene, const std::vector<ChannelResult>& results,
+                                   EdgeWidths& widths_mm);
 
 }  // namespace scattermeter

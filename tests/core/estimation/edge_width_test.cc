@@ -1,5 +1,7 @@
 #include "core/estimation/edge_width.h"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/estimation/edge_light.h"
@@ -38,28 +40,40 @@ TEST_F(EdgeWidth, IsThatOfEachPiece) {
   EdgeWidths widths;
   const std::vector<ChannelResult> results = {channel("PP", 0.2, 0.01), channel("PP", 0.21, 0.01),
                                               channel("PP", 0.4, 0.01), channel("PE", 0.05, 0.01)};
-  EXPECT_TRUE(take_edge_widths(scene_, results, widths));
+  EXPECT_EQ(take_edge_widths(scene_, results, widths), (std::vector<bool>{true, true, true, true}));
   EXPECT_DOUBLE_EQ(widths.at({"PP", "cube"}), 0.21);
   EXPECT_DOUBLE_EQ(widths.at({"PE", "cube"}), 0.05);
   // Once they have been taken, nothing is new.
-  EXPECT_FALSE(take_edge_widths(scene_, results, widths));
+  EXPECT_EQ(take_edge_widths(scene_, results, widths),
+            (std::vector<bool>{false, false, false, false}));
 }
 
 TEST_F(EdgeWidth, StaysWhereNothingIsVisibleOrNew) {
   EdgeWidths widths;
-  EXPECT_FALSE(take_edge_widths(scene_, {channel("PP", 0.4, 1e-4)}, widths));
-  EXPECT_FALSE(take_edge_widths(scene_, {channel("PP", 1.09 * first_mm_, 0.01)}, widths));
-  EXPECT_TRUE(take_edge_widths(scene_, {channel("PP", 1.2 * first_mm_, 0.01)}, widths));
-  EXPECT_FALSE(take_edge_widths(scene_, {}, widths));
+  EXPECT_EQ(take_edge_widths(scene_, {channel("PP", 0.4, 1e-4)}, widths),
+            (std::vector<bool>{false}));
+  EXPECT_EQ(take_edge_widths(scene_, {channel("PP", 1.09 * first_mm_, 0.01)}, widths),
+            (std::vector<bool>{false}));
+  EXPECT_EQ(take_edge_widths(scene_, {channel("PP", 1.2 * first_mm_, 0.01)}, widths),
+            (std::vector<bool>{true}));
+  EXPECT_TRUE(take_edge_widths(scene_, {}, widths).empty());
 }
 
 // A chamfer cannot be negative, and one far beyond what is stated is not one.
 TEST_F(EdgeWidth, StaysWithinReason) {
   EdgeWidths widths;
-  EXPECT_TRUE(
-      take_edge_widths(scene_, {channel("PP", -0.3, 0.01), channel("PE", 5.0, 0.01)}, widths));
+  EXPECT_EQ(take_edge_widths(scene_, {channel("PP", -0.3, 0.01), channel("PE", 5.0, 0.01)}, widths),
+            (std::vector<bool>{true, true}));
   EXPECT_DOUBLE_EQ(widths.at({"PP", "cube"}), 0.1 * first_mm_);
   EXPECT_DOUBLE_EQ(widths.at({"PE", "cube"}), 3.0 * first_mm_);
+}
+
+// Only the pieces with another width are fitted again.
+TEST_F(EdgeWidth, LeavesOtherPiecesAlone) {
+  EdgeWidths widths;
+  EXPECT_EQ(
+      take_edge_widths(scene_, {channel("PP", 0.3, 0.01), channel("PE", first_mm_, 0.01)}, widths),
+      (std::vector<bool>{true, false}));
 }
 
 }  // namespace
