@@ -60,16 +60,6 @@ double most_pull_of(const std::vector<ChannelResult>& results) {
 // As improbable as one pull of that many deviations.
 double probability_of(double pull) { return std::erfc(pull * M_SQRT1_2); }
 
-// The largest pull that changes the image visibly; null: none.
-const PriorPull* most_of_all(const std::vector<PriorPull>& pulls) {
-  const PriorPull* most = nullptr;
-  for (const PriorPull& p : pulls) {
-    if (!(p.image_relative > kLeastPullImage)) continue;
-    if (most == nullptr || std::abs(p.pull) > std::abs(most->pull)) most = &p;
-  }
-  return most;
-}
-
 // Of one material, or of all (empty).
 void refuse_with_all_channels(const JointJudgement& joint, const std::string& material,
                               std::vector<ChannelResult>& results) {
@@ -83,7 +73,7 @@ void refuse_with_all_channels(const JointJudgement& joint, const std::string& ma
              std::sqrt(std::max(0.0, joint.chi2 - joint.dof)) >
                  kLeastExplained * joint.data_length) {
     // No single quantity is far off, but many are.
-    worst = most_of_all(joint.pulls);
+    worst = contradiction(joint.pulls, 0.0, kLeastPullImage, 0.0);
     if (worst == nullptr) return;
     text = fmt::format(
         "all channels together contradict what the rig states "

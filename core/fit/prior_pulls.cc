@@ -163,11 +163,11 @@ ModelJudgement judge(const WhitenedModel& model) {
 }
 
 const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_pull,
-                               double least_image) {
+                               double least_image, double least_explained) {
   const PriorPull* worst = nullptr;
   for (const PriorPull& p : pulls) {
     if (!(std::abs(p.pull) > most_pull) || !(p.image_relative > least_image)) continue;
-    if (!(p.explained_relative > kLeastExplained)) continue;
+    if (!(p.explained_relative > least_explained)) continue;
     if (worst == nullptr || std::abs(p.pull) > std::abs(worst->pull)) worst = &p;
   }
   return worst;

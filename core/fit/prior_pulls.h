@@ -60,10 +60,11 @@ inline constexpr double kLeastPullImage = 1e-3;
 // linear model leaves out the products of two deviations, one per cent of one per cent.
 inline constexpr double kLeastExplained = 1e-4;
 
-// The largest contradiction that is both significant (|pull| > most_pull) and visible
-// (image_relative > least_image); null if there is none.
+// The largest contradiction that is significant (|pull| > most_pull), visible (image_relative >
+// least_image) and explains enough of the residual (explained_relative > least_explained); null if
+// there is none.
 const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_pull,
-                               double least_image);
+                               double least_image, double least_explained = kLeastExplained);
 
 // A sentence for the user that names the quantity, the size of the contradiction and the next step.
 std::string contradiction_sentence(const PriorPull& pull);

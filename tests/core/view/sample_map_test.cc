@@ -1,7 +1,6 @@
 #include "core/view/sample_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -107,71 +106,6 @@ TEST_F(CubeView, GuardKeepsOffEdges) {
       }
     }
   }
-}
-
-// Distance of a point of the cube's surface from the nearest edge of its face.
-double to_edge_mm(const Eigen::Vector3d& p) {
-  std::array<double, 3> mm{};
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double low = axis == 2 ? 0.0 : -10.0;
-    mm[static_cast<std::size_t>(axis)] = std::min(p[axis] - low, low + 20.0 - p[axis]);
-  }
-  std::sort(mm.begin(), mm.end());
-  return mm[1];
-}
-
-// Where edges may be cut back by 0.5 mm, no sample that near to one takes part, however few pixels
-// that is on a slanted face, and no other sample is left out.
-TEST_F(CubeView, EdgeReachKeepsOffWhatMayBeCut) {
-  SampleMapOptions options{1, 0.0};
-  const SampleMap bare = map_samples(rays_, scene_, patches_, 1.3, options);
-  options.edge_reach_mm = 0.5;
-  const SampleMap map = map_samples(rays_, scene_, patches_, 1.3, options);
-  std::size_t left_out = 0;
-  for (std::size_t i = 0; i < map.row_of_sample.size(); ++i) {
-    if (bare.row_of_sample[i] < 0) continue;
-    const Eigen::Vector3d d = rays_.directions_in_world[i].cast<double>();
-    const double mm = to_edge_mm(rays_.origin_in_world_mm +
-                                 scene_.first_hit(rays_.origin_in_world_mm, d).distance * d);
-    if (map.row_of_sample[i] < 0) {
-      ++left_out;
-      EXPECT_LT(mm, 0.8);  // a whole diagonal step more, on the most slanted face
-    } else {
-      EXPECT_GT(mm, 0.4);
-    }
-  }
-  EXPECT_GT(left_out, 1000U);
-}
-
-// A body on a plate: the edge at its foot is not one that is cut back.
-TEST(SampleMap, EdgeReachKeepsConcaveEdges) {
-  TriangleMesh mesh = test_support::make_box({-20, -20, 0}, {20, 20, 5});
-  const TriangleMesh block = test_support::make_box({-10, 0, 5}, {10, 15, 12});
-  const auto first = static_cast<int>(mesh.vertices_mm.size());
-  mesh.vertices_mm.insert(mesh.vertices_mm.end(), block.vertices_mm.begin(),
-                          block.vertices_mm.end());
-  for (const auto& t : block.triangles) {
-    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
-  const RayScene scene(mesh);
-  const PatchMesh patches(mesh, 1.0);
-  const RayGrid rays = test_support::pinhole_rays({0, -90, 120}, {0, 0, 5}, 2200.0, 520, 520);
-  SampleMapOptions options{1, 0.1};
-  options.edge_reach_mm = 0.5;
-  const SampleMap map = map_samples(rays, scene, patches, 1.3, options);
-  const SampleMap bare = map_samples(rays, scene, patches, 1.3, {1, 0.1});
-  std::size_t near_foot = 0;
-  for (std::size_t i = 0; i < map.row_of_sample.size(); ++i) {
-    if (bare.row_of_sample[i] < 0) continue;
-    const Eigen::Vector3d d = rays.directions_in_world[i].cast<double>();
-    const Eigen::Vector3d p =
-        rays.origin_in_world_mm + scene.first_hit(rays.origin_in_world_mm, d).distance * d;
-    if (std::abs(p.y()) > 0.4 || std::abs(p.x()) > 8.0) continue;
-    if (std::abs(p.z() - 5.0) > 0.4) continue;
-    ++near_foot;
-    EXPECT_GE(map.row_of_sample[i], 0) << p.transpose();
-  }
-  EXPECT_GT(near_foot, 100U);
 }
 
 TEST_F(CubeView, SeesNothingWhereThereIsNothing) {
