@@ -19,6 +19,8 @@ constexpr double kErrorByBlur = 2.0;
 constexpr double kMostError = 0.03;
 // What the fit to a sharp edge may yield, px; subtracted in squares.
 constexpr double kSharp_px = 0.3;
+// Beyond this, a shot that is refused is told to be blurred.
+constexpr double kBlurred_px = 0.8;
 
 }  // namespace
 
@@ -34,17 +36,32 @@ double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot
   return blur_px * (pose.camera_from_world * object.box.center_mm()).z() / lens.fx_px;
 }
 
-void widen_by_blur(std::span<const ObservedShot> shots, std::vector<ChannelResult>& results) {
+void widen_by_blur(std::span<const ObservedShot> shots, double fx_px,
+                   std::vector<ChannelResult>& results) {
   for (ChannelResult& r : results) {
-    if (r.refused()) continue;
-    double blur_mm = 0.0;
+    const ObservedShot* most = nullptr;
     for (const ObservedShot& shot : shots) {
-      if (shot.stated->material == r.material) blur_mm = std::max(blur_mm, shot.edge_blur_mm);
+      if (shot.stated->material != r.material) continue;
+      if (most == nullptr || shot.edge_blur_mm > most->edge_blur_mm) most = &shot;
+    }
+    if (most == nullptr || !(most->edge_blur_mm > 0.0)) continue;
+    const double blur_mm = most->edge_blur_mm;
+    if (r.refused()) {
+      // Its mean free path is not to be trusted. What else is wrong may come first.
+      const Eigen::Vector3d middle_mm = most->seen->object->box.center_mm();
+      const double blur_px = blur_mm * fx_px / (most->pose.camera_from_world * middle_mm).z();
+      if (blur_px > kBlurred_px) {
+        r.estimate.reasons.push_back(
+            fmt::format("the edges are blurred by {:.2g} px (standard deviation): out of focus, or "
+                        "moved during the exposure; focus on the object",
+                        blur_px));
+      }
+      continue;
     }
     Quantity& s = r.estimate.sigma_s_prime_per_mm;
     const double mfp_mm = 1.0 / (s.value + r.estimate.sigma_a_per_mm.value);
     const double relative = kErrorByBlur * blur_mm * blur_mm / (mfp_mm * mfp_mm);
-    if (!(relative > 0.0) || !(s.std > 0.0)) continue;
+    if (!(s.std > 0.0)) continue;
     const double by_s = relative * s.value;
     const double by_a = by_s / s.std * r.estimate.sigma_a_per_mm.std;
     widen({"focus", by_s, by_a}, -by_s * by_a, r.estimate);

@@ -20,7 +20,10 @@ double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot
                     const capture::RawFrame& frame, const PoseResult& pose);
 
 // Adds the effect of the largest blur of its shots to each estimate, up to 2 (blur / mean free
-// path)^2 of sigma_s', and refuses those that it may change by more than 3 %.
-void widen_by_blur(std::span<const ObservedShot> shots, std::vector<ChannelResult>& results);
+// path)^2 of sigma_s', and refuses those that it may change by more than 3 %. Those that are
+// refused already are told that their shots are blurred, if by more than 0.8 px. fx_px: focal
+// length of the camera.
+void widen_by_blur(std::span<const ObservedShot> shots, double fx_px,
+                   std::vector<ChannelResult>& results);
 
 }  // namespace scattermeter::apps

@@ -279,7 +279,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
                     ? fitted_from_where_seen(rig_.scene, seen, options, fit, watch)
                     : fit(options);
   opened = seen.shots();
-  if (!without_noise) widen_by_blur(opened, out.results);
+  if (!without_noise) widen_by_blur(opened, rig_.scene.camera.intrinsics.fx_px, out.results);
   out.skipped = skipped_of(opened, lit_);
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;
   out.skipped.channels_not_asked =

@@ -117,7 +117,9 @@ void LightLook::find_covered(const std::vector<ShotLikeness>& likeness,
       finding.text = fmt::format(
           "object covered or shadowed: {:.0f} % of the patches that {} lights are dark in {}",
           100.0 * share, joined(shots_[i].stated->lights), file);
-      finding.advice = "remove what stands before the object or its light, and take the shot again";
+      finding.advice =
+          "remove what stands before the object or its light, or put the object where its mesh is, "
+          "and take the shot again";
     } else if (likeness[i].own > kUnexplained) {
       finding.cause = "image not explained";
       finding.text = fmt::format(

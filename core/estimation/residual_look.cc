@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -16,11 +17,16 @@ namespace {
 constexpr double kLeastShare = 0.3;
 constexpr double kLeastImage = 1e-3;
 constexpr double kLeastChi2 = 50.0;
+// The share of the rows that spots cover at most, and the mean square that noise alone leaves in so
+// many of the farthest rows, in standard deviations (of a normal distribution: 7.2).
+constexpr double kMostSpots = 0.02;
+constexpr double kSpotByNoise = 7.2;
 
 // The used rows of all shots.
 struct LookedAt {
   Eigen::VectorXd rest, predicted, std_l;
   Eigen::VectorXd right, down;  // of the image's middle, in half its extent
+  Eigen::VectorXd off_axis;     // squared tangent of the angle to the optical axis, about its mean
   std::vector<std::size_t> shot;
   std::vector<Eigen::Vector3d> normal;
   std::vector<bool> beside_edge;  // some of the patch's samples are left out beside an edge
@@ -58,6 +64,8 @@ LookedAt look_at(const std::vector<ShotRows>& rows, const MaterialChannel& chann
   out.std_l = column(2);
   out.right = centred(column(3));
   out.down = centred(column(4));
+  out.off_axis = column(3).cwiseAbs2() + column(4).cwiseAbs2();
+  if (n > 0) out.off_axis.array() -= out.off_axis.mean();
   return out;
 }
 
@@ -78,16 +86,42 @@ class BestPattern {
     const Eigen::MatrixXd b = image_.std_l.cwiseInverse().asDiagonal() * columns;
     const Eigen::VectorXd score = b.transpose() * whitened(image_.rest);
     const Eigen::VectorXd x = SymmetricSolver(Eigen::MatrixXd(b.transpose() * b)).solve(score);
-    const double gain = score.dot(x) - static_cast<double>(columns.cols());
-    const double share = gain / std::max(unexplained_, gain);
-    const double change = (columns * x).norm() / image_.predicted.norm();
-    if (!(gain > kLeastChi2) || !(share > kLeastShare) || !(change > kLeastImage)) return;
-    if (best_ && best_->share >= share) return;
-    best_ = {phrase(x), share};
+    keep(score.dot(x) - static_cast<double>(columns.cols()), columns * x,
+         [&] { return phrase(x); });
   }
+
+  // The few rows that are farthest off; phrase: of their number.
+  template <class Phrase>
+  void offer_spots(const Phrase& phrase) {
+    const Eigen::VectorXd off = whitened(image_.rest).cwiseAbs2();
+    const auto n = static_cast<std::size_t>(std::max(1.0, kMostSpots * count()));
+    std::vector<Eigen::Index> rows(static_cast<std::size_t>(off.size()));
+    std::iota(rows.begin(), rows.end(), 0);
+    const auto end = rows.begin() + static_cast<std::ptrdiff_t>(n);
+    std::nth_element(rows.begin(), end, rows.end(),
+                     [&](Eigen::Index a, Eigen::Index b) { return off[a] > off[b]; });
+    rows.resize(n);
+    double gain = 0.0;
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(off.size());
+    for (const Eigen::Index i : rows) {
+      gain += off[i] - kSpotByNoise;
+      change[i] = image_.rest[i];
+    }
+    keep(gain, change, [&] { return phrase(n); });
+  }
+
   std::optional<ResidualLook> take() { return std::move(best_); }
 
  private:
+  // gain: of chi-square; change: of l.
+  template <class Phrase>
+  void keep(double gain, const Eigen::VectorXd& change, const Phrase& phrase) {
+    const double share = gain / std::max(unexplained_, gain);
+    if (!(gain > kLeastChi2) || !(share > kLeastShare)) return;
+    if (!(change.norm() > kLeastImage * image_.predicted.norm())) return;
+    if (best_ && best_->share >= share) return;
+    best_ = {phrase(), share};
+  }
   double count() const { return static_cast<double>(image_.rest.size()); }
   Eigen::VectorXd whitened(const Eigen::VectorXd& v) const { return v.cwiseQuotient(image_.std_l); }
   const LookedAt& image_;
@@ -139,6 +173,22 @@ std::optional<ResidualLook> residual_look(const std::vector<ShotRows>& rows,
     const char* side =
         is_across ? (x[0] > 0.0 ? "right" : "left") : (x[1] > 0.0 ? "lower side" : "upper side");
     return fmt::format("a gradient over the image: towards the {} {}", side, brighter(x.norm()));
+  });
+  best.offer(image.predicted.cwiseProduct(image.off_axis), [](const Eigen::VectorXd& x) {
+    return fmt::format("light that {} towards the picture's corners, as by the lens's vignetting",
+                       x[0] < 0.0 ? "falls off" : "rises");
+  });
+  best.offer(
+      image.predicted.cwiseProduct((image.predicted.array() - image.predicted.mean()).matrix()),
+      [](const Eigen::VectorXd& x) {
+        return fmt::format(
+            "bright parts too {}: the camera's response is not linear, or "
+            "the medium is another than the rig allows",
+            x[0] < 0.0 ? "dark" : "bright");
+      });
+  best.offer_spots([&](std::size_t n) {
+    return fmt::format("a few spots, {} of {} patches: dust, hot pixels or scratches", n,
+                       image.rest.size());
   });
   for (std::size_t s = 0; s < rows.size() && rows.size() > 1; ++s) {
     best.offer(part_of(image, [&](std::size_t i) { return image.shot[i] == s; }),

@@ -39,7 +39,7 @@ const char* advice(const std::string& group) {
   constexpr std::array<std::pair<const char*, const char*>, 18> kAdvice = {{
       {"pose", "check the pose points, and that neither camera nor object has moved"},
       {"camera shift", "fasten camera and object, and take the shot again"},
-      {"lens", "calibrate the camera at this focus"},
+      {"lens", "calibrate the camera at this focus, and check the mesh's proportions"},
       {"mesh position", "check where the object stands and that its mesh is the right one"},
       {"mesh scale", "measure the object and scale its mesh"},
       {"edges", "round the mesh's edges as those of the object are"},

@@ -78,7 +78,7 @@ TEST_F(FocusTest, BlurWidensAndRefuses) {
   std::vector<ObservedShot> shots(1);
   shots[0].stated = &rig_.scene.shots[0];
   shots[0].edge_blur_mm = 0.1;
-  widen_by_blur(shots, results);
+  widen_by_blur(shots, 1000.0, results);
   EXPECT_NEAR(e.sigma_s_prime_per_mm.std, std::hypot(0.01, 0.02 * 0.99), 1e-12);
   EXPECT_NEAR(e.sigma_a_per_mm.std, std::hypot(0.001, 1.98 * 0.001), 1e-12);
   EXPECT_LT(e.correlation, -0.5);
@@ -86,9 +86,32 @@ TEST_F(FocusTest, BlurWidensAndRefuses) {
   EXPECT_EQ(e.budget[0].cause, "focus");
   EXPECT_TRUE(e.reasons.empty());
   shots[0].edge_blur_mm = 0.13;
-  widen_by_blur(shots, results);
+  widen_by_blur(shots, 1000.0, results);
   ASSERT_EQ(e.reasons.size(), 1U);
   EXPECT_THAT(e.reasons[0], HasSubstr("out of focus, or moved during the exposure"));
+}
+
+// Refused for another reason, the edges being blurred by half a pixel and by two.
+TEST_F(FocusTest, RefusedShotsAreToldToBeBlurred) {
+  std::vector<ObservedShot> shots(1);
+  shots[0].stated = &rig_.scene.shots[0];
+  auto seen = std::make_shared<SeenObject>();
+  seen->object = &scenes_.at("cube");
+  shots[0].seen = seen;
+  shots[0].pose = pose_;
+  for (const double blur_px : {0.5, 2.0}) {
+    std::vector<ChannelResult> results(1);
+    results[0].material = "m";
+    results[0].estimate.reasons = {"not explained"};
+    shots[0].edge_blur_mm = blur_px * px_mm();
+    widen_by_blur(shots, rig_.scene.camera.intrinsics.fx_px, results);
+    const std::vector<std::string>& reasons = results[0].estimate.reasons;
+    ASSERT_EQ(reasons.size(), blur_px < 1.0 ? 1U : 2U);
+    EXPECT_EQ(reasons[0], "not explained");
+    if (blur_px > 1.0) {
+      EXPECT_THAT(reasons[1], HasSubstr("the edges are blurred by 2 px"));
+    }
+  }
 }
 
 }  // namespace

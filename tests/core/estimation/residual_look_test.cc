@@ -99,6 +99,35 @@ TEST_F(ResidualLookTest, BandAlongTheOutline) {
   EXPECT_THAT(found->phrase, StartsWith("a band along outline and edges, "));
 }
 
+TEST_F(ResidualLookTest, Vignetting) {
+  const std::size_t rows = seen().sites.size();
+  double mean = 0.0;
+  for (std::size_t j = 0; j < rows; ++j) {
+    mean += in_image(j).squaredNorm() / static_cast<double>(rows);
+  }
+  const auto found = look(
+      [&](std::size_t, std::size_t row) { return 8.0 * (mean - in_image(row).squaredNorm()); });
+  ASSERT_TRUE(found);
+  EXPECT_THAT(found->phrase, StartsWith("light that falls off towards the picture's corners"));
+}
+
+TEST_F(ResidualLookTest, Response) {
+  const std::vector<double>& l = cube_.shots[0].observation.channel[0].l;
+  const double most = *std::max_element(l.begin(), l.end());
+  const auto found = look([&](std::size_t s, std::size_t row) {
+    const double own = cube_.shots[s].observation.channel[0].l[row] / most;
+    return 0.05 * (0.5 - own);
+  });
+  ASSERT_TRUE(found);
+  EXPECT_THAT(found->phrase, StartsWith("bright parts too dark: the camera's response"));
+}
+
+TEST_F(ResidualLookTest, Spots) {
+  const auto found = look([](std::size_t, std::size_t row) { return row % 100 == 0 ? -0.1 : 0.0; });
+  ASSERT_TRUE(found);
+  EXPECT_THAT(found->phrase, StartsWith("a few spots, "));
+}
+
 // A departure in no pattern is not given a name.
 TEST_F(ResidualLookTest, Anything) {
   EXPECT_FALSE(look([](std::size_t s, std::size_t row) {
