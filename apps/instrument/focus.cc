@@ -22,6 +22,11 @@ constexpr double kSharp_px = 0.3;
 // Beyond this, a shot that is refused is told to be blurred.
 constexpr double kBlurred_px = 0.8;
 
+// Size of a pixel on the object.
+double px_mm(const ObjectScene& object, const PoseResult& pose, double fx_px) {
+  return (pose.camera_from_world * object.box.center_mm()).z() / fx_px;
+}
+
 }  // namespace
 
 double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot& shot,
@@ -33,7 +38,7 @@ double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot
       calib::edge_shot(rig.scene, rig.pose, objects, shot, frame, pose.camera_from_world, {});
   const double seen_px = calib::edge_blur_px(edges, lens, pose.camera_from_world);
   const double blur_px = std::sqrt(std::max(0.0, seen_px * seen_px - kSharp_px * kSharp_px));
-  return blur_px * (pose.camera_from_world * object.box.center_mm()).z() / lens.fx_px;
+  return blur_px * px_mm(object, pose, lens.fx_px);
 }
 
 void widen_by_blur(std::span<const ObservedShot> shots, double fx_px,
@@ -48,8 +53,7 @@ void widen_by_blur(std::span<const ObservedShot> shots, double fx_px,
     const double blur_mm = most->edge_blur_mm;
     if (r.refused()) {
       // Its mean free path is not to be trusted. What else is wrong may come first.
-      const Eigen::Vector3d middle_mm = most->seen->object->box.center_mm();
-      const double blur_px = blur_mm * fx_px / (most->pose.camera_from_world * middle_mm).z();
+      const double blur_px = blur_mm / px_mm(*most->seen->object, most->pose, fx_px);
       if (blur_px > kBlurred_px) {
         r.estimate.reasons.push_back(
             fmt::format("the edges are blurred by {:.2g} px (standard deviation): out of focus, or "
@@ -61,7 +65,7 @@ void widen_by_blur(std::span<const ObservedShot> shots, double fx_px,
     Quantity& s = r.estimate.sigma_s_prime_per_mm;
     const double mfp_mm = 1.0 / (s.value + r.estimate.sigma_a_per_mm.value);
     const double relative = kErrorByBlur * blur_mm * blur_mm / (mfp_mm * mfp_mm);
-    if (!(s.std > 0.0)) continue;
+    if (!(relative > 0.0) || !(s.std > 0.0)) continue;
     const double by_s = relative * s.value;
     const double by_a = by_s / s.std * r.estimate.sigma_a_per_mm.std;
     widen({"focus", by_s, by_a}, -by_s * by_a, r.estimate);

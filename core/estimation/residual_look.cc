@@ -86,7 +86,7 @@ class BestPattern {
     const Eigen::MatrixXd b = image_.std_l.cwiseInverse().asDiagonal() * columns;
     const Eigen::VectorXd score = b.transpose() * whitened(image_.rest);
     const Eigen::VectorXd x = SymmetricSolver(Eigen::MatrixXd(b.transpose() * b)).solve(score);
-    keep(score.dot(x) - static_cast<double>(columns.cols()), columns * x,
+    keep(score.dot(x) - static_cast<double>(columns.cols()), (columns * x).norm(),
          [&] { return phrase(x); });
   }
 
@@ -101,24 +101,19 @@ class BestPattern {
     std::nth_element(rows.begin(), end, rows.end(),
                      [&](Eigen::Index a, Eigen::Index b) { return off[a] > off[b]; });
     rows.resize(n);
-    double gain = 0.0;
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(off.size());
-    for (const Eigen::Index i : rows) {
-      gain += off[i] - kSpotByNoise;
-      change[i] = image_.rest[i];
-    }
-    keep(gain, change, [&] { return phrase(n); });
+    const double gain = off(rows).sum() - kSpotByNoise * static_cast<double>(n);
+    keep(gain, image_.rest(rows).norm(), [&] { return phrase(n); });
   }
 
   std::optional<ResidualLook> take() { return std::move(best_); }
 
  private:
-  // gain: of chi-square; change: of l.
+  // gain: of chi-square; change: of l, its norm.
   template <class Phrase>
-  void keep(double gain, const Eigen::VectorXd& change, const Phrase& phrase) {
+  void keep(double gain, double change, const Phrase& phrase) {
     const double share = gain / std::max(unexplained_, gain);
     if (!(gain > kLeastChi2) || !(share > kLeastShare)) return;
-    if (!(change.norm() > kLeastImage * image_.predicted.norm())) return;
+    if (!(change > kLeastImage * image_.predicted.norm())) return;
     if (best_ && best_->share >= share) return;
     best_ = {phrase(), share};
   }

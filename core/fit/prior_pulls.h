@@ -61,7 +61,7 @@ inline constexpr double kLeastPullImage = 1e-3;
 inline constexpr double kLeastExplained = 1e-4;
 
 // The largest contradiction that is significant (|pull| > most_pull), visible (image_relative >
-// least_image) and explains enough of the residual (explained_relative > least_explained); null if
+// least_image) and explains enough of the image (explained_relative > least_explained); null if
 // there is none.
 const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_pull,
                                double least_image, double least_explained = kLeastExplained);

@@ -1,11 +1,8 @@
 #include "core/view/sample_map.h"
 
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <numeric>
-#include <span>
-#include <utility>
 
 #include <Eigen/Geometry>
 #include <oneapi/tbb/parallel_for.h>

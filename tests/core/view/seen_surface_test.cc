@@ -33,30 +33,38 @@ double to_edge_mm(const Eigen::Vector3d& p) {
   return mm[1];
 }
 
-// No sample that near to an edge takes part, however few pixels that is on a slanted face, and no
-// other sample is left out.
-TEST(SeenSurface, EdgeReachKeepsOffWhatMayBeCut) {
-  const TriangleMesh mesh = test_support::make_cube();
+// Calls see(point, whether it is inside, with edges reaching 0.5 mm) for the samples that are
+// inside without that reach.
+template <class See>
+void for_samples(const TriangleMesh& mesh, const RayGrid& rays, const See& see) {
   const RayScene scene(mesh);
   const PatchMesh patches(mesh, 1.0);
-  const RayGrid rays =
-      test_support::pinhole_rays({40, -90, 120}, {0, 0, 10}, 2200.0, kWidth, kWidth);
   const SeenSurface bare(rays, scene, patches, options(0.0));
   const SeenSurface surface(rays, scene, patches, options(0.5));
-  std::size_t left_out = 0;
   for (int y = 0; y < kWidth; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const std::size_t i = surface.index(x, y);
       if (surface.seen(i).patch < 0 || !bare.inside(x, y)) continue;
-      const double mm = to_edge_mm(surface.point(i));
-      if (surface.inside(x, y)) {
-        EXPECT_GT(mm, 0.4);
-      } else {
-        ++left_out;
-        EXPECT_LT(mm, 0.8);  // a whole diagonal step more, on the most slanted face
-      }
+      see(surface.point(i), surface.inside(x, y));
     }
   }
+}
+
+// No sample that near to an edge takes part, however few pixels that is on a slanted face, and no
+// other sample is left out.
+TEST(SeenSurface, EdgeReachKeepsOffWhatMayBeCut) {
+  std::size_t left_out = 0;
+  for_samples(test_support::make_cube(),
+              test_support::pinhole_rays({40, -90, 120}, {0, 0, 10}, 2200.0, kWidth, kWidth),
+              [&](const Eigen::Vector3d& p, bool is_inside) {
+                const double mm = to_edge_mm(p);
+                if (is_inside) {
+                  EXPECT_GT(mm, 0.4);
+                } else {
+                  ++left_out;
+                  EXPECT_LT(mm, 0.8);  // a whole diagonal step more, on the most slanted face
+                }
+              });
   EXPECT_GT(left_out, 1000U);
 }
 
@@ -70,22 +78,15 @@ TEST(SeenSurface, EdgeReachKeepsConcaveEdges) {
   for (const auto& t : block.triangles) {
     mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   }
-  const RayScene scene(mesh);
-  const PatchMesh patches(mesh, 1.0);
-  const RayGrid rays = test_support::pinhole_rays({0, -90, 120}, {0, 0, 5}, 2200.0, kWidth, kWidth);
-  const SeenSurface bare(rays, scene, patches, options(0.0));
-  const SeenSurface surface(rays, scene, patches, options(0.5));
   std::size_t near_foot = 0;
-  for (int y = 0; y < kWidth; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const std::size_t i = surface.index(x, y);
-      if (surface.seen(i).patch < 0 || !bare.inside(x, y)) continue;
-      const Eigen::Vector3d p = surface.point(i);
-      if (std::abs(p.y()) > 0.4 || std::abs(p.x()) > 8.0 || std::abs(p.z() - 5.0) > 0.4) continue;
-      ++near_foot;
-      EXPECT_TRUE(surface.inside(x, y)) << p.transpose();
-    }
-  }
+  for_samples(mesh, test_support::pinhole_rays({0, -90, 120}, {0, 0, 5}, 2200.0, kWidth, kWidth),
+              [&](const Eigen::Vector3d& p, bool is_inside) {
+                if (std::abs(p.y()) > 0.4 || std::abs(p.x()) > 8.0 || std::abs(p.z() - 5.0) > 0.4) {
+                  return;
+                }
+                ++near_foot;
+                EXPECT_TRUE(is_inside) << p.transpose();
+              });
   EXPECT_GT(near_foot, 100U);
 }
 
