@@ -136,6 +136,9 @@ std::vector<ChannelResult> fitted_from_where_seen(
   constexpr double kUnsettled = 2.0 * kVisibleMotion;
   // Paths are traced anew for the larger motions only, and once.
   constexpr double kWorthPaths = 2.0 * kVisibleMotion;
+  // Enough of them tell where the objects lie; the others are for the view that stays.
+  constexpr std::int64_t kLookingPaths = 300'000;
+  const std::int64_t paths = options.paths;
   bool by_transport = false;  // the view is where transport shows the objects to lie
   for (int views = 1;; ++views) {
     const auto from = [&](const JointJudgement& joint) {
@@ -149,6 +152,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
       found = from(joint_pulls_of(results));
       return is_last || !(found.motion > kVisibleMotion);
     };
+    options.paths = by_transport ? paths : std::min(paths, kLookingPaths);
     std::vector<ChannelResult> results = fit(options);
     if (options.model == "dipole") found = from(most_probable_pulls_of(results));
     const bool has_paths = std::any_of(results.begin(), results.end(), [](const ChannelResult& r) {
@@ -156,8 +160,11 @@ std::vector<ChannelResult> fitted_from_where_seen(
     });
     if (has_paths && !by_transport && !(found.motion > kVisibleMotion)) {
       found = from(joint_pulls_of(results));
-      by_transport = found.motion > kWorthPaths;
-      if (!by_transport) found = {};
+      by_transport = true;
+      if (!(found.motion > kWorthPaths)) {
+        found = {};
+        if (paths > options.paths) continue;
+      }
     }
     if (is_last || !(found.motion > kVisibleMotion)) {
       if (!(found.motion > kUnsettled)) return results;

@@ -1,42 +1,82 @@
 #include "core/estimation/channel_simulation.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <string>
 
-#include "core/scene/surroundings.h"
-
 namespace scattermeter {
+namespace {
 
-ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& channel)
+// A node of the atlas in the interpolation at a point.
+struct Share {
+  int node = 0;
+  double weight = 0;           // Lagrange's, of the cubic through four nodes
+  double per_log_sigma_s = 0;  // its derivative
+  int levels = 0;
+};
+
+// Enough paths at each node for errors as of `blocks` blocks at the point itself, as few as
+// possible in total: in proportion to the weights.
+std::array<Share, 4> shares(double sigma_s_per_mm, int blocks) {
+  const double x = std::log(sigma_s_per_mm) / TransportAtlas::kSpacing;
+  const double floor = std::floor(x);
+  std::array<Share, 4> out;
+  double sum = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    Share& share = out[static_cast<std::size_t>(i)];
+    share.node = static_cast<int>(floor) - 1 + i;
+    share.weight = 1.0;
+    for (int j = 0; j < 4; ++j) {
+      if (j == i) continue;
+      double slope = 1.0 / (i - j);
+      for (int k = 0; k < 4; ++k) {
+        if (k != i && k != j) slope *= (x - (floor - 1 + k)) / (i - k);
+      }
+      share.per_log_sigma_s += slope / TransportAtlas::kSpacing;
+      share.weight *= (x - (floor - 1 + j)) / (i - j);
+    }
+    sum += std::abs(share.weight);
+  }
+  for (Share& share : out) {
+    share.levels = WhiteRows::levels_for(ChannelSimulation::kBlockPaths * blocks *
+                                         std::abs(share.weight) * sum);
+  }
+  return out;
+}
+
+// The light of `share`'s node, carried to the point by the control.
+struct Carried {
+  Eigen::VectorXd factor, per_log_sigma_s, per_sigma_a;  // by row of the control
+};
+Carried carried(const ScatteringImage& here, const ScatteringImage& there) {
+  // Without light of the control: as it is.
+  const auto known = here.l.array() > 0.0 && there.l.array() > 0.0;
+  const Eigen::ArrayXd factor = known.select(here.l.array() / there.l.array(), 1.0);
+  return {
+      factor, known.select(here.per_log_sigma_s.array() / there.l.array(), 0.0),
+      known.select(
+          (here.per_sigma_a.array() - factor * there.per_sigma_a.array()) / there.l.array(), 0.0)};
+}
+
+}  // namespace
+
+ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& channel,
+                                     TransportAtlas& atlas)
     : channel_(channel) {
   for (std::size_t s = 0; s < channel.shots.size(); ++s) {
     const ObservedShot& shot = *channel.shots[s];
-    const SeenObject& seen = *shot.seen;
-    const auto [view, is_new] = views_.try_emplace(&seen);
-    if (is_new) {
-      view->second.boundary = std::make_unique<PathBoundary>(*seen.object->rays);
-      view->second.camera.emplace(*view->second.boundary, seen.camera_center_mm,
-                                  ScatteringMedium{1.0, 0.0, 0.0, channel.eta_int_over_ext});
-      view->second.plane = plane_below(scene, *seen.object).in(channel.channel);
-      view->second.rows = scattering_view(*seen.patches, seen.map.patch_of_row);
-    }
     for (const std::string& name : shot.stated->lights) {
       const SceneLight& light = scene.light(name);
       const double power = light->power()[static_cast<Eigen::Index>(channel.channel)];
       if (!(power > 0.0)) continue;
-      auto known = std::find_if(lit_.begin(), lit_.end(), [&](const LitView& v) {
-        return v.seen == &seen && v.light == &light;
-      });
+      TransportAtlas::LitView* in_atlas =
+          &atlas.lit_view(scene, shot.seen, light, channel.channel, channel.eta_int_over_ext);
+      auto known = std::find_if(lit_.begin(), lit_.end(),
+                                [&](const Lit& v) { return v.in_atlas == in_atlas; });
       if (known == lit_.end()) {
-        lit_.push_back({&seen,
-                        &light,
-                        &view->second,
-                        entry_above(light, *seen.object->rays, channel.eta_int_over_ext,
-                                    static_cast<int>(channel.channel), view->second.plane),
-                        power,
-                        {},
-                        {}});
+        lit_.push_back({in_atlas, power, {}, {}});
         known = std::prev(lit_.end());
       }
       known->shots.push_back(s);
@@ -47,7 +87,7 @@ ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& 
 void ChannelSimulation::set_rows(const ChannelRows& rows) {
   area_mm2_.clear();
   center_mm_.clear();
-  for (LitView& v : lit_) v.rows.clear();
+  for (Lit& v : lit_) v.rows.clear();
   Eigen::Index at = 0;
   for (std::size_t s = 0; s < channel_.shots.size(); ++s) {
     const SeenObject& seen = *channel_.shots[s]->seen;
@@ -59,7 +99,7 @@ void ChannelSimulation::set_rows(const ChannelRows& rows) {
       area_mm2_.push_back(seen.patches->area_mm2(patch));
       center_mm_.push_back(seen.patches->center_mm(patch));
     }
-    for (LitView& v : lit_) {
+    for (Lit& v : lit_) {
       for (const std::size_t own : v.shots) {
         if (own == s) v.rows.insert(v.rows.end(), pairs.begin(), pairs.end());
       }
@@ -67,56 +107,58 @@ void ChannelSimulation::set_rows(const ChannelRows& rows) {
   }
 }
 
-ChannelSimulation::Draw ChannelSimulation::draw(const Eigen::MatrixXd& projection) {
-  Draw out;
-  out.seed = 1000 * ++draws_;
-  out.n_projected = projection.rows();
-  for (const LitView& v : lit_) {
-    Eigen::MatrixXd own = Eigen::MatrixXd::Zero(projection.rows(), v.view->rows.n_rows);
-    for (const auto& [row, view_row] : v.rows) own.col(view_row) += v.power * projection.col(row);
-    std::vector<Eigen::Index>& touched = out.projected.emplace_back();
-    for (Eigen::Index k = 0; k < own.rows(); ++k) {
-      if (!own.row(k).isZero(0.0)) touched.push_back(k);
+std::int64_t ChannelSimulation::missing_paths(const ScatteringPoint& at, int blocks) const {
+  std::int64_t paths = 0;
+  for (const Share& share : shares(at.sigma_s_per_mm, blocks)) {
+    for (const Lit& v : lit_) paths += v.in_atlas->missing_paths(share.node, share.levels);
+  }
+  return paths;
+}
+
+ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int blocks,
+                                                const Eigen::MatrixXd& projection,
+                                                const Control& control) const {
+  Look out;
+  ScatteringImage& image = out.image;
+  image.l = image.per_log_sigma_s = image.per_sigma_a = image.variance =
+      Eigen::VectorXd::Zero(n_rows());
+  out.covariance = Eigen::MatrixXd::Zero(projection.rows(), projection.rows());
+  const ScatteringImage here = control(at);
+  // By light and view: 1 / blocks, and the sum of the nodes' squares of it.
+  std::vector<double> errors(lit_.size(), 0.0), squares(lit_.size(), 0.0);
+  for (const Share& share : shares(at.sigma_s_per_mm, blocks)) {
+    const Carried to_here = carried(
+        here, control({TransportAtlas::sigma_s_per_mm(share.node), at.sigma_a_per_mm, at.scale}));
+    for (std::size_t i = 0; i < lit_.size(); ++i) {
+      const Lit& v = lit_[i];
+      const WhiteRows& node = v.in_atlas->node(share.node, share.levels);
+      const WhiteRows::Light light = node.light(at.sigma_a_per_mm);
+      const Eigen::MatrixXd departures = node.departures(at.sigma_a_per_mm);
+      const Eigen::VectorXd variance = departures.rowwise().squaredNorm();
+      Eigen::MatrixXd own = Eigen::MatrixXd::Zero(projection.rows(), departures.rows());
+      for (const auto& [row, at_view] : v.rows) {
+        const double l = v.power * light.l[at_view];
+        const double factor = share.weight * to_here.factor[row];
+        image.l[row] += factor * l;
+        image.per_log_sigma_s[row] += l * (share.weight * to_here.per_log_sigma_s[row] +
+                                           share.per_log_sigma_s * to_here.factor[row]);
+        image.per_sigma_a[row] += factor * v.power * light.per_sigma_a[at_view] +
+                                  share.weight * l * to_here.per_sigma_a[row];
+        image.variance[row] += factor * factor * v.power * v.power * variance[at_view];
+        own.col(at_view) += factor * v.power * projection.col(row);
+      }
+      const Eigen::MatrixXd projected = own * departures;
+      out.covariance += projected * projected.transpose();
+      const double error =
+          share.weight * share.weight * kBlockPaths / static_cast<double>(node.paths());
+      errors[i] += error;
+      squares[i] += error * error;
     }
-    out.of_light.emplace_back(v.view->rows, own(touched, Eigen::all));
   }
-  return out;
-}
-
-void ChannelSimulation::trace(Draw& draw, const ScatteringPoint& at, int blocks) const {
-  const ScatteringMedium medium{at.sigma_s_per_mm, at.sigma_a_per_mm, 0.0,
-                                channel_.eta_int_over_ext};
-  for (std::size_t i = 0; i < lit_.size(); ++i) {
-    const LitView& v = lit_[i];
-    const CameraConnection camera = v.view->camera->with(medium, v.view->plane);
-    PathOptions options;
-    options.seed = draw.seed + i;
-    draw.of_light[i].trace({*v.view->boundary, medium, *v.source, &camera, v.view->plane}, options,
-                           blocks);
-  }
-}
-
-ScatteringImage ChannelSimulation::image(const Draw& draw) const {
-  ScatteringImage out;
-  out.l = out.per_log_sigma_s = out.per_sigma_a = out.variance = Eigen::VectorXd::Zero(n_rows());
-  for (std::size_t i = 0; i < lit_.size(); ++i) {
-    const LitView& v = lit_[i];
-    const ScatteringImage own = draw.of_light[i].image();
-    for (const auto& [row, view_row] : v.rows) {
-      out.l[row] += v.power * own.l[view_row];
-      out.per_log_sigma_s[row] += v.power * own.per_log_sigma_s[view_row];
-      out.per_sigma_a[row] += v.power * own.per_sigma_a[view_row];
-      out.variance[row] += v.power * v.power * own.variance[view_row];
-    }
-  }
-  return out;
-}
-
-Eigen::MatrixXd ChannelSimulation::covariance(const Draw& draw) {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(draw.n_projected, draw.n_projected);
-  for (std::size_t i = 0; i < draw.of_light.size(); ++i) {
-    out(draw.projected[i], draw.projected[i]) += draw.of_light[i].projected_covariance();
-  }
+  const auto most = std::max_element(errors.begin(), errors.end());
+  out.blocks = static_cast<int>(std::lround(1.0 / *most));
+  out.freedom = (WhiteRows::kBatches - 1.0) * *most * *most /
+                squares[static_cast<std::size_t>(most - errors.begin())];
   return out;
 }
 

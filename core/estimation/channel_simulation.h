@@ -2,30 +2,30 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <memory>
-#include <optional>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/estimation/channel_rows.h"
+#include "core/estimation/transport_atlas.h"
 #include "core/fit/scattering_equation.h"
-#include "core/light/diffuse_plane.h"
-#include "core/light/entry_source.h"
-#include "core/transport/camera_connection.h"
-#include "core/transport/path_boundary.h"
 #include "core/transport/scattering_rows.h"
 
 namespace scattermeter {
 
-// Shots that see an object under the same light share its paths. Scene and channel must outlive
-// the object.
+// Between the nodes of the atlas, what is interpolated is the light over a control: that of the
+// dipole, which varies in nearly the same way. By cubics through four nodes; shots that see an
+// object under the same light share its paths, and so do channels and materials. Scene, channel and
+// atlas must outlive the object.
 class ChannelSimulation {
  public:
+  // The dipole's image and derivatives at a point, with the simulation's rows.
+  using Control = std::function<ScatteringImage(const ScatteringPoint&)>;
+
   // Throws InputError if a light reaches no part of an object.
-  ChannelSimulation(const Scene& scene, const MaterialChannel& channel);
+  ChannelSimulation(const Scene& scene, const MaterialChannel& channel, TransportAtlas& atlas);
 
   // From now on, images and projections have the rows whose state is kUsed, shot by shot.
   void set_rows(const ChannelRows& rows);
@@ -34,35 +34,26 @@ class ChannelSimulation {
   const std::vector<double>& area_mm2() const { return area_mm2_; }
   const std::vector<Eigen::Vector3d>& center_mm() const { return center_mm_; }
 
-  // A sample of paths for one medium; initially empty.
-  struct Draw {
-    std::vector<ScatteringSum> of_light;
-    std::vector<std::vector<Eigen::Index>> projected;  // projection's rows, by light
-    Eigen::Index n_projected = 0;
-    std::uint64_t seed = 0;
-    int blocks() const { return of_light.front().blocks(); }
+  // Blocks count paths, kBlockPaths each, for each light and view: as many paths drawn at the point
+  // itself would have the errors of these.
+  static constexpr double kBlockPaths = 4096.0;
+  struct Look {
+    ScatteringImage image;       // at scale 1, W/mm^2
+    Eigen::MatrixXd covariance;  // of projection * image.l
+    int blocks = 0;              // of the light and view that has fewest; at least those asked for
+    // Degrees of freedom of the covariance (Welch 1947, Satterthwaite 1946), of the same.
+    double freedom = 0;
   };
-  // projection: a matrix whose columns are the rows of the images. No two draws share a path.
-  Draw draw(const Eigen::MatrixXd& projection);
-  void trace(Draw& draw, const ScatteringPoint& at, int blocks) const;
-  // At scale 1, W/mm^2.
-  ScatteringImage image(const Draw& draw) const;
-  // Of projection * image.
-  static Eigen::MatrixXd covariance(const Draw& draw);
+  // projection: any number of rows x n_rows(). Traces what is missing for so many blocks.
+  Look look(const ScatteringPoint& at, int blocks, const Eigen::MatrixXd& projection,
+            const Control& control) const;
+  // Paths that look() would trace.
+  std::int64_t missing_paths(const ScatteringPoint& at, int blocks) const;
 
  private:
-  struct View {
-    std::unique_ptr<PathBoundary> boundary;
-    std::optional<CameraConnection> camera;  // of some medium
-    ScatteringView rows;
-    DiffusePlane plane;  // below the object
-  };
-  // One light on one object, as the camera sees it.
-  struct LitView {
-    const SeenObject* seen;
-    const SceneLight* light;
-    const View* view;
-    std::unique_ptr<EntrySource> source;
+  // A light and view of the channel's shots.
+  struct Lit {
+    TransportAtlas::LitView* in_atlas;
     double power;
     std::vector<std::size_t> shots;
     // Pairs of a row of the images that it lights and the same row of the view.
@@ -70,11 +61,9 @@ class ChannelSimulation {
   };
 
   const MaterialChannel& channel_;
-  std::map<const SeenObject*, View> views_;
-  std::vector<LitView> lit_;
+  std::vector<Lit> lit_;
   std::vector<double> area_mm2_;
   std::vector<Eigen::Vector3d> center_mm_;
-  std::uint64_t draws_ = 0;
 };
 
 }  // namespace scattermeter

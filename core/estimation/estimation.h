@@ -16,6 +16,7 @@
 #include "core/estimation/estimate.h"
 #include "core/estimation/material_channel.h"
 #include "core/estimation/nuisances.h"
+#include "core/estimation/transport_atlas.h"
 #include "core/fit/dipole_fit.h"
 
 namespace scattermeter {
@@ -24,6 +25,7 @@ namespace scattermeter {
 struct KeptLight {
   Weights weights;  // on smooth knots
   ChangedWeightsByLight changed;
+  TransportAtlas atlas = {};
 };
 
 class Estimation {

@@ -30,7 +30,8 @@ void estimate_from_dipole(Estimation& e, const char* otherwise, const Wants& wan
     result.model = "transport";
     result.dipole = result.estimate;
     result.rows.clear();
-    search_by_transport(e.scene, e.channels[i], *systems[i], e.options, stage, result);
+    search_by_transport(e.scene, e.channels[i], *systems[i], e.kept.atlas, e.options, stage,
+                        result);
     stage.step();
   }
   e.watch.lap("transport");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "core/base/dense_solve.h"
 #include "core/fit/excess_scatter.h"
@@ -81,10 +82,11 @@ Eigen::MatrixXd TransportRound::projection() const {
   return all;
 }
 
-void TransportRound::take(const ChannelSimulation::Draw& draw) {
-  image_ = shots_.simulation.image(draw);
-  covariance_ = ChannelSimulation::covariance(draw);
-  blocks_ = draw.blocks();
+void TransportRound::take(ChannelSimulation::Look look) {
+  image_ = std::move(look.image);
+  covariance_ = std::move(look.covariance);
+  blocks_ = look.blocks;
+  freedom_ = look.freedom;
   const Eigen::MatrixXd own = covariance_.topLeftCorner(unknowns(), unknowns());
   step_ = joint_.step(image_, own, at_);
   // Smoothed images, such as renderings, scatter less from row to row than over several rows; both
@@ -177,11 +179,11 @@ Eigen::MatrixXd TransportRound::covariance_of_parts(const Eigen::MatrixXd& light
   const Eigen::Index n = light.rows();
   const Eigen::MatrixXd noise =
       light * shots_.system.std_l.cwiseAbs2().asDiagonal() * light.transpose();
-  // The inverse of a covariance from so many blocks is too large in the mean (Hartlap, Simon &
+  // The inverse of a covariance from so few batches is too large in the mean (Hartlap, Simon &
   // Schneider 2007); parts of other shots do not count.
   const double own_parts =
       static_cast<double>(n) / static_cast<double>(shots_.system.shot_rows.size());
-  const double too_large = (blocks_ - 1.0) / (blocks_ - own_parts - 2.0);
+  const double too_large = freedom_ / std::max(1.0, freedom_ - own_parts - 1.0);
   return noise + at_.scale * at_.scale * scatter_within_ * too_large *
                      (shots_.parts.parts() * cell_covariance() * shots_.parts.parts().transpose());
 }

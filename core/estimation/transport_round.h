@@ -23,7 +23,6 @@ namespace scattermeter {
 struct TransportShots {
   const DenseSystem& system;
   const ShotParts& parts;
-  const ChannelSimulation& simulation;
 };
 
 // Estimating equations for all shots and for each shot alone, and their solution with newly drawn
@@ -45,9 +44,8 @@ class TransportRound {
   // The projection for the joint estimate, for each shot's own, for the scale (if stated), and for
   // the light of the cells.
   Eigen::MatrixXd projection() const;
-  // Takes a draw for that projection, traced at this point. Everything below refers to the last
-  // one.
-  void take(const ChannelSimulation::Draw& draw);
+  // Takes a look at this point with that projection. Everything below refers to the last one.
+  void take(ChannelSimulation::Look look);
 
   const ScatteringPoint& at() const { return at_; }
   const ScatteringEquation& equation() const { return joint_; }
@@ -116,6 +114,7 @@ class TransportRound {
   LackOfFit misfit_;
   ScatteringEquation::Step step_;
   int blocks_ = 0;
+  double freedom_ = 0;  // of covariance_
 };
 
 }  // namespace scattermeter

@@ -35,7 +35,7 @@ constexpr double kTransportOutlierStd = 8.0;
 class TransportSearch {
  public:
   TransportSearch(const Scene& scene, const MaterialChannel& channel, const DipoleSystem& dipole,
-                  const EstimateOptions& options, const ProgressStage& stage)
+                  TransportAtlas& atlas, const EstimateOptions& options, const ProgressStage& stage)
       : channel_(channel),
         knots_(dipole.knots),
         system_(whole(dipole)),
@@ -43,7 +43,7 @@ class TransportSearch {
         scale_(scale_prior(scene)),
         options_(options),
         stage_(stage),
-        simulation_(scene, channel) {
+        simulation_(scene, channel, atlas) {
     // The image is that of whole patches.
     keep([&](std::size_t shot, std::size_t row, Eigen::Index) {
       return channel_.shots[shot]->seen->map.guarded_of_row[row] == 0 ? RowState::kUsed
@@ -74,11 +74,11 @@ class TransportSearch {
       stage_.check();
       const bool learned = part_light_.blocks() >= kLearnedBlocks;
       // During the search, a scale with a prior is taken as exact, which makes it more stable.
-      TransportRound round(
-          {system_, parts_, simulation_}, learned || has_free_scale() ? scale_ : ScalePrior{}, at,
-          pilot(last.image, at), last.blocks / kFinalPathBlocks + last.scatter - 1.0,
-          (1.0 / kFinalPathBlocks + (last.scatter - 1.0) / last.blocks) *
-              part_light_.relative_cell_covariance(parts_));
+      TransportRound round({system_, parts_}, learned || has_free_scale() ? scale_ : ScalePrior{},
+                           at, pilot(last.image, at),
+                           last.blocks / kFinalPathBlocks + last.scatter - 1.0,
+                           (1.0 / kFinalPathBlocks + (last.scatter - 1.0) / last.blocks) *
+                               part_light_.relative_cell_covariance(parts_));
       trace(round, blocks, learned);
       if (round.step().change > kFarStep) part_light_.forget();
       last = {round.image(), round.blocks(), round.scatter()};
@@ -89,8 +89,7 @@ class TransportSearch {
         outliers_known = true;
         last = first_look(to);
       } else if (round.step().change < 0.2 || round.scatter_within() > 1.5) {
-        // If the paths' noise dominates the step, more paths are drawn.
-        blocks *= 2;
+        blocks *= 2;  // noise of the paths dominates the step
       }
       at = to;
     }
@@ -115,7 +114,7 @@ class TransportSearch {
     return system;
   }
 
-  // The errors to be expected, as predicted from paths drawn at other points.
+  // The errors to be expected, by an earlier look.
   struct Look {
     ScatteringImage image;
     int blocks = 0;
@@ -127,33 +126,49 @@ class TransportSearch {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
-  // `blocks` of paths at the round's point; where that is close enough for them to serve the root
-  // as well (may_be_last), as many as are useful and as time and options allow.
-  void trace(TransportRound& round, int blocks, bool may_be_last) {
+  ChannelSimulation::Look look(const ScatteringPoint& at, int blocks,
+                               const Eigen::MatrixXd& projection) {
     const double started_s = elapsed_s();
-    ChannelSimulation::Draw draw = simulation_.draw(round.projection());
-    simulation_.trace(draw, round.at(), blocks);
-    round.take(draw);
+    const std::int64_t paths = simulation_.missing_paths(at, blocks);
+    ChannelSimulation::Look out = simulation_.look(
+        at, blocks, projection, [this](const ScatteringPoint& p) { return dipole(p); });
+    traced_ += static_cast<double>(paths);
+    if (paths > 0) tracing_s_ += elapsed_s() - started_s;
+    return out;
+  }
+
+  // `blocks` of paths at the round's point; where that is close enough to the root (may_be_last),
+  // as many as are useful and as time and options allow.
+  void trace(TransportRound& round, int blocks, bool may_be_last) {
+    const Eigen::MatrixXd projection = round.projection();
+    round.take(look(round.at(), blocks, projection));
     while (may_be_last && is_close(round.step(), round.blocks()) &&
            !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
       stage_.check();
-      const double per_block_s = (elapsed_s() - started_s) / round.blocks();
-      const int affordable = static_cast<int>((options_.time_limit_s - elapsed_s()) / per_block_s);
-      const int left = static_cast<int>(std::min<std::int64_t>(
-          options_.paths / PathOptions{}.paths_per_block - round.blocks(), round.blocks()));
-      if (left < 1 || affordable < round.blocks() / 8 + 1) break;
-      simulation_.trace(draw, round.at(), std::min(left, affordable));
-      round.take(draw);
+      const int more = next_blocks(round);
+      if (more == 0) break;
+      round.take(look(round.at(), more, projection));
     }
   }
 
+  // Twice as many, or as time and options allow; 0: they allow none.
+  int next_blocks(const TransportRound& round) const {
+    const double left_s = options_.time_limit_s - elapsed_s();
+    const double in_time = tracing_s_ > 0.0 ? traced_ / tracing_s_ * left_s : 1e300;
+    const double most = static_cast<double>(options_.paths) / ChannelSimulation::kBlockPaths;
+    const int now = round.blocks();
+    for (const int more : {2 * now, std::max(kLeastBlocks, 3 * now / 2), 5 * now / 4}) {
+      if (!(more > now && more <= most)) continue;
+      const std::int64_t paths = simulation_.missing_paths(round.at(), more);
+      if (static_cast<double>(paths) <= in_time) return more;
+    }
+    return 0;
+  }
+
   Look first_look(const ScatteringPoint& at) {
-    ChannelSimulation::Draw draw = simulation_.draw(parts_.cells());
-    simulation_.trace(draw, at, kFirstBlocks);
-    const Look look{simulation_.image(draw), kFirstBlocks, 1.0};
-    part_light_.learn(parts_, look.image, ChannelSimulation::covariance(draw), dipole(at),
-                      kFirstBlocks);
-    return look;
+    ChannelSimulation::Look seen = look(at, kFirstBlocks, parts_.cells());
+    part_light_.learn(parts_, seen.image, seen.covariance, dipole(at), seen.blocks);
+    return {std::move(seen.image), seen.blocks, 1.0};
   }
 
   // Keeps rows of which `state_of(shot, row of its view, row of the system so far)` is kUsed.
@@ -270,14 +285,17 @@ class TransportSearch {
   ShotParts parts_;
   PartLight part_light_;
   std::chrono::steady_clock::time_point start_;
+  double traced_ = 0;  // paths, and the time that they took
+  double tracing_s_ = 0;
 };
 
 }  // namespace
 
 void search_by_transport(const Scene& scene, const MaterialChannel& channel,
-                         const DipoleSystem& dipole, const EstimateOptions& options,
-                         const ProgressStage& stage, ChannelResult& result) {
-  TransportSearch(scene, channel, dipole, options, stage).run(result);
+                         const DipoleSystem& dipole, TransportAtlas& atlas,
+                         const EstimateOptions& options, const ProgressStage& stage,
+                         ChannelResult& result) {
+  TransportSearch(scene, channel, dipole, atlas, options, stage).run(result);
 }
 
 }  // namespace scattermeter

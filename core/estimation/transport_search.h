@@ -4,16 +4,19 @@
 #include "core/base/progress.h"
 #include "core/estimation/channel_result.h"
 #include "core/estimation/estimation.h"
+#include "core/estimation/transport_atlas.h"
 #include "core/fit/estimate.h"
 
 namespace scattermeter {
 
 // An estimating equation (core/fit/scattering_equation.h) is solved by Newton steps that start from
-// the dipole's result; every step draws new paths, more as the search converges, until those of the
-// last step also determine the root. Z is the dipole's, corrected part by part with earlier paths
-// (core/fit/part_light.h), and the weights account for the errors common to the rows of a cell.
-// Errors of the shots beyond their noise widen the result like errors of the paths; if whole parts
-// deviate, it is refused.
+// the dipole's result. The light is that of the atlas, which traces what is missing: more paths as
+// the search converges, until the Monte Carlo error is small. Z is the dipole's, corrected part by
+// part with the same paths (core/fit/part_light.h): their errors in the light of whole parts are
+// some per mille, so that what they share biases the root by their square only. The weights account
+// for the errors common to the rows of a cell. Errors of the shots beyond their noise widen the
+// result like errors of the paths; if whole parts deviate, it is refused. How far the atlas is
+// traced already changes the estimate, within its Monte Carlo error.
 //
 // Cube and pyramid under two LEDs (four shots, eta 1.3), exact scale, 60 s on two cores a channel,
 // per mm. 2.19 / 0.002, three truths of 1.2 10^7 paths a light: 2.193, 2.194, 2.192 (each +- 0.005)
@@ -27,7 +30,8 @@ namespace scattermeter {
 // Starts from the result's estimate and replaces it, its singles and agreement; if the search
 // fails, the estimate is refused. Uses options.paths, time_limit_s and keep_rows. Throws Cancelled.
 void search_by_transport(const Scene& scene, const MaterialChannel& channel,
-                         const DipoleSystem& dipole, const EstimateOptions& options,
-                         const ProgressStage& stage, ChannelResult& result);
+                         const DipoleSystem& dipole, TransportAtlas& atlas,
+                         const EstimateOptions& options, const ProgressStage& stage,
+                         ChannelResult& result);
 
 }  // namespace scattermeter

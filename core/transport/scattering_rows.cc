@@ -2,7 +2,6 @@
 
 #include <stdexcept>
 
-#include "core/transport/patch_scores.h"
 #include "core/transport/path_blocks.h"
 
 namespace scattermeter {
@@ -20,8 +19,7 @@ class RowTally {
 
   void escape(const PathScore&) {}
   void camera(const PathScore& score) {
-    const int patch = patch_of(*view_->patches, *mesh_, score).patch_idx;
-    const std::int32_t row = view_->row_of_patch[static_cast<std::size_t>(patch)];
+    const std::int32_t row = row_of(*view_, *mesh_, score);
     if (row < 0) return;
     weight[row] += score.weight;
     weight_n[row] += score.weight * score.scatterings;
@@ -37,20 +35,6 @@ class RowTally {
 };
 
 }  // namespace
-
-ScatteringView scattering_view(const PatchMesh& patches, const std::vector<int>& patch_of_row) {
-  ScatteringView view;
-  view.patches = &patches;
-  view.row_of_patch.assign(static_cast<std::size_t>(patches.size()), -1);
-  view.n_rows = static_cast<Eigen::Index>(patch_of_row.size());
-  view.area_mm2.resize(view.n_rows);
-  for (Eigen::Index row = 0; row < view.n_rows; ++row) {
-    const int patch = patch_of_row[static_cast<std::size_t>(row)];
-    view.row_of_patch[static_cast<std::size_t>(patch)] = static_cast<std::int32_t>(row);
-    view.area_mm2[row] = patches.area_mm2(patch);
-  }
-  return view;
-}
 
 ScatteringSum::ScatteringSum(const ScatteringView& view, const Eigen::MatrixXd& projection)
     : view_(view),

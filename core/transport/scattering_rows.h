@@ -12,6 +12,7 @@
 #include "core/transport/camera_connection.h"
 #include "core/transport/path_boundary.h"
 #include "core/transport/path_tracer.h"
+#include "core/transport/scattering_view.h"
 
 namespace scattermeter {
 
@@ -23,15 +24,6 @@ struct ScatteringImage {
   Eigen::VectorXd per_sigma_a;      // dl / d sigma_a, times mm
   Eigen::VectorXd variance;         // of l; the rows' errors are not independent
 };
-
-// A view: the rows of the patches.
-struct ScatteringView {
-  const PatchMesh* patches = nullptr;
-  std::vector<std::int32_t> row_of_patch;  // -1: no row
-  Eigen::Index n_rows = 0;
-  Eigen::VectorXd area_mm2;  // of the rows' patches
-};
-ScatteringView scattering_view(const PatchMesh& patches, const std::vector<int>& patch_of_row);
 
 // Sums paths in one medium, block by block. The derivatives are those of the paths' weights
 // under a change of the medium (perturbation Monte Carlo): a path of n scatterings and length L in

@@ -7,6 +7,7 @@
 
 #include "core/diffusion/dipole_curve.h"
 #include "core/estimation/channel_simulation.h"
+#include "core/estimation/transport_pilot.h"
 #include "core/light/plane_entry.h"
 #include "core/light/plane_light.h"
 #include "tests/fixtures/core/cube_estimation.h"
@@ -123,11 +124,17 @@ TEST(SurroundingsShot, TransportSimulatesThePlane) {
     cube.scene.surroundings.plane = stated;
     const MaterialChannel channel = material_channels(cube.scene, cube.shots, "R").front();
     const ChannelRows rows = channel_rows(cube.scene, channel);
-    ChannelSimulation simulation(cube.scene, channel);
+    const DenseSystem system = channel_system(cube.scene, channel, rows, cube.weights, 0.0);
+    TransportAtlas atlas;
+    ChannelSimulation simulation(cube.scene, channel, atlas);
     simulation.set_rows(rows);
-    ChannelSimulation::Draw draw = simulation.draw(Eigen::MatrixXd(0, simulation.n_rows()));
-    simulation.trace(draw, {0.9, 0.02, 1.0}, 40);
-    const ScatteringImage image = simulation.image(draw);
+    const ScatteringImage image =
+        simulation
+            .look({0.9, 0.02, 1.0}, 40, Eigen::MatrixXd(0, simulation.n_rows()),
+                  [&](const ScatteringPoint& at) {
+                    return dipole_pilot(system.weights, smooth_knots(cube.lit), at, 1.3);
+                  })
+            .image;
     double chi2 = 0.0;
     Eigen::Index at = 0;
     for (std::size_t j = 0; j < rows[0].state.size(); ++j) {

@@ -15,8 +15,7 @@ namespace {
 constexpr ScatteringPoint kRoundPoint{0.9, 0.01, 1.0};
 constexpr int kRoundBlocks = 2;
 
-// Two shots that show exactly what the first draw of a simulation predicts of them; a round takes
-// the first draw of another one, which follows the same paths.
+// Two shots that show exactly what the simulation predicts of them.
 class RoundOfTheCube : public ::testing::Test {
  protected:
   RoundOfTheCube() {
@@ -24,20 +23,23 @@ class RoundOfTheCube : public ::testing::Test {
     channel_ = material_channels(cube_.scene, cube_.shots, "R").front();
     rows_ = channel_rows(cube_.scene, channel_);
     system_ = channel_system(cube_.scene, channel_, rows_, cube_.weights, 0.0);
-    ChannelSimulation first(cube_.scene, channel_);
-    first.set_rows(rows_);
-    parts_ = ShotParts(system_.shot_rows, first.center_mm(), first.area_mm2(), system_.l);
-    ChannelSimulation::Draw draw = first.draw(parts_.cells());
-    first.trace(draw, kRoundPoint, kRoundBlocks);
-    image_ = first.image(draw);
-    cell_covariance_ = ChannelSimulation::covariance(draw);
-    system_.l = image_.l;
-    simulation_.emplace(cube_.scene, channel_);
+    simulation_.emplace(cube_.scene, channel_, atlas_);
     simulation_->set_rows(rows_);
-    round_.emplace(TransportShots{system_, parts_, *simulation_}, ScalePrior{0.02}, kRoundPoint,
-                   pilot(), 1.0, Eigen::MatrixXd::Zero(parts_.n_cells(), parts_.n_cells()));
+    parts_ =
+        ShotParts(system_.shot_rows, simulation_->center_mm(), simulation_->area_mm2(), system_.l);
+    const ChannelSimulation::Look first = look(parts_.cells());
+    image_ = first.image;
+    cell_covariance_ = first.covariance;
+    system_.l = image_.l;
+    round_.emplace(TransportShots{system_, parts_}, ScalePrior{0.02}, kRoundPoint, pilot(), 1.0,
+                   Eigen::MatrixXd::Zero(parts_.n_cells(), parts_.n_cells()));
   }
 
+  ChannelSimulation::Look look(const Eigen::MatrixXd& projection) const {
+    return simulation_->look(kRoundPoint, kRoundBlocks, projection, [&](const ScatteringPoint& at) {
+      return dipole_pilot(system_.weights, smooth_knots(cube_.lit), at, 1.3);
+    });
+  }
   ScatteringImage pilot() const {
     ScatteringImage out = dipole_pilot(system_.weights, smooth_knots(cube_.lit), kRoundPoint, 1.3);
     std::vector<double> area_mm2;
@@ -57,11 +59,7 @@ class RoundOfTheCube : public ::testing::Test {
     }
     return out;
   }
-  void take() {
-    ChannelSimulation::Draw draw = simulation_->draw(round_->projection());
-    simulation_->trace(draw, kRoundPoint, kRoundBlocks);
-    round_->take(draw);
-  }
+  void take() { round_->take(look(round_->projection())); }
 
   test_support::DipoleCube cube_{2, 4.0};
   MaterialChannel channel_;
@@ -70,6 +68,7 @@ class RoundOfTheCube : public ::testing::Test {
   ShotParts parts_;
   ScatteringImage image_;
   Eigen::MatrixXd cell_covariance_;
+  TransportAtlas atlas_;
   std::optional<ChannelSimulation> simulation_;
   std::optional<TransportRound> round_;
 };
@@ -92,7 +91,7 @@ TEST_F(RoundOfTheCube, ProjectionHoldsJointSinglesScaleAndCells) {
 
 TEST_F(RoundOfTheCube, AnImageThatIsPredictedMovesNothing) {
   take();
-  EXPECT_EQ(round_->blocks(), kRoundBlocks);
+  EXPECT_GE(round_->blocks(), kRoundBlocks);
   EXPECT_LT((round_->image().l - image_.l).norm(), 1e-12 * image_.l.norm());
   EXPECT_LT(round_->residual().norm(), 1e-9 * image_.l.norm());
   EXPECT_LT(round_->step().move.norm(), 1e-9);
@@ -115,8 +114,8 @@ TEST_F(RoundOfTheCube, AnImageThatIsPredictedMovesNothing) {
 TEST_F(RoundOfTheCube, AStepMeetsADepartureAlongTheDerivatives) {
   constexpr double kLogSigmaS = 0.01, kSigmaA = 2e-4;
   system_.l = image_.l + kLogSigmaS * image_.per_log_sigma_s + kSigmaA * image_.per_sigma_a;
-  round_.emplace(TransportShots{system_, parts_, *simulation_}, ScalePrior{}, kRoundPoint, pilot(),
-                 1.0, Eigen::MatrixXd::Zero(parts_.n_cells(), parts_.n_cells()));
+  round_.emplace(TransportShots{system_, parts_}, ScalePrior{}, kRoundPoint, pilot(), 1.0,
+                 Eigen::MatrixXd::Zero(parts_.n_cells(), parts_.n_cells()));
   take();
   ASSERT_EQ(round_->step().move.size(), 2);
   EXPECT_NEAR(round_->step().move[0], kLogSigmaS, 1e-9);

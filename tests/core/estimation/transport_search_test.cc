@@ -29,7 +29,9 @@ ChannelResult searched(test_support::DipoleCube& cube, const EstimateOptions& op
   result.estimate.scale.value = 1.0;
   result.singles.resize(2);
   const ProgressStage stage(progress, "transport", 1);
-  search_by_transport(cube.scene, channel, handed_over(cube, channel), options, stage, result);
+  TransportAtlas atlas;
+  search_by_transport(cube.scene, channel, handed_over(cube, channel), atlas, options, stage,
+                      result);
   return result;
 }
 

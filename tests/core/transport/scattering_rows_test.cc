@@ -1,45 +1,17 @@
 #include "core/transport/scattering_rows.h"
 
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "core/transport/patch_scores.h"
-#include "tests/fixtures/core/boxes.h"
+#include "tests/fixtures/core/rows_scene.h"
 
 namespace scattermeter {
 namespace {
 
-// A small box under an LED, every patch a row.
-struct RowsScene {
-  TriangleMesh mesh = test_support::make_box({-2, -2, 0}, {2, 2, 3});
-  RayScene rays{mesh};
-  PathBoundary boundary{rays};
-  PatchMesh patches{mesh, 1.0};
-  Led led;
-  ScatteringView view;
-  std::unique_ptr<EntrySource> source;
-  PathOptions options;
-  RowsScene() {
-    led.position_mm = {30, -60, 80};
-    led.axis = Eigen::Vector3d(-0.3, 0.6, -0.7).normalized();
-    source = led_entry(rays, led, 1.3);
-    std::vector<int> all(static_cast<std::size_t>(patches.size()));
-    std::iota(all.begin(), all.end(), 0);
-    view = scattering_view(patches, all);
-    options.paths_per_block = 500;
-  }
-  ScatteringSum sum(const ScatteringMedium& medium, std::uint64_t seed, int blocks) const {
-    ScatteringSum out(view, view.area_mm2.transpose());
-    const CameraConnection camera(boundary, {0, -100, 150}, medium);
-    PathOptions own = options;
-    own.seed = seed;
-    out.trace({boundary, medium, *source, &camera}, own, blocks);
-    return out;
-  }
-};
+using test_support::RowsScene;
 
 // The rows' means times their areas are what the patches' scores add up to.
 TEST(ScatteringRows, AreThePatchesScores) {

@@ -1,0 +1,57 @@
+// The image of one view under one light in a medium of given sigma_s, for any absorption.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/transport/absorption_tilts.h"
+#include "core/transport/path_tracer.h"
+#include "core/transport/scattering_view.h"
+
+namespace scattermeter {
+
+// White Monte Carlo (Alerstam, Svensson & Andersson-Engels 2008): paths are traced without
+// absorption, and those of length L count exp(-sigma_a L). The same levels give the same digits on
+// any number of threads.
+class WhiteRows {
+ public:
+  // Independent parts of the paths, whose spread is the Monte Carlo error.
+  static constexpr int kBatches = 64;
+  // Of level 1; each further level doubles them.
+  static constexpr std::int64_t kFirstPaths = 16'384;
+  // The fewest levels that have so many paths.
+  static int levels_for(double paths);
+
+  // The view must outlive the object. size_mm: of the body.
+  WhiteRows(const ScatteringView& view, double sigma_s_per_mm, double size_mm);
+
+  double sigma_s_per_mm() const { return sigma_s_per_mm_; }
+  int levels() const { return levels_; }
+  std::int64_t paths() const { return levels_ == 0 ? 0 : kFirstPaths << (levels_ - 1); }
+  // Traces the paths of one more level, in the world with its medium replaced by this one.
+  void refine(const PathWorld& world, std::uint64_t seed);
+
+  struct Light {
+    Eigen::VectorXd l;            // of every row, as ScatteringImage::l
+    Eigen::VectorXd per_sigma_a;  // dl / d sigma_a, times mm
+  };
+  // Precondition: levels() > 0.
+  Light light(double sigma_a_per_mm) const;
+  // D, rows x kBatches: D D^T estimates the covariance of light().l. Precondition: levels() > 0.
+  Eigen::MatrixXd departures(double sigma_a_per_mm) const;
+
+ private:
+  // Every third tilt is kept for each batch: errors need to be known to some per cent only.
+  static constexpr Eigen::Index kBatchStep = 3;
+
+  const ScatteringView& view_;
+  double sigma_s_per_mm_;
+  AbsorptionTilts tilts_;
+  int levels_ = 0;
+  Eigen::MatrixXd sum_;                 // tilts x rows: scores of all paths
+  std::vector<Eigen::MatrixXf> batch_;  // by kept tilt: rows x kBatches
+};
+
+}  // namespace scattermeter

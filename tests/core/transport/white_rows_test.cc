@@ -1,0 +1,74 @@
+#include "core/transport/white_rows.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/fixtures/core/rows_scene.h"
+
+namespace scattermeter {
+namespace {
+
+constexpr double kSigmaS = 1.2;
+
+struct WhiteScene : test_support::RowsScene {
+  WhiteRows rows(int levels, std::uint64_t seed = 4) const {
+    WhiteRows out(view, kSigmaS, boundary.size_mm());
+    const ScatteringMedium medium{kSigmaS, 0.0, 0.0, 1.3};
+    const CameraConnection seen_from = camera(medium);
+    while (out.levels() < levels) out.refine({boundary, medium, *source, &seen_from}, seed);
+    return out;
+  }
+};
+
+// Of the rows that the camera sees.
+double chi2_per_row(const Eigen::VectorXd& difference, const Eigen::VectorXd& variance) {
+  const Eigen::ArrayXd seen = (variance.array() > 0.0).cast<double>();
+  return (seen * difference.array().square() / variance.array().max(1e-300)).sum() / seen.sum();
+}
+
+// At any absorption, the light is that of paths which are absorbed as they go.
+TEST(WhiteRows, LightIsThatOfAbsorbedPaths) {
+  const WhiteScene s;
+  const WhiteRows white = s.rows(4);
+  for (const double sigma_a : {0.0, 0.003, 0.05, 0.6}) {
+    const ScatteringImage direct = s.sum({kSigmaS, sigma_a, 0.0, 1.3}, 9, 300).image();
+    const WhiteRows::Light light = white.light(sigma_a);
+    const Eigen::VectorXd variance =
+        direct.variance + white.departures(sigma_a).rowwise().squaredNorm();
+    const double chi2 = chi2_per_row(light.l - direct.l, variance);
+    EXPECT_GT(chi2, 0.6) << sigma_a;
+    EXPECT_LT(chi2, 1.5) << sigma_a;
+    const double all = s.view.area_mm2.dot(direct.l);
+    EXPECT_NEAR(s.view.area_mm2.dot(light.l) / all, 1.0, 0.01) << sigma_a;
+    EXPECT_NEAR(s.view.area_mm2.dot(light.per_sigma_a) / s.view.area_mm2.dot(direct.per_sigma_a),
+                1.0, 0.05)
+        << sigma_a;
+  }
+}
+
+TEST(WhiteRows, DeparturesAreTheSpreadOverSeeds) {
+  const WhiteScene s;
+  const WhiteRows a = s.rows(1, 100), b = s.rows(1, 200);
+  const Eigen::VectorXd variance =
+      a.departures(0.01).rowwise().squaredNorm() + b.departures(0.01).rowwise().squaredNorm();
+  const double chi2 = chi2_per_row(a.light(0.01).l - b.light(0.01).l, variance);
+  EXPECT_GT(chi2, 0.6);
+  EXPECT_LT(chi2, 1.6);
+}
+
+TEST(WhiteRows, LevelsDoubleThePaths) {
+  const WhiteScene s;
+  EXPECT_EQ(s.rows(0).paths(), 0);
+  const WhiteRows first = s.rows(1), third = s.rows(3), again = s.rows(3);
+  EXPECT_EQ(first.paths(), WhiteRows::kFirstPaths);
+  EXPECT_EQ(third.paths(), 4 * WhiteRows::kFirstPaths);
+  EXPECT_EQ(third.light(0.02).l, again.light(0.02).l);
+  const double finer = third.departures(0.02).squaredNorm();
+  EXPECT_NEAR(first.departures(0.02).squaredNorm() / finer, 4.0, 1.2);
+  EXPECT_EQ(WhiteRows::levels_for(1.0), 1);
+  EXPECT_EQ(WhiteRows::levels_for(WhiteRows::kFirstPaths + 1.0), 2);
+}
+
+}  // namespace
+}  // namespace scattermeter
