@@ -13,8 +13,10 @@
 namespace scattermeter::calib {
 namespace {
 
-constexpr double kMinPiece = 3.0;        // cells
-constexpr std::size_t kBlurSample = 15;  // strips from which the blur is estimated
+constexpr double kMinPiece = 3.0;  // cells
+// Strips from which the blur is estimated: at least, and at most tried.
+constexpr std::size_t kBlurSample = 15;
+constexpr std::size_t kBlurTries = 64;
 
 struct Candidate {
   EdgePoint point;
@@ -72,6 +74,14 @@ EdgeStripOptions strip_of(const Candidate& candidate, const EdgePointOptions& op
   return strip;
 }
 
+std::vector<double> blurs_of(const std::vector<EdgeStrip>& strips) {
+  std::vector<double> out;
+  for (const EdgeStrip& s : strips) {
+    if (s.found) out.push_back(s.blur_px);
+  }
+  return out;
+}
+
 }  // namespace
 
 double edge_blur_px(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
@@ -92,11 +102,8 @@ double edge_blur_px(const EdgeShot& shot, const CameraIntrinsics& intrinsics,
     strip.max_blur_px = 6.0;
     found[i] = locate_edge(shot.samples, c.at_cell, c.point.outward, strip);
   });
-  std::vector<double> blurs;
-  for (const EdgeStrip& s : found) {
-    if (s.found) blurs.push_back(s.blur_px);
-  }
-  return blurs.size() < kLeastPieces ? 0.0 : upper_median(blurs);
+  std::vector<double> blurs = blurs_of(found);
+  return blurs.size() < kLeastPieces ? 0.0 : upper_median(std::move(blurs));
 }
 
 std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
@@ -110,10 +117,10 @@ std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
   if (options.factor > 1) {
     for (const EdgeShot& shot : shots) cells.push_back(cell_means(shot.samples, options.factor));
   }
-  const auto locate_all = [&](std::optional<double> blur_px) {
-    std::vector<EdgeStrip> found(candidates.size());
-    tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
-      const Candidate& c = candidates[i];
+  const auto locate = [&](std::size_t stride, std::optional<double> blur_px) {
+    std::vector<EdgeStrip> found((candidates.size() + stride - 1) / stride);
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+      const Candidate& c = candidates[stride * i];
       const auto shot = static_cast<std::size_t>(c.point.shot_idx);
       EdgeStripOptions strip = strip_of(c, options);
       strip.blur_px = blur_px;
@@ -122,12 +129,9 @@ std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,
     });
     return found;
   };
-  std::vector<EdgeStrip> found = locate_all(std::nullopt);
-  std::vector<double> blurs;
-  for (const EdgeStrip& s : found) {
-    if (s.found) blurs.push_back(s.blur_px);
-  }
-  if (blurs.size() >= kBlurSample) found = locate_all(upper_median(blurs));
+  std::vector<double> blurs = blurs_of(locate(1 + candidates.size() / kBlurTries, std::nullopt));
+  std::vector<EdgeStrip> found = locate(
+      1, blurs.size() < kBlurSample ? std::nullopt : std::optional(upper_median(std::move(blurs))));
   std::vector<EdgePoint> out;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!found[i].found || found[i].std_px > options.max_std_px) continue;

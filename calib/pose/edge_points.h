@@ -44,7 +44,7 @@ struct EdgePointOptions {
 
 // Points on the outline (contours, steps) of the body of each shot as seen from the pose. Each
 // piece that is at least 3 cells long and unobstructed on both sides is located by locate_edge(),
-// first with a fitted blur and again with the median of these blurs for all pieces. Lengths in the
+// with the median of the blurs that fit a sample of the pieces. Lengths in the
 // result are in px of the raw file. Creases are left out: light scattered in a translucent body
 // near an edge that is lit from both sides has a kink there but no step, and a step fitted to it is
 // up to 0.15 mm off.

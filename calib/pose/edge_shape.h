@@ -19,11 +19,15 @@ class EdgeShape {
  public:
   EdgeShape(const Eigen::Vector2d& normal, double blur_px);  // blur_px > 0
 
-  // S_0, S_1, S_2 at t px; unit px^k.
-  std::array<double, kEdgeTerms> at(double t) const;
+  // S_0, S_1, S_2 at t px, unit px^k, and their derivatives by t and by the blur (as of heat: by
+  // the square of the blur, half the second by t).
+  struct Terms {
+    std::array<double, kEdgeTerms> s, per_t, per_blur;
+  };
+  Terms at(double t) const;
 
  private:
-  std::array<double, 3> integrals(double t) const;  // F_2, F_3, F_4
+  std::array<double, 5> integrals(double t) const;  // F_0 ... F_4
 
   double a_;
   double b_;

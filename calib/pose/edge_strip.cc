@@ -63,8 +63,9 @@ std::optional<EdgeEstimate> best_of_grid(StripFit& fit, const EdgeStripOptions& 
   double best = std::numeric_limits<double>::infinity();
   EdgeEstimate at{0, options.blur_px.value_or(0.5)};
   const int steps = std::max(1, static_cast<int>(std::ceil(2 * options.search_px)));
-  for (const double coarse_blur : {0.3, 1.0}) {
-    const double b = options.blur_px.value_or(coarse_blur);
+  const std::vector<double> blurs =
+      options.blur_px ? std::vector{*options.blur_px} : std::vector{0.3, 1.0};
+  for (const double b : blurs) {
     for (int i = -steps; i <= steps; ++i) {
       const double o = options.search_px * i / steps;
       const double chi2 = fit.solve(o, b);
@@ -84,14 +85,14 @@ std::optional<EdgeEstimate> best_of_grid(StripFit& fit, const EdgeStripOptions& 
 bool refine_edge(StripFit& fit, const EdgeStripOptions& options, EdgeEstimate& at,
                  bool& blur_is_bound) {
   blur_is_bound = false;
+  double chi2 = fit.solve(at.offset, at.blur);
   for (int iteration = 0; iteration < 25; ++iteration) {
-    double chi2 = fit.solve(at.offset, at.blur);
     if (iteration < 4) {
       fit.reweigh();
       chi2 = fit.solve(at.offset, at.blur);
     }
     Eigen::Vector2d gradient;
-    const Eigen::Matrix2d info = fit.information(at.offset, at.blur, &gradient);
+    const Eigen::Matrix2d info = fit.information(&gradient);
     blur_is_bound = (at.blur <= kMinBlur && gradient[1] < 0) ||
                     (at.blur >= options.max_blur_px && gradient[1] > 0);
     Eigen::Vector2d step(gradient[0] / info(0, 0), 0);
@@ -103,14 +104,17 @@ bool refine_edge(StripFit& fit, const EdgeStripOptions& options, EdgeEstimate& a
       const double o = at.offset + std::clamp(share * step[0], -0.5, 0.5);
       const double b = options.blur_px.value_or(std::clamp(
           at.blur + std::clamp(share * step[1], -0.4, 0.4), kMinBlur, options.max_blur_px));
-      if (fit.solve(o, b) <= chi2 + 1e-9) {
+      const double chi2_there = fit.solve(o, b);
+      if (chi2_there <= chi2 + 1e-9) {
         gained = true;
+        chi2 = chi2_there;
         const double moved = std::abs(o - at.offset);
         at = {o, b};
         if (iteration >= 4 && moved < 1e-5) return true;
       }
     }
     if (!gained && iteration >= 4) break;
+    if (!gained) chi2 = fit.solve(at.offset, at.blur);
   }
   return true;
 }
@@ -131,7 +135,7 @@ EdgeStrip locate_edge(const CfaSamples& samples, const Eigen::Vector2d& at_px,
   if (!at || !refine_edge(fit, options, *at, blur_is_bound)) return out;
   const double chi2 = fit.solve(at->offset, at->blur);
   Eigen::Vector2d gradient;
-  const Eigen::Matrix2d info = fit.information(at->offset, at->blur, &gradient);
+  const Eigen::Matrix2d info = fit.information(&gradient);
   // With the blur eliminated.
   const double left = blur_is_bound || at->blur <= kMinBlur
                           ? info(0, 0)

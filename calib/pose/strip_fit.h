@@ -39,21 +39,16 @@ class StripFit {
   void reweigh();
 
   // Information about (offset, blur) with the brightnesses eliminated, and the gradient of -chi2/2,
-  // for a Gauss-Newton step. To be called after solve(offset, blur).
-  Eigen::Matrix2d information(double offset, double blur, Eigen::Vector2d* gradient) const;
+  // for a Gauss-Newton step. To be called after solve().
+  Eigen::Matrix2d information(Eigen::Vector2d* gradient) const;
 
   // Signal-to-noise ratio of the step a_0 over all channels, and its sign summed over the channels.
   // To be called after solve().
   double snr(double* sign) const;
 
  private:
-  using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, kMostColumns>;
-  using Rows =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, -1, kMostColumns>;
-  using Square =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, kMostColumns>;
-
-  Row row(const EdgeShape& shape, double offset, std::size_t i) const;
+  using Column = Eigen::Matrix<double, kMostColumns, 1>;
+  using Square = Eigen::Matrix<double, kMostColumns, kMostColumns>;
 
   std::vector<StripSample> samples_;
   Eigen::Vector2d normal_;
@@ -62,10 +57,11 @@ class StripFit {
   int channels_ = 0;
   std::vector<double> weights_;
   std::vector<double> predicted_;
-  Rows basis_;
-  // A column per channel: b, a_0, a_1, a_2 [, c].
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostColumns, 3> linear_;
-  std::array<Square, 3> normal_matrix_;  // by channel
+  std::vector<EdgeShape::Terms> terms_;  // by sample
+  // By sample: 1, S_0, S_1, S_2, s or, without a slope, 0.
+  std::vector<Column> basis_;
+  std::array<Column, 3> linear_;         // by channel: b, a_0, a_1, a_2, c
+  std::array<Square, 3> normal_matrix_;  // by channel; without a slope, that of a c of 0
 };
 
 }  // namespace scattermeter::calib

@@ -285,8 +285,7 @@ class TransportSearch {
   ShotParts parts_;
   PartLight part_light_;
   std::chrono::steady_clock::time_point start_;
-  double traced_ = 0;  // paths, and the time that they took
-  double tracing_s_ = 0;
+  double traced_ = 0, tracing_s_ = 0;  // paths, and the time that they took
 };
 
 }  // namespace

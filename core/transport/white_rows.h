@@ -43,8 +43,8 @@ class WhiteRows {
   Eigen::MatrixXd departures(double sigma_a_per_mm) const;
 
  private:
-  // Every third tilt is kept for each batch: errors need to be known to some per cent only.
-  static constexpr Eigen::Index kBatchStep = 3;
+  // Every second tilt is kept for each batch: errors need to be known to some per cent only.
+  static constexpr Eigen::Index kBatchStep = 2;
 
   const ScatteringView& view_;
   double sigma_s_per_mm_;

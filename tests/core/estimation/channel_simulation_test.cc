@@ -144,8 +144,10 @@ TEST(ChannelSimulation, BetweenNodesTheLightIsThatOfTheMedium) {
       expected += area * direct.l[k];
       ++row;
     }
-    EXPECT_GT(chi2, 0.5);
-    EXPECT_LT(chi2, 1.6);
+    // One in 2000 on either side, for the 28 rows if they were independent.
+    EXPECT_EQ(n, 28);
+    EXPECT_GT(chi2, 0.32);
+    EXPECT_LT(chi2, 2.1);
     EXPECT_NEAR(light / expected, 1.0, 0.006);
   }
 }
