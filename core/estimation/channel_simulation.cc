@@ -116,7 +116,7 @@ std::int64_t ChannelSimulation::missing_paths(const ScatteringPoint& at, int blo
 }
 
 ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int blocks,
-                                                const Eigen::MatrixXd& projection,
+                                                const Eigen::SparseMatrix<double>& projection,
                                                 const Control& control) const {
   Look out;
   ScatteringImage& image = out.image;
@@ -134,8 +134,8 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
       const WhiteRows& node = v.in_atlas->node(share.node, share.levels);
       const WhiteRows::Light light = node.light(at.sigma_a_per_mm);
       const Eigen::MatrixXd departures = node.departures(at.sigma_a_per_mm);
-      const Eigen::VectorXd variance = departures.rowwise().squaredNorm();
-      Eigen::MatrixXd own = Eigen::MatrixXd::Zero(projection.rows(), departures.rows());
+      const Eigen::VectorXd variance = departures.colwise().squaredNorm();
+      Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(departures.rows(), projection.rows());
       for (const auto& [row, at_view] : v.rows) {
         const double l = v.power * light.l[at_view];
         const double factor = share.weight * to_here.factor[row];
@@ -145,10 +145,11 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
         image.per_sigma_a[row] += factor * v.power * light.per_sigma_a[at_view] +
                                   share.weight * l * to_here.per_sigma_a[row];
         image.variance[row] += factor * factor * v.power * v.power * variance[at_view];
-        own.col(at_view) += factor * v.power * projection.col(row);
+        for (Eigen::SparseMatrix<double>::InnerIterator it(projection, row); it; ++it) {
+          projected.col(it.row()) += factor * v.power * it.value() * departures.col(at_view);
+        }
       }
-      const Eigen::MatrixXd projected = own * departures;
-      out.covariance += projected * projected.transpose();
+      out.covariance += projected.transpose() * projected;
       const double error =
           share.weight * share.weight * kBlockPaths / static_cast<double>(node.paths());
       errors[i] += error;

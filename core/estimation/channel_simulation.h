@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "core/estimation/channel_rows.h"
 #include "core/estimation/transport_atlas.h"
@@ -45,7 +46,7 @@ class ChannelSimulation {
     double freedom = 0;
   };
   // projection: any number of rows x n_rows(). Traces what is missing for so many blocks.
-  Look look(const ScatteringPoint& at, int blocks, const Eigen::MatrixXd& projection,
+  Look look(const ScatteringPoint& at, int blocks, const Eigen::SparseMatrix<double>& projection,
             const Control& control) const;
   // Paths that look() would trace.
   std::int64_t missing_paths(const ScatteringPoint& at, int blocks) const;

@@ -28,15 +28,6 @@ double most_scatter(double most, const Eigen::VectorXd& light, const Eigen::Vect
   return own > 0.0 ? 1.0 + most * most * weights.dot(light.cwiseAbs2()) / own : 1.0;
 }
 
-// Columns that touch some of the rows.
-Eigen::MatrixXd touching(const Eigen::MatrixXd& columns) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
-    if (!columns.col(k).isZero(0.0)) kept.push_back(k);
-  }
-  return columns(Eigen::all, kept);
-}
-
 }  // namespace
 
 TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& scale,
@@ -46,8 +37,8 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
       scale_(scale),
       at_(at),
       pilot_(pilot),
-      correlated_(correlated_rows(shots.parts, at.scale * pilot.l, cells)),
-      joint_(shots.system, scale, pilot, at, expected, correlated_) {
+      joint_(shots.system, scale, pilot, at, expected,
+             correlated_rows(shots.parts, at.scale * pilot.l, cells, 0, pilot.l.size())) {
   const std::vector<Eigen::Index>& shot_rows = shots.system.shot_rows;
   if (shot_rows.size() < 2) return;
   Eigen::Index first = 0;
@@ -60,25 +51,38 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
     std::vector<Eigen::Index> rows(static_cast<std::size_t>(n));
     std::iota(rows.begin(), rows.end(), single.first);
     single.system = selected(shots.system, rows);
-    single.equation.emplace(single.system, scale, part_of(pilot, single.first, n), at, expected,
-                            touching(correlated_.middleRows(single.first, n)));
+    single.equation.emplace(
+        single.system, scale, part_of(pilot, single.first, n), at, expected,
+        correlated_rows(shots.parts, at.scale * pilot.l, cells, single.first, n));
   }
 }
 
-Eigen::MatrixXd TransportRound::projection() const {
+Eigen::SparseMatrix<double> TransportRound::projection() const {
   const Eigen::Index n_cells = shots_.parts.n_cells();
   const Eigen::Index n_estimates = unknowns() * (1 + static_cast<Eigen::Index>(singles_.size()));
   const Eigen::RowVectorXd& scale = joint_.scale_form();
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n_estimates + (scale.size() > 0 ? 1 : 0) + n_cells,
-                                              shots_.system.l.size());
-  all.topRows(unknowns()) = joint_.projection();
+  const Eigen::Index before_cells = n_estimates + (scale.size() > 0 ? 1 : 0);
+  std::vector<Eigen::Triplet<double>> values;
+  const auto add = [&](Eigen::Index to, Eigen::Index first, const Eigen::MatrixXd& block) {
+    for (Eigen::Index j = 0; j < block.cols(); ++j) {
+      for (Eigen::Index i = 0; i < block.rows(); ++i) {
+        values.emplace_back(to + i, first + j, block(i, j));
+      }
+    }
+  };
+  add(0, 0, joint_.projection());
   for (std::size_t i = 0; i < singles_.size(); ++i) {
-    const Eigen::MatrixXd& own = singles_[i].equation->projection();
-    all.block(static_cast<Eigen::Index>(i + 1) * unknowns(), singles_[i].first, unknowns(),
-              own.cols()) = own;
+    add(static_cast<Eigen::Index>(i + 1) * unknowns(), singles_[i].first,
+        singles_[i].equation->projection());
   }
-  if (scale.size() > 0) all.row(n_estimates) = scale;
-  all.bottomRows(n_cells) = shots_.parts.cells();
+  if (scale.size() > 0) add(n_estimates, 0, scale);
+  for (Eigen::Index c = 0; c < n_cells; ++c) {
+    for (ShotParts::Sums::InnerIterator it(shots_.parts.cells(), c); it; ++it) {
+      values.emplace_back(before_cells + c, it.col(), it.value());
+    }
+  }
+  Eigen::SparseMatrix<double> all(before_cells + n_cells, shots_.system.l.size());
+  all.setFromTriplets(values.begin(), values.end());
   return all;
 }
 
@@ -122,10 +126,11 @@ Eigen::MatrixXd TransportRound::cell_covariance() const {
 // Among the cells of each part, about its own light.
 double TransportRound::scatter_of_cells(const Eigen::VectorXd& rest) const {
   if (blocks_ < kLeastBlocks) return 1.0;
-  const Eigen::MatrixXd& about = shots_.parts.about_parts();
-  const Eigen::MatrixXd light = about * shots_.parts.cells();
+  const ShotParts::Sums& about = shots_.parts.about_parts();
+  const ShotParts::Sums light = about * shots_.parts.cells();
   const Eigen::VectorXd paths =
-      at_.scale * at_.scale * (about * cell_covariance() * about.transpose()).diagonal();
+      at_.scale * at_.scale *
+      Eigen::MatrixXd(about * cell_covariance() * about.transpose()).diagonal();
   const Eigen::VectorXd noise = light.cwiseAbs2() * shots_.system.std_l.cwiseAbs2();
   // A part that is one cell does not contribute.
   const Eigen::VectorXd weights =
@@ -175,10 +180,10 @@ ShotAgreement TransportRound::agreement(const std::vector<ScatteringEquation::St
   return agreement_of(estimates, all);
 }
 
-Eigen::MatrixXd TransportRound::covariance_of_parts(const Eigen::MatrixXd& light) const {
+Eigen::MatrixXd TransportRound::covariance_of_parts(const ShotParts::Sums& light) const {
   const Eigen::Index n = light.rows();
-  const Eigen::MatrixXd noise =
-      light * shots_.system.std_l.cwiseAbs2().asDiagonal() * light.transpose();
+  const ShotParts::Sums weighted = light * shots_.system.std_l.cwiseAbs2().asDiagonal();
+  const Eigen::MatrixXd noise = ShotParts::Sums(weighted * light.transpose());
   // The inverse of a covariance from so few batches is too large in the mean (Hartlap, Simon &
   // Schneider 2007); parts of other shots do not count.
   const double own_parts =
@@ -190,7 +195,7 @@ Eigen::MatrixXd TransportRound::covariance_of_parts(const Eigen::MatrixXd& light
 
 LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
   if (blocks_ < kLeastBlocks) return {};
-  const Eigen::MatrixXd light = shots_.parts.parts() * shots_.parts.cells();
+  const ShotParts::Sums light = shots_.parts.parts() * shots_.parts.cells();
   const Eigen::Index n = light.rows();
   const Eigen::MatrixXd j = light * ScatteringEquation::jacobian(pilot_, at_, unknowns() == 3);
   Eigen::MatrixXd free(n, j.cols() + joint_.nuisances().cols());
@@ -208,7 +213,7 @@ LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
 
 ModelJudgement TransportRound::judgement() const {
   if (blocks_ < kLeastBlocks) return {};
-  const Eigen::MatrixXd light = shots_.parts.parts() * shots_.parts.cells();
+  const ShotParts::Sums light = shots_.parts.parts() * shots_.parts.cells();
   const Eigen::MatrixXd root = cholesky_lower(covariance_of_parts(light));
   if (!root.allFinite()) return {};
   const auto whitened = [&](const Eigen::MatrixXd& of_rows) -> Eigen::MatrixXd {

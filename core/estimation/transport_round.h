@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "core/estimation/channel_simulation.h"
 #include "core/estimation/transport_verdict.h"
@@ -43,7 +44,7 @@ class TransportRound {
 
   // The projection for the joint estimate, for each shot's own, for the scale (if stated), and for
   // the light of the cells.
-  Eigen::MatrixXd projection() const;
+  Eigen::SparseMatrix<double> projection() const;
   // Takes a look at this point with that projection. Everything below refers to the last one.
   void take(ChannelSimulation::Look look);
 
@@ -96,14 +97,13 @@ class TransportRound {
   Eigen::Index unknowns() const { return joint_.projection().rows(); }
   double scatter_of_cells(const Eigen::VectorXd& rest) const;
   // Covariance of the light of the parts by noise, Monte Carlo and scatter within them.
-  Eigen::MatrixXd covariance_of_parts(const Eigen::MatrixXd& light) const;
+  Eigen::MatrixXd covariance_of_parts(const ShotParts::Sums& light) const;
   LackOfFit misfit_of(const Eigen::VectorXd& rest) const;
 
   TransportShots shots_;
   ScalePrior scale_;
   ScatteringPoint at_;
   ScatteringImage pilot_;
-  Eigen::MatrixXd correlated_;  // errors common to rows
   ScatteringEquation joint_;
   std::vector<Single> singles_;
   ScatteringImage image_;

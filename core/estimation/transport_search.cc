@@ -127,7 +127,7 @@ class TransportSearch {
   }
 
   ChannelSimulation::Look look(const ScatteringPoint& at, int blocks,
-                               const Eigen::MatrixXd& projection) {
+                               const Eigen::SparseMatrix<double>& projection) {
     const double started_s = elapsed_s();
     const std::int64_t paths = simulation_.missing_paths(at, blocks);
     ChannelSimulation::Look out = simulation_.look(
@@ -140,7 +140,7 @@ class TransportSearch {
   // `blocks` of paths at the round's point; where that is close enough to the root (may_be_last),
   // as many as are useful and as time and options allow.
   void trace(TransportRound& round, int blocks, bool may_be_last) {
-    const Eigen::MatrixXd projection = round.projection();
+    const Eigen::SparseMatrix<double> projection = round.projection();
     round.take(look(round.at(), blocks, projection));
     while (may_be_last && is_close(round.step(), round.blocks()) &&
            !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {

@@ -1,6 +1,7 @@
 #include "core/fit/part_light.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "core/base/covariance_root.h"
 
@@ -51,13 +52,21 @@ Eigen::MatrixXd PartLight::relative_cell_covariance(const ShotParts& parts) cons
   return out;
 }
 
-Eigen::MatrixXd correlated_rows(const ShotParts& parts, const Eigen::VectorXd& l,
-                                const Eigen::MatrixXd& cells) {
-  const Eigen::MatrixXd of_cell = covariance_root(cells);
-  Eigen::MatrixXd out(l.size(), of_cell.cols());
-  for (Eigen::Index j = 0; j < out.rows(); ++j) {
-    out.row(j) = l[j] * of_cell.row(parts.cell_of_row(j));
+CorrelatedErrors correlated_rows(const ShotParts& parts, const Eigen::VectorXd& l,
+                                 const Eigen::MatrixXd& cells, Eigen::Index first, Eigen::Index n) {
+  std::vector<Eigen::Index> touched;
+  for (Eigen::Index j = first; j < first + n; ++j) touched.push_back(parts.cell_of_row(j));
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  CorrelatedErrors out;
+  out.root = covariance_root(cells(touched, touched));
+  out.of_row.resize(n, static_cast<Eigen::Index>(touched.size()));
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const auto group =
+        std::lower_bound(touched.begin(), touched.end(), parts.cell_of_row(first + j));
+    out.of_row.insert(j, group - touched.begin()) = l[first + j];
   }
+  out.of_row.makeCompressed();
   return out;
 }
 

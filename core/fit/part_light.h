@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "core/fit/correlated_errors.h"
 #include "core/fit/shot_parts.h"
 #include "core/transport/scattering_rows.h"
 
@@ -37,9 +38,9 @@ class PartLight {
   double blocks_ = 0;
 };
 
-// Errors of rows with the correlation of their cells' errors, as columns of unit deviation. l: of
-// the rows; cells: covariance of the cells' relative light.
-Eigen::MatrixXd correlated_rows(const ShotParts& parts, const Eigen::VectorXd& l,
-                                const Eigen::MatrixXd& cells);
+// Errors of `n` rows from the `first` on, with the correlation of their cells' errors. l: of all
+// rows; cells: covariance of the cells' relative light.
+CorrelatedErrors correlated_rows(const ShotParts& parts, const Eigen::VectorXd& l,
+                                 const Eigen::MatrixXd& cells, Eigen::Index first, Eigen::Index n);
 
 }  // namespace scattermeter

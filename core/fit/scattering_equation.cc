@@ -4,11 +4,17 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "core/base/chi_square.h"
 #include "core/base/dense_solve.h"
 
 namespace scattermeter {
+namespace {
+
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+}  // namespace
 
 Eigen::MatrixXd ScatteringEquation::jacobian(const ScatteringImage& m, const ScatteringPoint& at,
                                              bool scale_moves) {
@@ -21,10 +27,11 @@ Eigen::MatrixXd ScatteringEquation::jacobian(const ScatteringImage& m, const Sca
 
 ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePrior& scale,
                                        const ScatteringImage& pilot, const ScatteringPoint& at,
-                                       double monte_carlo, const Eigen::MatrixXd& correlated)
-    : system_(system), scale_(scale) {
+                                       double monte_carlo, CorrelatedErrors correlated)
+    : system_(system), scale_(scale), correlated_(std::move(correlated)) {
   const Eigen::Index rows = system.l.size();
-  if (pilot.l.size() != rows || (correlated.size() > 0 && correlated.rows() != rows)) {
+  if (pilot.l.size() != rows ||
+      (correlated_.root.size() > 0 && correlated_.of_row.rows() != rows)) {
     throw std::invalid_argument("ScatteringEquation: image and system differ in rows");
   }
   row_variance_ = system.std_l.cwiseAbs2() + monte_carlo * at.scale * at.scale * pilot.variance;
@@ -44,12 +51,20 @@ ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePri
     nuisances_.rightCols(1) = scale.relative_std * at.scale * pilot.l;
     causes_.push_back("scale");
   }
-  columns_.resize(rows, nuisances_.cols() + correlated.cols());
-  columns_.leftCols(nuisances_.cols()) = nuisances_;
-  if (correlated.size() > 0) columns_.rightCols(correlated.cols()) = correlated;
-  const Eigen::MatrixXd weighted = row_variance_.cwiseInverse().asDiagonal() * columns_;
-  capacitance_ = inverse_lu(Eigen::MatrixXd::Identity(columns_.cols(), columns_.cols()) +
-                            columns_.transpose() * weighted);
+  const Eigen::Index own = nuisances_.cols(), all = own + correlated_.root.cols();
+  Eigen::MatrixXd information = Eigen::MatrixXd::Identity(all, all);
+  const Eigen::MatrixXd by_nuisances =
+      in_columns(row_variance_.cwiseInverse().asDiagonal() * nuisances_);
+  information.leftCols(own) += by_nuisances;
+  if (all > own) {
+    information.topRightCorner(own, all - own) = by_nuisances.bottomRows(all - own).transpose();
+    const SparseRows& of_row = correlated_.of_row;
+    const Eigen::MatrixXd groups = SparseRows(of_row.transpose()) *
+                                   SparseRows(row_variance_.cwiseInverse().asDiagonal() * of_row);
+    information.bottomRightCorner(all - own, all - own) +=
+        correlated_.root.transpose() * groups * correlated_.root;
+  }
+  capacitance_ = inverse_lu(information);
   const Eigen::MatrixXd z = jacobian(pilot, at, !std::isfinite(scale.relative_std));
   relative_size_ = z.colwise().norm() / (at.scale * pilot.l.norm());
   // A change of sigma_s counts even if it hardly affects the image.
@@ -68,11 +83,27 @@ ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePri
   if (information > kRounding * direct.dot(per_log_scale_)) scale_form_ = form / information;
 }
 
+Eigen::MatrixXd ScatteringEquation::in_columns(const Eigen::MatrixXd& rows) const {
+  Eigen::MatrixXd out(nuisances_.cols() + correlated_.root.cols(), rows.cols());
+  out.topRows(nuisances_.cols()) = nuisances_.transpose() * rows;
+  if (correlated_.root.size() > 0) {
+    out.bottomRows(correlated_.root.cols()) =
+        correlated_.root.transpose() * (correlated_.of_row.transpose() * rows);
+  }
+  return out;
+}
+
+Eigen::VectorXd ScatteringEquation::in_rows(const Eigen::VectorXd& columns) const {
+  Eigen::VectorXd out = nuisances_ * columns.head(nuisances_.cols());
+  if (correlated_.root.size() > 0) {
+    out += correlated_.of_row * (correlated_.root * columns.tail(correlated_.root.cols()));
+  }
+  return out;
+}
+
 Eigen::VectorXd ScatteringEquation::solve_covariance(const Eigen::VectorXd& rows) const {
   const Eigen::VectorXd direct = rows.cwiseQuotient(row_variance_);
-  if (columns_.cols() == 0) return direct;
-  const Eigen::VectorXd inner = capacitance_ * (columns_.transpose() * direct);
-  return direct - (columns_ * inner).cwiseQuotient(row_variance_);
+  return direct - in_rows(capacitance_ * in_columns(direct)).cwiseQuotient(row_variance_);
 }
 
 ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,

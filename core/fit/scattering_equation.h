@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "core/fit/correlated_errors.h"
 #include "core/fit/estimate.h"
 #include "core/fit/linear_shot.h"
 #include "core/transport/scattering_rows.h"
@@ -29,12 +30,11 @@ class ScatteringEquation {
  public:
   // pilot: image at `at`, with the system's rows (l for the shots' real lights: W/mm^2 at scale 1).
   // monte_carlo: expected variance of the m to come, and of the shots' errors beyond their noise,
-  // relative to the pilot's variance. correlated (rows x any number, or empty): columns of unit
-  // deviation that describe the correlation of these errors between rows; used in the weights only.
-  // Precondition: equal numbers of rows (std::invalid_argument).
+  // relative to the pilot's variance. correlated: the correlation of these errors between rows;
+  // used in the weights only. Precondition: equal numbers of rows (std::invalid_argument).
   ScatteringEquation(const DenseSystem& system, const ScalePrior& scale,
                      const ScatteringImage& pilot, const ScatteringPoint& at,
-                     double monte_carlo = 1.0, const Eigen::MatrixXd& correlated = {});
+                     double monte_carlo = 1.0, CorrelatedErrors correlated = {});
 
   // Unknowns x rows: Z^T W. Unknowns: log sigma_s, sigma_a, and log scale where it is free. A scale
   // with a prior is a nuisance, since noisy derivatives leave the sign of an equation of its own
@@ -99,14 +99,17 @@ class ScatteringEquation {
                                   bool scale_moves);
 
  private:
+  // Nuisances and correlated errors, as columns: transposed times rows, and times coefficients.
+  Eigen::MatrixXd in_columns(const Eigen::MatrixXd& rows) const;
+  Eigen::VectorXd in_rows(const Eigen::VectorXd& columns) const;
   Eigen::VectorXd solve_covariance(const Eigen::VectorXd& rows) const;
   const DenseSystem& system_;
   ScalePrior scale_;
   Eigen::VectorXd row_variance_;     // noise and Monte Carlo
   std::vector<std::string> causes_;  // of the nuisances
   Eigen::MatrixXd nuisances_;        // columns times their standard deviations
-  Eigen::MatrixXd columns_;          // those and the correlated ones
-  Eigen::MatrixXd capacitance_;      // of Woodbury's identity, inverted
+  CorrelatedErrors correlated_;
+  Eigen::MatrixXd capacitance_;  // of Woodbury's identity, inverted
   Eigen::MatrixXd projection_;
   Eigen::VectorXd relative_size_;  // of the image's change with each unknown
   Eigen::VectorXd per_log_scale_;  // scale * pilot.l

@@ -41,19 +41,31 @@ ShotParts::ShotParts(const std::vector<Eigen::Index>& shot_rows,
     n_cells = next_cell;
     first += n;
   }
-  cells_ = Eigen::MatrixXd::Zero(n_cells, rows);
+  Eigen::VectorXd light = Eigen::VectorXd::Zero(n_cells);
   for (Eigen::Index j = 0; j < rows; ++j) {
-    cells_(cell_of_row(j), j) = area_mm2[static_cast<std::size_t>(j)];
+    light[cell_of_row(j)] += area_mm2[static_cast<std::size_t>(j)] * l[j];
   }
-  const Eigen::VectorXd light = cells_ * l;
-  cells_ = light.cwiseInverse().asDiagonal() * cells_;
-  Eigen::MatrixXd holds = Eigen::MatrixXd::Zero(n_parts, n_cells);  // 0 or 1
+  Eigen::VectorXd of_part = Eigen::VectorXd::Zero(n_parts);
+  std::vector<Eigen::Triplet<double>> in_part, in_cell;
   for (Eigen::Index c = 0; c < n_cells; ++c) {
-    holds(part_of_cell[static_cast<std::size_t>(c)], c) = 1.0;
+    const Eigen::Index part = part_of_cell[static_cast<std::size_t>(c)];
+    in_part.emplace_back(part, c, light[c]);
+    of_part[part] += light[c];
   }
-  const Eigen::MatrixXd share = holds * light.asDiagonal();
-  parts_ = share.rowwise().sum().cwiseInverse().asDiagonal() * share;
-  about_parts_ = Eigen::MatrixXd::Identity(n_cells, n_cells) - holds.transpose() * parts_;
+  for (Eigen::Index j = 0; j < rows; ++j) {
+    const Eigen::Index c = cell_of_row(j);
+    in_cell.emplace_back(c, j, area_mm2[static_cast<std::size_t>(j)] / light[c]);
+  }
+  cells_ = Sums(n_cells, rows);
+  cells_.setFromTriplets(in_cell.begin(), in_cell.end());
+  parts_ = Sums(n_parts, n_cells);
+  parts_.setFromTriplets(in_part.begin(), in_part.end());
+  Sums holds = parts_;  // 0 or 1
+  holds.coeffs().setOnes();
+  parts_ = of_part.cwiseInverse().asDiagonal() * parts_;
+  about_parts_ = Sums(n_cells, n_cells);
+  about_parts_.setIdentity();
+  about_parts_ -= Sums(Sums(holds.transpose()) * parts_);
 }
 
 }  // namespace scattermeter

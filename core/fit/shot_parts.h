@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "core/fit/lack_of_fit.h"
 
@@ -34,15 +35,16 @@ class ShotParts {
   Eigen::Index cell_of_row(Eigen::Index row) const {
     return cell_of_row_[static_cast<std::size_t>(row)];
   }
+  using Sums = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   // Cells x rows: from the light of the rows to that of a cell, relative to its l.
-  const Eigen::MatrixXd& cells() const { return cells_; }
+  const Sums& cells() const { return cells_; }
   // Parts x cells: from the relative light of the cells to that of a part.
-  const Eigen::MatrixXd& parts() const { return parts_; }
+  const Sums& parts() const { return parts_; }
   // Cells x cells: relative light of a cell minus that of its part.
-  const Eigen::MatrixXd& about_parts() const { return about_parts_; }
+  const Sums& about_parts() const { return about_parts_; }
 
  private:
-  Eigen::MatrixXd cells_, parts_, about_parts_;
+  Sums cells_, parts_, about_parts_;
   std::vector<Eigen::Index> part_of_row_, cell_of_row_;
 };
 

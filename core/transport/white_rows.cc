@@ -48,7 +48,7 @@ WhiteRows::WhiteRows(const ScatteringView& view, double sigma_s_per_mm, double s
 void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
   if (batch_.empty()) {
     const Eigen::Index kept = (tilts_.count() - 1) / kBatchStep + 1;
-    batch_.assign(static_cast<std::size_t>(kept), Eigen::MatrixXf::Zero(view_.n_rows, kBatches));
+    batch_.assign(static_cast<std::size_t>(kept), Eigen::MatrixXf::Zero(kBatches, view_.n_rows));
   }
   PathWorld white = world;
   white.medium.sigma_s_per_mm = sigma_s_per_mm_;
@@ -66,9 +66,8 @@ void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
         // A block estimates the whole from its own paths.
         sum_ += options.paths_per_block * block.sum;
         for (std::size_t j = 0; j < batch_.size(); ++j) {
-          batch_[j].col(batch) +=
+          batch_[j].row(batch) +=
               (options.paths_per_block * block.sum.row(static_cast<Eigen::Index>(j) * kBatchStep))
-                  .transpose()
                   .cast<float>();
         }
         ++batch;
@@ -85,7 +84,7 @@ WhiteRows::Light WhiteRows::light(double sigma_a_per_mm) const {
 
 Eigen::MatrixXd WhiteRows::departures(double sigma_a_per_mm) const {
   const AbsorptionTilts::Combination c = tilts_.at(sigma_a_per_mm, kBatchStep);
-  Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(view_.n_rows, kBatches);
+  Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(kBatches, view_.n_rows);
   for (std::size_t j = 0; j < batch_.size(); ++j) {
     sums += static_cast<float>(c.l[static_cast<Eigen::Index>(j) * kBatchStep]) * batch_[j];
   }
@@ -93,8 +92,8 @@ Eigen::MatrixXd WhiteRows::departures(double sigma_a_per_mm) const {
   const Eigen::VectorXd size =
       (std::sqrt(kBatches * (kBatches - 1.0)) * own_paths * view_.area_mm2).cwiseInverse();
   Eigen::MatrixXd out = sums.cast<double>();
-  out.colwise() -= Eigen::VectorXd(out.rowwise().mean());
-  return size.asDiagonal() * out;
+  out.rowwise() -= Eigen::RowVectorXd(out.colwise().mean());
+  return out * size.asDiagonal();
 }
 
 }  // namespace scattermeter

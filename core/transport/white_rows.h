@@ -39,7 +39,7 @@ class WhiteRows {
   };
   // Precondition: levels() > 0.
   Light light(double sigma_a_per_mm) const;
-  // D, rows x kBatches: D D^T estimates the covariance of light().l. Precondition: levels() > 0.
+  // D, kBatches x rows: D^T D estimates the covariance of light().l. Precondition: levels() > 0.
   Eigen::MatrixXd departures(double sigma_a_per_mm) const;
 
  private:
@@ -51,7 +51,7 @@ class WhiteRows {
   AbsorptionTilts tilts_;
   int levels_ = 0;
   Eigen::MatrixXd sum_;                 // tilts x rows: scores of all paths
-  std::vector<Eigen::MatrixXf> batch_;  // by kept tilt: rows x kBatches
+  std::vector<Eigen::MatrixXf> batch_;  // by kept tilt: kBatches x rows
 };
 
 }  // namespace scattermeter

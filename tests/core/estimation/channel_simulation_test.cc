@@ -32,7 +32,7 @@ struct SimulatedCube {
 
   ChannelSimulation::Look look(int blocks, const ScatteringPoint& at = kSimulated) {
     const Eigen::Index n = simulation->n_rows();
-    return simulation->look(at, blocks, Eigen::MatrixXd::Identity(n, n),
+    return simulation->look(at, blocks, Eigen::MatrixXd::Identity(n, n).sparseView(),
                             [&](const ScatteringPoint& p) {
                               return dipole_pilot(system.weights, smooth_knots(cube.lit), p, 1.3);
                             });

@@ -35,7 +35,7 @@ class RoundOfTheCube : public ::testing::Test {
                    Eigen::MatrixXd::Zero(parts_.n_cells(), parts_.n_cells()));
   }
 
-  ChannelSimulation::Look look(const Eigen::MatrixXd& projection) const {
+  ChannelSimulation::Look look(const Eigen::SparseMatrix<double>& projection) const {
     return simulation_->look(kRoundPoint, kRoundBlocks, projection, [&](const ScatteringPoint& at) {
       return dipole_pilot(system_.weights, smooth_knots(cube_.lit), at, 1.3);
     });
@@ -86,7 +86,7 @@ TEST_F(RoundOfTheCube, ProjectionHoldsJointSinglesScaleAndCells) {
   EXPECT_EQ(p.block(4, 0, 2, first).norm(), 0.0);
   EXPECT_GT(p.block(4, first, 2, p.cols() - first).norm(), 0.0);
   EXPECT_EQ(p.row(6), round_->equation().scale_form());
-  EXPECT_EQ(p.bottomRows(parts_.n_cells()), parts_.cells());
+  EXPECT_EQ(p.bottomRows(parts_.n_cells()), Eigen::MatrixXd(parts_.cells()));
 }
 
 TEST_F(RoundOfTheCube, AnImageThatIsPredictedMovesNothing) {

@@ -85,9 +85,10 @@ TEST(PartLight, CellsErrTogether) {
   for (int i = 0; i < 40; ++i) many.learn(parts, truth, from(256), truth, 256);
   EXPECT_LT((many.relative_cell_covariance(parts) - block).norm(), 0.05 * block.norm());
   // Rows of a cell are off together, by as much as their light.
-  const Eigen::MatrixXd alike =
-      correlated_rows(parts, truth.l, many.relative_cell_covariance(parts));
-  const Eigen::MatrixXd rows = alike * alike.transpose();
+  const CorrelatedErrors alike =
+      correlated_rows(parts, truth.l, many.relative_cell_covariance(parts), 0, kLightRows);
+  const Eigen::MatrixXd columns = alike.of_row * alike.root;
+  const Eigen::MatrixXd rows = columns * columns.transpose();
   EXPECT_NEAR(rows(0, 0), truth.l[0] * truth.l[0] * many.relative_cell_covariance(parts)(0, 0),
               1e-9);
   EXPECT_NEAR(rows(0, kLightRows - 1),
@@ -95,6 +96,12 @@ TEST(PartLight, CellsErrTogether) {
                   many.relative_cell_covariance(parts)(parts.cell_of_row(0),
                                                        parts.cell_of_row(kLightRows - 1)),
               1e-9);
+  // Some of the rows err as they do among all.
+  const CorrelatedErrors some =
+      correlated_rows(parts, truth.l, many.relative_cell_covariance(parts), 3, kLightRows - 5);
+  const Eigen::MatrixXd of_some = some.of_row * some.root;
+  const Eigen::MatrixXd among_all = rows.block(3, 3, kLightRows - 5, kLightRows - 5);
+  EXPECT_LT((of_some * of_some.transpose() - among_all).norm(), 1e-9 * among_all.norm());
   many.forget();
   EXPECT_EQ(many.blocks(), 0.0);
 }

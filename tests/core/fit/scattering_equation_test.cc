@@ -185,12 +185,13 @@ TEST(ScatteringEquation, CorrelatedErrors) {
     return std::sqrt(e.step(truth, p * p.transpose(), at).covariance(1, 1));
   };
   const ScatteringEquation blind(system, {0.0}, truth, at);
-  const ScatteringEquation knowing(system, {0.0}, truth, at, 1.0, alike);
+  const CorrelatedErrors groups{alike.sparseView(), Eigen::Matrix2d::Identity()};
+  const ScatteringEquation knowing(system, {0.0}, truth, at, 1.0, groups);
   EXPECT_LT(std_of(knowing), 0.3 * std_of(blind));
   const ScatteringEquation::Step step = knowing.step(truth, Eigen::MatrixXd::Zero(2, 2), at);
   EXPECT_LT(step.move.norm(), 1e-9);
-  EXPECT_THROW(ScatteringEquation(system, {0.0}, truth, at, 1.0, alike.topRows(3)),
-               std::invalid_argument);
+  const CorrelatedErrors fewer{alike.topRows(3).sparseView(), Eigen::Matrix2d::Identity()};
+  EXPECT_THROW(ScatteringEquation(system, {0.0}, truth, at, 1.0, fewer), std::invalid_argument);
 }
 
 // Scatter beyond the noise is a cause of its own, as correlated as the paths.

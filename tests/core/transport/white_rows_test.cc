@@ -35,7 +35,7 @@ TEST(WhiteRows, LightIsThatOfAbsorbedPaths) {
     const ScatteringImage direct = s.sum({kSigmaS, sigma_a, 0.0, 1.3}, 9, 300).image();
     const WhiteRows::Light light = white.light(sigma_a);
     const Eigen::VectorXd variance =
-        direct.variance + white.departures(sigma_a).rowwise().squaredNorm();
+        direct.variance + white.departures(sigma_a).colwise().squaredNorm().transpose();
     const double chi2 = chi2_per_row(light.l - direct.l, variance);
     EXPECT_GT(chi2, 0.6) << sigma_a;
     EXPECT_LT(chi2, 1.5) << sigma_a;
@@ -51,7 +51,7 @@ TEST(WhiteRows, DeparturesAreTheSpreadOverSeeds) {
   const WhiteScene s;
   const WhiteRows a = s.rows(1, 100), b = s.rows(1, 200);
   const Eigen::VectorXd variance =
-      a.departures(0.01).rowwise().squaredNorm() + b.departures(0.01).rowwise().squaredNorm();
+      a.departures(0.01).colwise().squaredNorm().transpose() + b.departures(0.01).colwise().squaredNorm().transpose();
   const double chi2 = chi2_per_row(a.light(0.01).l - b.light(0.01).l, variance);
   EXPECT_GT(chi2, 0.6);
   EXPECT_LT(chi2, 1.6);
