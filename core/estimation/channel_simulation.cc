@@ -84,6 +84,12 @@ ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& 
   }
 }
 
+double ChannelSimulation::largest_size_mm() const {
+  double out = 0.0;
+  for (const Lit& v : lit_) out = std::max(out, v.in_atlas->size_mm());
+  return out;
+}
+
 void ChannelSimulation::set_rows(const ChannelRows& rows) {
   area_mm2_.clear();
   center_mm_.clear();

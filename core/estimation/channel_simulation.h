@@ -28,6 +28,8 @@ class ChannelSimulation {
   // Throws InputError if a light reaches no part of an object.
   ChannelSimulation(const Scene& scene, const MaterialChannel& channel, TransportAtlas& atlas);
 
+  double largest_size_mm() const;  // of the lit bodies
+
   // From now on, images and projections have the rows whose state is kUsed, shot by shot.
   void set_rows(const ChannelRows& rows);
   Eigen::Index n_rows() const { return static_cast<Eigen::Index>(area_mm2_.size()); }

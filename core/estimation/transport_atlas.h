@@ -31,6 +31,7 @@ class TransportAtlas {
   class LitView {
    public:
     const ScatteringView& rows() const { return view_->rows; }
+    double size_mm() const { return view_->boundary->size_mm(); }
     // The node with at least so many levels. levels >= 1.
     const WhiteRows& node(int idx, int levels);
     // Paths to be traced for that.

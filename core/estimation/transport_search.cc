@@ -1,7 +1,6 @@
 #include "core/estimation/transport_search.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "core/estimation/channel_simulation.h"
 #include "core/estimation/mesh_scale.h"
+#include "core/estimation/path_budget.h"
 #include "core/estimation/residual_look.h"
 #include "core/estimation/transport_pilot.h"
 #include "core/estimation/transport_round.h"
@@ -28,6 +28,9 @@ constexpr int kMaxRounds = 30;
 constexpr double kLearnedBlocks = 32.0;
 // Relative change of the image by a step beyond which earlier paths do not apply to the new point.
 constexpr double kFarStep = 0.3;
+// Mean free paths across the largest body from which the search starts at least: where the dipole
+// does not hold, its result may be any.
+constexpr double kThinnest = 5.0;
 // Rows farther off than this many robust deviations are dust and scratches. Renderings by Monte
 // Carlo have longer tails than the noise of a camera.
 constexpr double kTransportOutlierStd = 8.0;
@@ -43,7 +46,8 @@ class TransportSearch {
         scale_(scale_prior(scene)),
         options_(options),
         stage_(stage),
-        simulation_(scene, channel, atlas) {
+        simulation_(scene, channel, atlas),
+        budget_(options) {
     // The image is that of whole patches.
     keep([&](std::size_t shot, std::size_t row, Eigen::Index) {
       return channel_.shots[shot]->seen->map.guarded_of_row[row] == 0 ? RowState::kUsed
@@ -53,9 +57,9 @@ class TransportSearch {
 
   void run(ChannelResult& result) {
     Estimate& estimate = result.estimate;
-    start_ = std::chrono::steady_clock::now();
-    ScatteringPoint at{estimate.sigma_s_prime_per_mm.value, estimate.sigma_a_per_mm.value,
-                       has_free_scale() ? estimate.scale.value : 1.0};
+    ScatteringPoint at{
+        std::max(estimate.sigma_s_prime_per_mm.value, kThinnest / simulation_.largest_size_mm()),
+        estimate.sigma_a_per_mm.value, has_free_scale() ? estimate.scale.value : 1.0};
     result.singles.clear();
     result.agreement = {};
     result.evidence = {};
@@ -70,7 +74,7 @@ class TransportSearch {
     int blocks = kFirstBlocks;  // per light and view; more as the search closes in
     Look last = first_look(at);
     bool outliers_known = false;
-    for (int i = 0; i < kMaxRounds && elapsed_s() < options_.time_limit_s; ++i) {
+    for (int i = 0; i < kMaxRounds && budget_.left_s() > 0.0; ++i) {
       stage_.check();
       const bool learned = part_light_.blocks() >= kLearnedBlocks;
       // During the search, a scale with a prior is taken as exact, which makes it more stable.
@@ -88,8 +92,10 @@ class TransportSearch {
         if (outliers_known || !leave_outliers_out(round)) return report(round, result);
         outliers_known = true;
         last = first_look(to);
-      } else if (round.step().change < 0.2 || round.scatter_within() > 1.5) {
-        blocks *= 2;  // noise of the paths dominates the step
+      } else if (round.step().change < 0.2 ||
+                 (round.step().change < kFarStep && round.scatter_within() > 1.5)) {
+        // Noise of the paths dominates the step.
+        blocks = std::max(blocks, budget_.next_blocks(simulation_, to, blocks));
       }
       at = to;
     }
@@ -122,18 +128,14 @@ class TransportSearch {
   };
 
   bool has_free_scale() const { return !std::isfinite(scale_.relative_std); }
-  double elapsed_s() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
 
   ChannelSimulation::Look look(const ScatteringPoint& at, int blocks,
                                const Eigen::SparseMatrix<double>& projection) {
-    const double started_s = elapsed_s();
+    const double started_s = budget_.elapsed_s();
     const std::int64_t paths = simulation_.missing_paths(at, blocks);
     ChannelSimulation::Look out = simulation_.look(
         at, blocks, projection, [this](const ScatteringPoint& p) { return dipole(p); });
-    traced_ += static_cast<double>(paths);
-    if (paths > 0) tracing_s_ += elapsed_s() - started_s;
+    budget_.count(paths, budget_.elapsed_s() - started_s);
     return out;
   }
 
@@ -145,24 +147,10 @@ class TransportSearch {
     while (may_be_last && is_close(round.step(), round.blocks()) &&
            !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
       stage_.check();
-      const int more = next_blocks(round);
+      const int more = budget_.next_blocks(simulation_, round.at(), round.blocks());
       if (more == 0) break;
       round.take(look(round.at(), more, projection));
     }
-  }
-
-  // Twice as many, or as time and options allow; 0: they allow none.
-  int next_blocks(const TransportRound& round) const {
-    const double left_s = options_.time_limit_s - elapsed_s();
-    const double in_time = tracing_s_ > 0.0 ? traced_ / tracing_s_ * left_s : 1e300;
-    const double most = static_cast<double>(options_.paths) / ChannelSimulation::kBlockPaths;
-    const int now = round.blocks();
-    for (const int more : {2 * now, std::max(kLeastBlocks, 3 * now / 2), 5 * now / 4}) {
-      if (!(more > now && more <= most)) continue;
-      const std::int64_t paths = simulation_.missing_paths(round.at(), more);
-      if (static_cast<double>(paths) <= in_time) return more;
-    }
-    return 0;
   }
 
   Look first_look(const ScatteringPoint& at) {
@@ -284,8 +272,7 @@ class TransportSearch {
   ChannelSimulation simulation_;
   ShotParts parts_;
   PartLight part_light_;
-  std::chrono::steady_clock::time_point start_;
-  double traced_ = 0, tracing_s_ = 0;  // paths, and the time that they took
+  PathBudget budget_;
 };
 
 }  // namespace

@@ -52,19 +52,19 @@ ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePri
     causes_.push_back("scale");
   }
   const Eigen::Index own = nuisances_.cols(), all = own + correlated_.root.cols();
-  Eigen::MatrixXd information = Eigen::MatrixXd::Identity(all, all);
+  Eigen::MatrixXd capacitance = Eigen::MatrixXd::Identity(all, all);
   const Eigen::MatrixXd by_nuisances =
       in_columns(row_variance_.cwiseInverse().asDiagonal() * nuisances_);
-  information.leftCols(own) += by_nuisances;
+  capacitance.leftCols(own) += by_nuisances;
   if (all > own) {
-    information.topRightCorner(own, all - own) = by_nuisances.bottomRows(all - own).transpose();
+    capacitance.topRightCorner(own, all - own) = by_nuisances.bottomRows(all - own).transpose();
     const SparseRows& of_row = correlated_.of_row;
     const Eigen::MatrixXd groups = SparseRows(of_row.transpose()) *
                                    SparseRows(row_variance_.cwiseInverse().asDiagonal() * of_row);
-    information.bottomRightCorner(all - own, all - own) +=
+    capacitance.bottomRightCorner(all - own, all - own) +=
         correlated_.root.transpose() * groups * correlated_.root;
   }
-  capacitance_ = inverse_lu(information);
+  capacitance_ = inverse_lu(capacitance);
   const Eigen::MatrixXd z = jacobian(pilot, at, !std::isfinite(scale.relative_std));
   relative_size_ = z.colwise().norm() / (at.scale * pilot.l.norm());
   // A change of sigma_s counts even if it hardly affects the image.

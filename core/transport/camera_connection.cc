@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -36,6 +37,20 @@ Passage passage_to(const Eigen::Vector3d& x, double depth_mm, const Eigen::Vecto
   return {ray, foot + (ray.radius_mm / foot_mm) * across};
 }
 
+// The ends of a short line on the plane that contains the passage: with q as in refracted_ray(),
+// radius / foot = q / (q + depth), and eta height <= q <= its value at the foot.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> passage_between(const Eigen::Vector3d& x,
+                                                            double depth_mm,
+                                                            const Eigen::Vector3d& normal,
+                                                            const Eigen::Vector3d& foot,
+                                                            double height_mm, double eta) {
+  const Eigen::Vector3d across = x + depth_mm * normal - foot;
+  const double least = eta * height_mm;
+  // sqrt(1 + u) <= 1 + u / 2.
+  const double most = least + 0.5 * (eta * eta - 1.0) * across.squaredNorm() / least;
+  return {foot + least / (least + depth_mm) * across, foot + most / (most + depth_mm) * across};
+}
+
 bool on_facet(const TriangleMesh& mesh, int facet, const Eigen::Vector3d& normal,
               const Eigen::Vector3d& x) {
   const auto& t = mesh.triangles[static_cast<std::size_t>(facet)];
@@ -61,9 +76,13 @@ RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
   for (int i = 0; i < 50; ++i) {
     slope = 1.0 + depth_mm * eta2 * h2 / (q * q * q);
     const double step = (r + depth_mm * r / q - foot_mm) / slope;
+    const double before = r;
     r = std::max(0.0, r - step);
     q = eta_d_cos(r);
-    if (std::abs(step) <= 1e-10 * (height_mm + r)) break;
+    // The next step is at most this times the square of this one: f'' falls with q.
+    const double curvature =
+        1.5 * depth_mm * (eta2 - 1.0) * eta2 * h2 * std::max(r, before) / (q * q * q * q * q);
+    if (curvature * step * step <= 1e-10 * (height_mm + r)) break;
   }
   const double cos_inside = q / (eta_int_over_ext * std::sqrt(r * r + h2));
   slope = 1.0 + depth_mm * eta2 * h2 / (q * q * q);
@@ -169,16 +188,24 @@ void CameraConnection::through(const Window& window, const Image& image, const V
   if (!(depth_mm > 0.0)) return;
   const double bound_mm = std::max(depth_mm, least_bound_mm);
   if (!(bound_mm < deepest_mm)) return;
+  const double beyond_mm = -kOnBody * boundary_.size_mm();
+  const bool convex = boundary_.body().convex;
+  if (convex) {
+    // Most passages are not on the body, which is told from where they may lie.
+    const auto [near, far] =
+        passage_between(image.x, depth_mm, plane.normal, window.foot, window.height_mm, eta_);
+    for (const BodyPlane& other : planes) {
+      if (other.depth_mm(near) < beyond_mm && other.depth_mm(far) < beyond_mm) return;
+    }
+  }
   const auto [ray, passage] =
       passage_to(image.x, depth_mm, plane.normal, window.foot, window.height_mm, eta_);
-  const double beyond_mm = -kOnBody * boundary_.size_mm();
   const auto on_body = [&](const Eigen::Vector3d& p) {
     for (const BodyPlane& other : planes) {
       if (other.depth_mm(p) < beyond_mm) return false;
     }
     return true;
   };
-  const bool convex = boundary_.body().convex;
   if (convex && !on_body(passage)) return;
 
   // Back from the passage, wall by wall, to the scattering itself.

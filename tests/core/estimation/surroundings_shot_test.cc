@@ -130,7 +130,7 @@ TEST(SurroundingsShot, TransportSimulatesThePlane) {
     simulation.set_rows(rows);
     const ScatteringImage image =
         simulation
-            .look({0.9, 0.02, 1.0}, 40, Eigen::MatrixXd(0, simulation.n_rows()),
+            .look({0.9, 0.02, 1.0}, 40, Eigen::SparseMatrix<double>(0, simulation.n_rows()),
                   [&](const ScatteringPoint& at) {
                     return dipole_pilot(system.weights, smooth_knots(cube.lit), at, 1.3);
                   })
