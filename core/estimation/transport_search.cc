@@ -10,13 +10,13 @@
 
 #include "core/estimation/channel_simulation.h"
 #include "core/estimation/mesh_scale.h"
-#include "core/estimation/path_budget.h"
 #include "core/estimation/residual_look.h"
 #include "core/estimation/transport_pilot.h"
 #include "core/estimation/transport_round.h"
 #include "core/estimation/transport_verdict.h"
 #include "core/fit/part_light.h"
 #include "core/fit/residual.h"
+#include "core/transport/path_budget.h"
 #include "core/view/row_selection.h"
 
 namespace scattermeter {
@@ -47,7 +47,8 @@ class TransportSearch {
         options_(options),
         stage_(stage),
         simulation_(scene, channel, atlas),
-        budget_(options) {
+        budget_(static_cast<double>(options.paths) / ChannelSimulation::kBlockPaths,
+                options.time_limit_s) {
     // The image is that of whole patches.
     keep([&](std::size_t shot, std::size_t row, Eigen::Index) {
       return channel_.shots[shot]->seen->map.guarded_of_row[row] == 0 ? RowState::kUsed
@@ -95,7 +96,7 @@ class TransportSearch {
       } else if (round.step().change < 0.2 ||
                  (round.step().change < kFarStep && round.scatter_within() > 1.5)) {
         // Noise of the paths dominates the step.
-        blocks = std::max(blocks, budget_.next_blocks(simulation_, to, blocks));
+        blocks = std::max(blocks, next_blocks(to, blocks));
       }
       at = to;
     }
@@ -147,10 +148,15 @@ class TransportSearch {
     while (may_be_last && is_close(round.step(), round.blocks()) &&
            !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
       stage_.check();
-      const int more = budget_.next_blocks(simulation_, round.at(), round.blocks());
+      const int more = next_blocks(round.at(), round.blocks());
       if (more == 0) break;
       round.take(look(round.at(), more, projection));
     }
+  }
+
+  int next_blocks(const ScatteringPoint& at, int now) const {
+    return budget_.next_blocks(now, kLeastBlocks,
+                               [&](int blocks) { return simulation_.missing_paths(at, blocks); });
   }
 
   Look first_look(const ScatteringPoint& at) {

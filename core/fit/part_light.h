@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "core/fit/correlated_errors.h"
+#include "core/fit/scattering_equation.h"
 #include "core/fit/shot_parts.h"
 #include "core/transport/scattering_rows.h"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
-#include "core/fit/correlated_errors.h"
 #include "core/fit/estimate.h"
 #include "core/fit/linear_shot.h"
 #include "core/transport/scattering_rows.h"
@@ -18,6 +18,14 @@ struct ScatteringPoint {
   double sigma_s_per_mm = 0;
   double sigma_a_per_mm = 0;
   double scale = 1;  // measured over predicted
+};
+
+// Errors common to groups of rows. of_row * root: rows x columns of unit deviation; the errors of
+// the groups are root times independent unit errors, and those of the rows follow from their
+// group's. Both empty: none.
+struct CorrelatedErrors {
+  Eigen::SparseMatrix<double, Eigen::RowMajor> of_row = {};  // rows x groups
+  Eigen::MatrixXd root = {};                                 // groups x columns
 };
 
 // Z^T W (y - scale * m(point)) = 0, to be solved with noisy m. A least-squares fit would take

@@ -50,8 +50,8 @@ TEST(WhiteRows, LightIsThatOfAbsorbedPaths) {
 TEST(WhiteRows, DeparturesAreTheSpreadOverSeeds) {
   const WhiteScene s;
   const WhiteRows a = s.rows(1, 100), b = s.rows(1, 200);
-  const Eigen::VectorXd variance =
-      a.departures(0.01).colwise().squaredNorm().transpose() + b.departures(0.01).colwise().squaredNorm().transpose();
+  const Eigen::VectorXd variance = a.departures(0.01).colwise().squaredNorm().transpose() +
+                                   b.departures(0.01).colwise().squaredNorm().transpose();
   const double chi2 = chi2_per_row(a.light(0.01).l - b.light(0.01).l, variance);
   EXPECT_GT(chi2, 0.6);
   EXPECT_LT(chi2, 1.6);

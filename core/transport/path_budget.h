@@ -1,0 +1,36 @@
+// Paths that a search by Monte Carlo may still trace.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+
+namespace scattermeter {
+
+// By the number of blocks of paths, and by time at the speed so far. Time counts from the
+// construction.
+class PathBudget {
+ public:
+  PathBudget(double most_blocks, double time_limit_s)
+      : most_blocks_(most_blocks),
+        time_limit_s_(time_limit_s),
+        start_(std::chrono::steady_clock::now()) {}
+
+  double elapsed_s() const;
+  double left_s() const { return time_limit_s_ - elapsed_s(); }
+  void count(std::int64_t paths, double seconds) {
+    traced_ += static_cast<double>(paths);
+    if (paths > 0) tracing_s_ += seconds;
+  }
+  // Twice as many blocks as now, or as few as a quarter more, but then `least` if there is room for
+  // them; 0: there is not even room for a quarter more. missing_paths: to be traced for so many.
+  int next_blocks(int now, int least,
+                  const std::function<std::int64_t(int blocks)>& missing_paths) const;
+
+ private:
+  double most_blocks_, time_limit_s_;
+  std::chrono::steady_clock::time_point start_;
+  double traced_ = 0, tracing_s_ = 0;  // paths, and the time that they took
+};
+
+}  // namespace scattermeter
