@@ -56,7 +56,10 @@ void declare(CLI::App& command, DeviationArguments& a) {
   command.add_option("--size", o.sizes, "only this size, from 0 (may be repeated)")
       ->check(CLI::Range(0, 9));
   command.add_option("--leds", o.leds, "only this number of LEDs")->check(CLI::Range(1, 2));
-  command.add_option("--run-seed", o.run_seed, "of every run, as in the CSV: to repeat one");
+  command
+      .add_option("--run-seed", o.run_seed,
+                  "of every run, as in the CSV: to repeat one. Each of the rigs selected runs once")
+      ->excludes("--runs");
   command.add_flag("--each", a.each, "print every answer, not only those that are wrong");
   command.add_flag("--list", a.list, "only list the kinds of deviation");
 }
@@ -82,7 +85,7 @@ void add_deviations_bench(CLI::App& bench, CommandContext& context,
       return 0;
     }
     take_common(*common, context, a->options);
-    if (a->all) a->options.runs = 0;
+    if (a->all || a->options.run_seed) a->options.runs = 0;
     a->options.on_result = [&](const DeviationResult& result) {
       const bool wrong = result.judged.verdict == DeviationVerdict::kWrongOk;
       if (!context.quiet && (wrong || a->each)) context.out << deviation_line(result) << std::flush;
