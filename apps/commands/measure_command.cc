@@ -17,7 +17,7 @@ namespace scattermeter::apps {
 namespace {
 
 struct MeasureArguments {
-  std::string shots, rig, out = "result";
+  std::string shots, rig, out = "result", atlas;
   MeasureOptions options;
   bool no_cache = false;
   MeasureArguments() { options.estimate.model = "auto"; }
@@ -64,6 +64,11 @@ void declare_options(CLI::App& command, MeasureArguments& a) {
                    "decode every shot anew and keep none (by default decoded shots are kept in "
                    "OUT/cache and used again while files, camera, pose, lens, meshes and patches "
                    "are the same)");
+  command.add_option(
+      "--atlas", a.atlas,
+      "folder of the paths of transport, which all materials and channels of a jig "
+      "use again; several programs may share it (default: OUT/atlas; with --no-cache "
+      "they are not kept)");
 }
 
 int run_measure(const MeasureArguments& a, CommandContext& context) {
@@ -71,6 +76,7 @@ int run_measure(const MeasureArguments& a, CommandContext& context) {
   MeasureOptions options = a.options;
   options.estimate.keep_rows = true;
   if (!a.no_cache) options.cache_folder = a.out + "/cache";
+  options.atlas_folder = a.atlas.empty() && !a.no_cache ? a.out + "/atlas" : a.atlas;
   const Measurement measurement = measure(read_rig(a.rig), a.shots, options, context.progress);
   const std::string path = a.out + "/result.json";
   const std::string page = a.out + "/result.html";

@@ -188,6 +188,10 @@ Instrument::Instrument(const Rig& rig, const ObjectScenes& objects, const Measur
       progress_(progress),
       pose_(shared_pose(rig)),
       lit_(rig.scene, objects, options.patch_size_mm, distance_to_camera_mm(rig, objects, pose_)) {
+  if (!options.atlas_folder.empty()) {
+    atlas_ = std::make_shared<AtlasFolder>(options.atlas_folder);
+    kept_.atlas = std::make_shared<TransportAtlas>(atlas_);
+  }
   if (pose_ && !rig.pose.refine_by_silhouette) view_ = see_all(rig.scene, objects, lit_, *pose_);
 }
 
@@ -262,7 +266,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   for (const auto& [name, object] : objects_) {
     out.patch_size_mm[name] = lit_.patches(name).patch_size_mm();
   }
-  if (!view_) kept_ = {};  // of previous views
+  if (!view_) kept_ = {.atlas = kept_.atlas};  // without the light of previous views
   std::optional<SharedView> view = view_;
   if (!view && pose_ && !rig_.pose.per_shot) {
     view = see_all(rig_.scene, objects_, lit_,
@@ -285,6 +289,9 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   out.results = smooth && !without_noise
                     ? fitted_from_where_seen(rig_.scene, seen, options, fit, watch)
                     : fit(options);
+  if (atlas_ && !atlas_->problem().empty()) {
+    out.notes.push_back("paths of transport are not kept: " + atlas_->problem());
+  }
   opened = seen.shots();
   if (!without_noise) widen_by_blur(opened, rig_.scene.camera.intrinsics.fx_px, out.results);
   out.skipped = skipped_of(opened, lit_);

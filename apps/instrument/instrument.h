@@ -2,10 +2,12 @@
 // shots.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/instrument/atlas_folder.h"
 #include "apps/instrument/finding.h"
 #include "apps/instrument/measure.h"
 #include "apps/rig/rig.h"
@@ -65,6 +67,7 @@ class Instrument {
   std::optional<PoseResult> pose_;  // from the rig's points
   LitObjects lit_;
   std::optional<SharedView> view_;
+  std::shared_ptr<AtlasFolder> atlas_;  // null: in memory only
   KeptLight kept_;
 };
 

@@ -21,6 +21,8 @@ struct MeasureOptions {
   std::vector<std::string> materials;   // of the rig, only these; empty: all
   // Folder of the decoded shots (capture/shots/shot_cache.h); empty: no cache.
   std::string cache_folder;
+  // Folder of the paths of transport (atlas_folder.h); empty: they are not kept.
+  std::string atlas_folder;
 };
 
 // A shot that was merged from several files. Samples are those on whole patches of the object.

@@ -1,25 +1,17 @@
 #include "capture/shots/shot_cache.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 #include <vector>
 
-#include "capture/files/digest.h"
-#include "capture/files/pending_file.h"
+#include "capture/files/checked_file.h"
 #include "core/base/input_error.h"
 
 namespace scattermeter::capture {
 namespace {
 
 constexpr const char* kEnding = ".shot";
-constexpr std::size_t kDigestLength = 64;
-
-std::string digest_of(const std::string& content) {
-  return Digest().bytes(content.data(), content.size()).hex();
-}
 
 }  // namespace
 
@@ -44,14 +36,10 @@ std::string ShotCache::path_of(const std::string& key) const {
 }
 
 std::optional<DecodedShot> ShotCache::find(const std::string& key) {
-  std::ifstream in(path_of(key), std::ios::binary);
-  if (!in) return std::nullopt;
-  std::string digest(kDigestLength, '\0');
-  if (!in.read(digest.data(), kDigestLength)) return std::nullopt;
-  const std::string content((std::istreambuf_iterator<char>(in)), {});
-  if (digest_of(content) != digest) return std::nullopt;
+  const std::optional<std::string> content = read_checked_file(path_of(key));
+  if (!content) return std::nullopt;
   std::optional<DecodedShot> shot =
-      decoded_shot({reinterpret_cast<const std::uint8_t*>(content.data()), content.size()});
+      decoded_shot({reinterpret_cast<const std::uint8_t*>(content->data()), content->size()});
   if (!shot) return std::nullopt;
   ++found_;
   const std::lock_guard lock(mutex_);
@@ -61,10 +49,9 @@ std::optional<DecodedShot> ShotCache::find(const std::string& key) {
 
 void ShotCache::keep(const std::string& key, const DecodedShot& shot) {
   const std::vector<std::uint8_t> bytes = to_bytes(shot);
-  const std::string content(bytes.begin(), bytes.end());
   std::string problem;
   try {
-    write_text_file(path_of(key), digest_of(content) + content);
+    write_checked_file(path_of(key), {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   } catch (const InputError& e) {
     problem = e.what();
   }

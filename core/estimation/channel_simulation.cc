@@ -72,7 +72,7 @@ ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& 
       const double power = light->power()[static_cast<Eigen::Index>(channel.channel)];
       if (!(power > 0.0)) continue;
       TransportAtlas::LitView* in_atlas =
-          &atlas.lit_view(scene, shot.seen, light, channel.channel, channel.eta_int_over_ext);
+          &atlas.lit_view(scene, *shot.seen, light, channel.channel, channel.eta_int_over_ext);
       auto known = std::find_if(lit_.begin(), lit_.end(),
                                 [&](const Lit& v) { return v.in_atlas == in_atlas; });
       if (known == lit_.end()) {
@@ -97,17 +97,18 @@ void ChannelSimulation::set_rows(const ChannelRows& rows) {
   Eigen::Index at = 0;
   for (std::size_t s = 0; s < channel_.shots.size(); ++s) {
     const SeenObject& seen = *channel_.shots[s]->seen;
-    std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
+    std::vector<std::pair<Eigen::Index, int>> used;  // row and patch
     for (std::size_t j = 0; j < rows[s].state.size(); ++j) {
       if (rows[s].state[j] != RowState::kUsed) continue;
-      pairs.emplace_back(at++, static_cast<Eigen::Index>(j));
       const int patch = seen.map.patch_of_row[j];
+      used.emplace_back(at++, patch);
       area_mm2_.push_back(seen.patches->area_mm2(patch));
       center_mm_.push_back(seen.patches->center_mm(patch));
     }
     for (Lit& v : lit_) {
-      for (const std::size_t own : v.shots) {
-        if (own == s) v.rows.insert(v.rows.end(), pairs.begin(), pairs.end());
+      if (std::find(v.shots.begin(), v.shots.end(), s) == v.shots.end()) continue;
+      for (const auto& [row, patch] : used) {
+        v.rows.emplace_back(row, v.in_atlas->row_of_patch(patch));
       }
     }
   }

@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "core/atlas/transport_atlas.h"
 #include "core/estimation/channel_rows.h"
-#include "core/estimation/transport_atlas.h"
 #include "core/fit/scattering_equation.h"
 #include "core/transport/scattering_rows.h"
 
@@ -59,7 +59,7 @@ class ChannelSimulation {
     TransportAtlas::LitView* in_atlas;
     double power;
     std::vector<std::size_t> shots;
-    // Pairs of a row of the images that it lights and the same row of the view.
+    // Pairs of a row of the images that it lights and the row of the view.
     std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;
   };
 

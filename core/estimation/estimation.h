@@ -16,7 +16,7 @@
 #include "core/estimation/estimate.h"
 #include "core/estimation/material_channel.h"
 #include "core/estimation/nuisances.h"
-#include "core/estimation/transport_atlas.h"
+#include "core/atlas/transport_atlas.h"
 #include "core/fit/dipole_fit.h"
 
 namespace scattermeter {
@@ -25,7 +25,8 @@ namespace scattermeter {
 struct KeptLight {
   Weights weights;  // on smooth knots
   ChangedWeightsByLight changed;
-  TransportAtlas atlas = {};
+  // Of all views.
+  std::shared_ptr<TransportAtlas> atlas = std::make_shared<TransportAtlas>();
 };
 
 class Estimation {

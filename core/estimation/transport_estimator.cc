@@ -30,7 +30,7 @@ void estimate_from_dipole(Estimation& e, const char* otherwise, const Wants& wan
     result.model = "transport";
     result.dipole = result.estimate;
     result.rows.clear();
-    search_by_transport(e.scene, e.channels[i], *systems[i], e.kept.atlas, e.options, stage,
+    search_by_transport(e.scene, e.channels[i], *systems[i], *e.kept.atlas, e.options, stage,
                         result);
     stage.step();
   }

@@ -4,7 +4,7 @@
 #include "core/base/progress.h"
 #include "core/estimation/channel_result.h"
 #include "core/estimation/estimation.h"
-#include "core/estimation/transport_atlas.h"
+#include "core/atlas/transport_atlas.h"
 #include "core/fit/estimate.h"
 
 namespace scattermeter {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/transport/path_blocks.h"
 
@@ -43,50 +44,59 @@ WhiteRows::WhiteRows(const ScatteringView& view, double sigma_s_per_mm, double s
     : view_(view),
       sigma_s_per_mm_(sigma_s_per_mm),
       tilts_(sigma_s_per_mm, size_mm),
-      sum_(Eigen::MatrixXd::Zero(tilts_.count(), view.n_rows)) {}
+      sums_{0, Eigen::MatrixXd::Zero(tilts_.count(), view.n_rows),
+            std::vector<Eigen::MatrixXf>(kept_tilts(),
+                                         Eigen::MatrixXf::Zero(kBatches, view.n_rows))} {}
+
+bool WhiteRows::take(WhiteSums sums) {
+  const auto has_shape_of = [](const auto& a, const auto& b) {
+    return a.rows() == b.rows() && a.cols() == b.cols();
+  };
+  const bool fits = sums.levels > levels() && has_shape_of(sums.sum, sums_.sum) &&
+                    std::equal(sums.batch.begin(), sums.batch.end(), sums_.batch.begin(),
+                               sums_.batch.end(), has_shape_of);
+  if (fits) sums_ = std::move(sums);
+  return fits;
+}
 
 void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
-  if (batch_.empty()) {
-    const Eigen::Index kept = (tilts_.count() - 1) / kBatchStep + 1;
-    batch_.assign(static_cast<std::size_t>(kept), Eigen::MatrixXf::Zero(kBatches, view_.n_rows));
-  }
   PathWorld white = world;
   white.medium.sigma_s_per_mm = sigma_s_per_mm_;
   white.medium.sigma_a_per_mm = 0.0;
   PathOptions options;
   options.seed = seed;
-  const std::int64_t more = levels_ == 0 ? kFirstPaths : paths();
+  const std::int64_t more = levels() == 0 ? kFirstPaths : paths();
   options.paths_per_block = static_cast<int>(more / kBatches);
-  const int first = levels_ * kBatches;
+  const int first = levels() * kBatches;
   int batch = 0;
   trace_blocks<TiltTally>(
       white, options, first, first + kBatches,
       [&] { return TiltTally(view_, white.boundary.scene().mesh(), tilts_); },
       [&](const TiltTally& block, const PathAudit&) {
         // A block estimates the whole from its own paths.
-        sum_ += options.paths_per_block * block.sum;
-        for (std::size_t j = 0; j < batch_.size(); ++j) {
-          batch_[j].row(batch) +=
+        sums_.sum += options.paths_per_block * block.sum;
+        for (std::size_t j = 0; j < sums_.batch.size(); ++j) {
+          sums_.batch[j].row(batch) +=
               (options.paths_per_block * block.sum.row(static_cast<Eigen::Index>(j) * kBatchStep))
                   .cast<float>();
         }
         ++batch;
       });
-  ++levels_;
+  ++sums_.levels;
 }
 
 WhiteRows::Light WhiteRows::light(double sigma_a_per_mm) const {
   const AbsorptionTilts::Combination c = tilts_.at(sigma_a_per_mm);
   const Eigen::VectorXd per_area = (static_cast<double>(paths()) * view_.area_mm2).cwiseInverse();
-  return {(sum_.transpose() * c.l).cwiseProduct(per_area),
-          (sum_.transpose() * c.per_sigma_a).cwiseProduct(per_area)};
+  return {(sums_.sum.transpose() * c.l).cwiseProduct(per_area),
+          (sums_.sum.transpose() * c.per_sigma_a).cwiseProduct(per_area)};
 }
 
 Eigen::MatrixXd WhiteRows::departures(double sigma_a_per_mm) const {
   const AbsorptionTilts::Combination c = tilts_.at(sigma_a_per_mm, kBatchStep);
   Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(kBatches, view_.n_rows);
-  for (std::size_t j = 0; j < batch_.size(); ++j) {
-    sums += static_cast<float>(c.l[static_cast<Eigen::Index>(j) * kBatchStep]) * batch_[j];
+  for (std::size_t j = 0; j < sums_.batch.size(); ++j) {
+    sums += static_cast<float>(c.l[static_cast<Eigen::Index>(j) * kBatchStep]) * sums_.batch[j];
   }
   const double own_paths = static_cast<double>(paths()) / kBatches;
   const Eigen::VectorXd size =

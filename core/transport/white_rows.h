@@ -12,6 +12,13 @@
 
 namespace scattermeter {
 
+// Scores of the paths so far.
+struct WhiteSums {
+  int levels = 0;
+  Eigen::MatrixXd sum;                 // tilts x rows: scores of all paths
+  std::vector<Eigen::MatrixXf> batch;  // by kept tilt: kBatches x rows
+};
+
 // White Monte Carlo (Alerstam, Svensson & Andersson-Engels 2008): paths are traced without
 // absorption, and those of length L count exp(-sigma_a L). The same levels give the same digits on
 // any number of threads.
@@ -28,10 +35,15 @@ class WhiteRows {
   WhiteRows(const ScatteringView& view, double sigma_s_per_mm, double size_mm);
 
   double sigma_s_per_mm() const { return sigma_s_per_mm_; }
-  int levels() const { return levels_; }
-  std::int64_t paths() const { return levels_ == 0 ? 0 : kFirstPaths << (levels_ - 1); }
+  int levels() const { return sums_.levels; }
+  std::int64_t paths() const { return levels() == 0 ? 0 : kFirstPaths << (levels() - 1); }
   // Traces the paths of one more level, in the world with its medium replaced by this one.
   void refine(const PathWorld& world, std::uint64_t seed);
+
+  const WhiteSums& sums() const { return sums_; }
+  // Takes the paths of an equal object in place of its own, unless it has as many: then, or where
+  // their shapes do not fit the view and the tilts, it returns false and changes nothing.
+  bool take(WhiteSums sums);
 
   struct Light {
     Eigen::VectorXd l;            // of every row, as ScatteringImage::l
@@ -45,13 +57,14 @@ class WhiteRows {
  private:
   // Every second tilt is kept for each batch: errors need to be known to some per cent only.
   static constexpr Eigen::Index kBatchStep = 2;
+  std::size_t kept_tilts() const {
+    return static_cast<std::size_t>((tilts_.count() - 1) / kBatchStep + 1);
+  }
 
   const ScatteringView& view_;
   double sigma_s_per_mm_;
   AbsorptionTilts tilts_;
-  int levels_ = 0;
-  Eigen::MatrixXd sum_;                 // tilts x rows: scores of all paths
-  std::vector<Eigen::MatrixXf> batch_;  // by kept tilt: kBatches x rows
+  WhiteSums sums_;
 };
 
 }  // namespace scattermeter

@@ -70,5 +70,19 @@ TEST(WhiteRows, LevelsDoubleThePaths) {
   EXPECT_EQ(WhiteRows::levels_for(WhiteRows::kFirstPaths + 1.0), 2);
 }
 
+// Of an equal object with more paths only.
+TEST(WhiteRows, TakesMorePaths) {
+  const WhiteScene s;
+  WhiteRows rows = s.rows(1);
+  const WhiteRows more = s.rows(2);
+  EXPECT_FALSE(rows.take(rows.sums()));
+  WhiteSums other = more.sums();
+  other.batch.pop_back();
+  EXPECT_FALSE(rows.take(other));
+  EXPECT_EQ(rows.levels(), 1);
+  EXPECT_TRUE(rows.take(more.sums()));
+  EXPECT_EQ(rows.light(0.01).l, more.light(0.01).l);
+}
+
 }  // namespace
 }  // namespace scattermeter

@@ -1,0 +1,157 @@
+#include "apps/instrument/atlas_folder.h"
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "capture/files/checked_file.h"
+#include "capture/files/digest.h"
+#include "capture/files/pending_file.h"
+#include "core/base/input_error.h"
+#include "core/base/version.h"
+
+namespace scattermeter::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Waits until no other program holds it; held until destroyed, or until the program ends.
+class FileLock {
+ public:
+  explicit FileLock(const std::string& path)
+      : descriptor_(open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)) {
+    // A file system without locks: the last to write wins.
+    if (descriptor_ >= 0) static_cast<void>(flock(descriptor_, LOCK_EX));
+  }
+  ~FileLock() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+std::string center_name(const Eigen::Vector3d& center_mm) {
+  return fmt::format("{},{},{}", center_mm.x(), center_mm.y(), center_mm.z());
+}
+
+std::optional<Eigen::Vector3d> center_of(std::string_view name) {
+  Eigen::Vector3d out;
+  const char* at = name.data();
+  const char* const end = at + name.size();
+  for (int i = 0; i < 3; ++i) {
+    if (i > 0 && (at == end || *at++ != ',')) return std::nullopt;
+    const auto [next, error] = std::from_chars(at, end, out[i]);
+    if (error != std::errc()) return std::nullopt;
+    at = next;
+  }
+  return at == end ? std::optional(out) : std::nullopt;
+}
+
+// The file: six counts, the sums, the batches. Bytes as in memory.
+constexpr std::int64_t kFormat = 1;
+using Counts = std::array<std::int64_t, 6>;
+
+template <class T>
+void append(std::string& out, const T* values, Eigen::Index n) {
+  out.append(reinterpret_cast<const char*>(values), static_cast<std::size_t>(n) * sizeof(T));
+}
+
+std::string packed(const WhiteSums& sums) {
+  const Counts counts = {kFormat,
+                         sums.levels,
+                         sums.sum.rows(),
+                         sums.sum.cols(),
+                         static_cast<std::int64_t>(sums.batch.size()),
+                         sums.batch.empty() ? 0 : sums.batch.front().rows()};
+  std::string out;
+  append(out, counts.data(), static_cast<Eigen::Index>(counts.size()));
+  append(out, sums.sum.data(), sums.sum.size());
+  for (const Eigen::MatrixXf& b : sums.batch) append(out, b.data(), b.size());
+  return out;
+}
+
+std::optional<WhiteSums> unpacked(std::string_view bytes) {
+  Counts counts;
+  if (bytes.size() < sizeof counts) return std::nullopt;
+  std::memcpy(counts.data(), bytes.data(), sizeof counts);
+  const auto [format, levels, tilts, rows, batches, batch_rows] = counts;
+  if (format != kFormat) return std::nullopt;
+  constexpr std::int64_t kMost = std::int64_t{1} << 31;
+  for (const std::int64_t n : counts) {
+    if (n < 0 || n > kMost) return std::nullopt;
+  }
+  const auto n_rows = static_cast<double>(rows);
+  const double expected =
+      sizeof counts + 8.0 * static_cast<double>(tilts) * n_rows +
+      4.0 * static_cast<double>(batches) * static_cast<double>(batch_rows) * n_rows;
+  if (static_cast<double>(bytes.size()) != expected) return std::nullopt;
+  WhiteSums out;
+  out.levels = static_cast<int>(levels);
+  const char* at = bytes.data() + sizeof counts;
+  const auto fill = [&](auto& matrix) {
+    const std::size_t size = static_cast<std::size_t>(matrix.size()) * sizeof(matrix(0, 0));
+    std::memcpy(matrix.data(), at, size);
+    at += size;
+  };
+  out.sum.resize(tilts, rows);
+  fill(out.sum);
+  out.batch.assign(static_cast<std::size_t>(batches), Eigen::MatrixXf(batch_rows, rows));
+  for (Eigen::MatrixXf& b : out.batch) fill(b);
+  return out;
+}
+
+}  // namespace
+
+std::string AtlasFolder::folder_of(const LitBody& body) const {
+  constexpr std::size_t kDigits = 32;
+  return folder_ + "/" +
+         capture::Digest().text(kVersion).numbers(body.numbers).hex().substr(0, kDigits);
+}
+
+std::string AtlasFolder::path_of(const LitBody& body, const Eigen::Vector3d& center_mm,
+                                 int node) const {
+  return fmt::format("{}/{}/{}.paths", folder_of(body), center_name(center_mm), node);
+}
+
+std::vector<Eigen::Vector3d> AtlasFolder::centers_mm(const LitBody& body) {
+  std::vector<Eigen::Vector3d> out;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder_of(body), ignored)) {
+    if (const auto center = center_of(entry.path().filename().string())) out.push_back(*center);
+  }
+  return out;
+}
+
+std::optional<WhiteSums> AtlasFolder::find(const LitBody& body, const Eigen::Vector3d& center_mm,
+                                           int node) {
+  const auto content = capture::read_checked_file(path_of(body, center_mm, node));
+  return content ? unpacked(*content) : std::nullopt;
+}
+
+void AtlasFolder::keep(const LitBody& body, const Eigen::Vector3d& center_mm, int node,
+                       const WhiteSums& sums) {
+  const std::string path = path_of(body, center_mm, node);
+  try {
+    capture::make_folder_of(path);
+    const FileLock lock(folder_of(body) + "/lock");
+    const auto known = find(body, center_mm, node);
+    if (known && known->levels >= sums.levels) return;
+    capture::write_checked_file(path, packed(sums));
+  } catch (const InputError& e) {
+    if (problem_.empty()) problem_ = e.what();
+  }
+}
+
+}  // namespace scattermeter::apps

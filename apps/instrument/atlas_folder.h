@@ -1,0 +1,38 @@
+// The nodes of a transport atlas in a folder.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/atlas/atlas_store.h"
+
+namespace scattermeter::apps {
+
+// FOLDER/BODY/CENTER/NODE.paths: BODY is the first 32 digits of the SHA-256 of the body's numbers
+// and of the program's version, CENTER "x,y,z" in mm. A file appears complete or not at all, and
+// one with a wrong digest is ignored; a lock per body keeps programs that write at once from
+// replacing many paths by fewer. Of a program that is killed, only the node in work is lost.
+class AtlasFolder : public AtlasStore {
+ public:
+  explicit AtlasFolder(std::string folder) : folder_(std::move(folder)) {}
+
+  std::vector<Eigen::Vector3d> centers_mm(const LitBody& body) override;
+  std::optional<WhiteSums> find(const LitBody& body, const Eigen::Vector3d& center_mm,
+                                int node) override;
+  void keep(const LitBody& body, const Eigen::Vector3d& center_mm, int node,
+            const WhiteSums& sums) override;
+
+  // Why the first node that could not be kept failed; empty if all were kept.
+  const std::string& problem() const { return problem_; }
+
+ private:
+  std::string folder_of(const LitBody& body) const;
+  std::string path_of(const LitBody& body, const Eigen::Vector3d& center_mm, int node) const;
+  std::string folder_;
+  std::string problem_;
+};
+
+}  // namespace scattermeter::apps

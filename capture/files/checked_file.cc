@@ -1,0 +1,34 @@
+#include "capture/files/checked_file.h"
+
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+
+#include "capture/files/digest.h"
+#include "capture/files/pending_file.h"
+
+namespace scattermeter::capture {
+namespace {
+
+constexpr std::size_t kDigestLength = 64;
+
+std::string digest_of(std::string_view content) {
+  return Digest().bytes(content.data(), content.size()).hex();
+}
+
+}  // namespace
+
+std::optional<std::string> read_checked_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string digest(kDigestLength, '\0');
+  if (!in || !in.read(digest.data(), kDigestLength)) return std::nullopt;
+  std::string content((std::istreambuf_iterator<char>(in)), {});
+  if (digest_of(content) != digest) return std::nullopt;
+  return content;
+}
+
+void write_checked_file(const std::string& path, std::string_view content) {
+  write_text_file(path, digest_of(content).append(content));
+}
+
+}  // namespace scattermeter::capture

@@ -1,0 +1,175 @@
+#include "core/atlas/transport_atlas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/random_stream.h"
+#include "core/scene/surroundings.h"
+
+namespace scattermeter {
+namespace {
+
+// Nodes, lights and channels of one seed.
+constexpr std::uint64_t kNodes = 4096;
+constexpr std::uint64_t kLights = 1024;
+// Raised whenever the same seed gives other paths, or paths other scores.
+constexpr double kPathsVersion = 1.0;
+
+bool same(const DiffusePlane& a, const DiffusePlane& b) {
+  return a.z_mm == b.z_mm && a.albedo == b.albedo && a.contact == b.contact;
+}
+
+std::uint64_t index_in(const Scene& scene, const SceneLight& light) {
+  return static_cast<std::uint64_t>(&light - scene.lights.data());
+}
+
+// Seen from the object.
+bool are_near(const ObjectScene& object, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d from = object.box.center_mm();
+  return (a - b).norm() <= TransportAtlas::kNearViews * (a - from).norm();
+}
+
+// Those exactly from the side included, as rounding may show them.
+std::vector<int> facing(const PatchMesh& patches, const Eigen::Vector3d& camera_mm) {
+  constexpr double kGrazing = -1e-9;
+  std::vector<int> out;
+  for (int p = 0; p < patches.size(); ++p) {
+    const Eigen::Vector3d to_camera = camera_mm - patches.center_mm(p);
+    if (patches.normal(p).dot(to_camera) > kGrazing * to_camera.norm()) out.push_back(p);
+  }
+  return out;
+}
+
+// A light is told by where it enters: the first of its samples stand for its position, lobe or
+// picture, and for the plane that it may come by.
+LitBody lit_body(const TriangleMesh& mesh, const PatchMesh& patches, double eta,
+                 const DiffusePlane& plane, const EntrySource& source, std::uint64_t seed) {
+  constexpr int kSamples = 512;
+  LitBody out;
+  std::vector<double>& n = out.numbers;
+  n = {kPathsVersion,
+       WhiteRows::kFirstPaths,
+       WhiteRows::kBatches,
+       TransportAtlas::kSpacing,
+       eta,
+       patches.patch_size_mm(),
+       plane.z_mm,
+       plane.albedo,
+       static_cast<double>(plane.contact),
+       static_cast<double>(seed)};
+  const auto add = [&](const Eigen::Vector3d& v) { n.insert(n.end(), v.begin(), v.end()); };
+  for (const Eigen::Vector3d& v : mesh.vertices_mm) add(v);
+  for (const auto& facet : mesh.facets) n.insert(n.end(), facet.begin(), facet.end());
+  RandomStream random(seed, 0);
+  for (int i = 0; i < kSamples; ++i) {
+    const std::optional<Entry> entry = source.sample((i + 0.5) / kSamples, random);
+    n.push_back(entry ? entry->power : 0.0);
+    if (!entry) continue;
+    add(entry->position_mm);
+    add(entry->direction);
+  }
+  return out;
+}
+
+}  // namespace
+
+double TransportAtlas::sigma_s_per_mm(int node) { return std::exp(kSpacing * node); }
+
+bool TransportAtlas::LitView::View::shows(const SeenObject& seen, double eta_int_over_ext) const {
+  return object == seen.object && patches == seen.patches && eta == eta_int_over_ext &&
+         are_near(*object, center_mm, seen.camera_center_mm) &&
+         std::all_of(seen.map.patch_of_row.begin(), seen.map.patch_of_row.end(), [&](int patch) {
+           return rows.row_of_patch[static_cast<std::size_t>(patch)] >= 0;
+         });
+}
+
+const TransportAtlas::View& TransportAtlas::view(const SeenObject& seen,
+                                                 const Eigen::Vector3d& center_mm,
+                                                 double eta_int_over_ext) {
+  const auto known = std::find_if(views_.begin(), views_.end(), [&](const View& v) {
+    return v.center_mm == center_mm && v.shows(seen, eta_int_over_ext);
+  });
+  if (known != views_.end()) return *known;
+  View& v = views_.emplace_back();
+  v.object = seen.object;
+  v.patches = seen.patches;
+  v.eta = eta_int_over_ext;
+  v.center_mm = center_mm;
+  v.boundary = std::make_unique<PathBoundary>(*seen.object->rays);
+  v.camera.emplace(*v.boundary, center_mm, ScatteringMedium{1.0, 0.0, 0.0, eta_int_over_ext});
+  v.rows = scattering_view(*seen.patches, facing(*seen.patches, center_mm));
+  return v;
+}
+
+TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const SeenObject& seen,
+                                                  const SceneLight& light, std::size_t channel,
+                                                  double eta_int_over_ext) {
+  const DiffusePlane plane = plane_below(scene, *seen.object).in(channel);
+  // An LED lights all channels alike but for its power.
+  const int own = light.led() != nullptr ? -1 : static_cast<int>(channel);
+  const auto known = std::find_if(lit_.begin(), lit_.end(), [&](const LitView& v) {
+    return v.view_->shows(seen, eta_int_over_ext) && v.light_ == &light && v.channel_ == own &&
+           same(v.plane_, plane);
+  });
+  if (known != lit_.end()) return *known;
+  LitView v;
+  v.source_ =
+      entry_above(light, *seen.object->rays, eta_int_over_ext, static_cast<int>(channel), plane);
+  v.light_ = &light;
+  v.channel_ = own;
+  v.plane_ = plane;
+  v.seed_ = (static_cast<std::uint64_t>(own + 1) * kLights + index_in(scene, light)) * kNodes;
+  // From the nearest centre of which all that is seen is in the store.
+  std::vector<Eigen::Vector3d> centers;
+  if (store_) {
+    v.store_ = store_.get();
+    v.body_ = lit_body(seen.object->rays->mesh(), *seen.patches, eta_int_over_ext, plane,
+                       *v.source_, v.seed_);
+    centers = store_->centers_mm(v.body_);
+    std::erase_if(centers, [&](const Eigen::Vector3d& c) {
+      return !are_near(*seen.object, c, seen.camera_center_mm);
+    });
+    std::sort(centers.begin(), centers.end(), [&](const auto& a, const auto& b) {
+      return (a - seen.camera_center_mm).norm() < (b - seen.camera_center_mm).norm();
+    });
+  }
+  for (const Eigen::Vector3d& center : centers) {
+    const View& near = view(seen, center, eta_int_over_ext);
+    if (!near.shows(seen, eta_int_over_ext)) continue;
+    v.view_ = &near;
+    break;
+  }
+  if (v.view_ == nullptr) v.view_ = &view(seen, seen.camera_center_mm, eta_int_over_ext);
+  return lit_.emplace_back(std::move(v));
+}
+
+// With the paths that are in the store.
+WhiteRows& TransportAtlas::LitView::known_node(int idx) const {
+  const auto [at, is_new] =
+      nodes_.try_emplace(idx, view_->rows, sigma_s_per_mm(idx), view_->boundary->size_mm());
+  if (is_new && store_ != nullptr) {
+    if (auto sums = store_->find(body_, view_->center_mm, idx)) at->second.take(std::move(*sums));
+  }
+  return at->second;
+}
+
+std::int64_t TransportAtlas::LitView::missing_paths(int idx, int levels) const {
+  const std::int64_t wanted = WhiteRows::kFirstPaths << (levels - 1);
+  return std::max<std::int64_t>(0, wanted - known_node(idx).paths());
+}
+
+const WhiteRows& TransportAtlas::LitView::node(int idx, int levels) {
+  WhiteRows& out = known_node(idx);
+  if (out.levels() >= levels) return out;
+  const ScatteringMedium medium{out.sigma_s_per_mm(), 0.0, 0.0, view_->eta};
+  const CameraConnection camera = view_->camera->with(medium, plane_);
+  const PathWorld world{*view_->boundary, medium, *source_, &camera, plane_};
+  while (out.levels() < levels) {
+    out.refine(world, seed_ + static_cast<std::uint64_t>(idx + static_cast<int>(kNodes / 2)));
+    if (store_ != nullptr) store_->keep(body_, view_->center_mm, idx, out.sums());
+  }
+  return out;
+}
+
+}  // namespace scattermeter
