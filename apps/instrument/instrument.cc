@@ -266,7 +266,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   for (const auto& [name, object] : objects_) {
     out.patch_size_mm[name] = lit_.patches(name).patch_size_mm();
   }
-  if (!view_) kept_ = {.atlas = kept_.atlas};  // without the light of previous views
+  if (!view_) kept_ = {{}, {}, kept_.atlas};  // without the light of previous views
   std::optional<SharedView> view = view_;
   if (!view && pose_ && !rig_.pose.per_shot) {
     view = see_all(rig_.scene, objects_, lit_,

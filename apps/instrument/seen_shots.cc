@@ -30,7 +30,7 @@ void SeenShots::open(const capture::ShotSource& from) {
 
 void SeenShots::open_from(const std::map<std::string, PoseShift>& shifts) {
   if (!view_) return;
-  shifted_ = {.atlas = kept_->atlas};
+  shifted_ = {{}, {}, kept_->atlas};
   kept_ = &shifted_;
   view_ = see_all(rig_.scene, objects_, lit_, view_->pose, shifts);
   open();

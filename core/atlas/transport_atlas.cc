@@ -60,7 +60,7 @@ LitBody lit_body(const TriangleMesh& mesh, const PatchMesh& patches, double eta,
        static_cast<double>(seed)};
   const auto add = [&](const Eigen::Vector3d& v) { n.insert(n.end(), v.begin(), v.end()); };
   for (const Eigen::Vector3d& v : mesh.vertices_mm) add(v);
-  for (const auto& facet : mesh.facets) n.insert(n.end(), facet.begin(), facet.end());
+  for (const auto& facet : mesh.triangles) n.insert(n.end(), facet.begin(), facet.end());
   RandomStream random(seed, 0);
   for (int i = 0; i < kSamples; ++i) {
     const std::optional<Entry> entry = source.sample((i + 0.5) / kSamples, random);
