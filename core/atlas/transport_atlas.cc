@@ -155,8 +155,7 @@ WhiteRows& TransportAtlas::LitView::known_node(int idx) const {
 }
 
 std::int64_t TransportAtlas::LitView::missing_paths(int idx, int levels) const {
-  const std::int64_t wanted = WhiteRows::kFirstPaths << (levels - 1);
-  return std::max<std::int64_t>(0, wanted - known_node(idx).paths());
+  return std::max<std::int64_t>(0, WhiteRows::paths_of(levels) - known_node(idx).paths());
 }
 
 const WhiteRows& TransportAtlas::LitView::node(int idx, int levels) {
@@ -165,10 +164,9 @@ const WhiteRows& TransportAtlas::LitView::node(int idx, int levels) {
   const ScatteringMedium medium{out.sigma_s_per_mm(), 0.0, 0.0, view_->eta};
   const CameraConnection camera = view_->camera->with(medium, plane_);
   const PathWorld world{*view_->boundary, medium, *source_, &camera, plane_};
-  while (out.levels() < levels) {
-    out.refine(world, seed_ + static_cast<std::uint64_t>(idx + static_cast<int>(kNodes / 2)));
-    if (store_ != nullptr) store_->keep(body_, view_->center_mm, idx, out.sums());
-  }
+  const std::uint64_t seed = seed_ + static_cast<std::uint64_t>(idx + static_cast<int>(kNodes / 2));
+  while (out.levels() < levels) out.refine(world, seed);
+  if (store_ != nullptr) store_->keep(body_, view_->center_mm, idx, out.sums());
   return out;
 }
 

@@ -1,11 +1,13 @@
 // The estimators that use transport: for all channels, or for those where the dipole will not do.
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/progress.h"
 #include "core/estimation/estimation.h"
 #include "core/estimation/model_choice.h"
 #include "core/estimation/transport_search.h"
+#include "core/estimation/transport_start.h"
 
 namespace scattermeter {
 namespace {
@@ -27,8 +29,10 @@ void estimate_from_dipole(Estimation& e, const char* otherwise, const Wants& wan
   ProgressStage stage(e.progress, "transport", wanted.size());
   for (const std::size_t i : wanted) {
     ChannelResult& result = e.results[i];
+    Estimate of_dipole = result.estimate;
+    start_like_others(e.results, result.estimate);
     result.model = "transport";
-    result.dipole = result.estimate;
+    result.dipole = std::move(of_dipole);
     result.rows.clear();
     search_by_transport(e.scene, e.channels[i], *systems[i], *e.kept.atlas, e.options, stage,
                         result);

@@ -36,8 +36,14 @@ class TiltTally {
 
 int WhiteRows::levels_for(double paths) {
   int levels = 1;
-  while (static_cast<double>(kFirstPaths) * std::exp2(levels - 1) < paths) ++levels;
+  while (static_cast<double>(paths_of(levels)) < paths) ++levels;
   return levels;
+}
+
+std::int64_t WhiteRows::paths_of(int levels) {
+  if (levels == 0) return 0;
+  const double of_batch = static_cast<double>(kFirstPaths) / kBatches;
+  return kBatches * std::llround(of_batch * std::exp2(0.25 * (levels - 1)));
 }
 
 WhiteRows::WhiteRows(const ScatteringView& view, double sigma_s_per_mm, double size_mm)
@@ -65,8 +71,7 @@ void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
   white.medium.sigma_a_per_mm = 0.0;
   PathOptions options;
   options.seed = seed;
-  const std::int64_t more = levels() == 0 ? kFirstPaths : paths();
-  options.paths_per_block = static_cast<int>(more / kBatches);
+  options.paths_per_block = static_cast<int>((paths_of(levels() + 1) - paths()) / kBatches);
   const int first = levels() * kBatches;
   int batch = 0;
   trace_blocks<TiltTally>(

@@ -26,8 +26,10 @@ class WhiteRows {
  public:
   // Independent parts of the paths, whose spread is the Monte Carlo error.
   static constexpr int kBatches = 64;
-  // Of level 1; each further level doubles them.
+  // Of level 1; four further levels double them.
   static constexpr std::int64_t kFirstPaths = 16'384;
+  // Of so many levels; a multiple of kBatches.
+  static std::int64_t paths_of(int levels);
   // The fewest levels that have so many paths.
   static int levels_for(double paths);
 
@@ -36,7 +38,7 @@ class WhiteRows {
 
   double sigma_s_per_mm() const { return sigma_s_per_mm_; }
   int levels() const { return sums_.levels; }
-  std::int64_t paths() const { return levels() == 0 ? 0 : kFirstPaths << (levels() - 1); }
+  std::int64_t paths() const { return paths_of(levels()); }
   // Traces the paths of one more level, in the world with its medium replaced by this one.
   void refine(const PathWorld& world, std::uint64_t seed);
 

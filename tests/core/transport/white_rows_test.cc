@@ -30,7 +30,7 @@ double chi2_per_row(const Eigen::VectorXd& difference, const Eigen::VectorXd& va
 // At any absorption, the light is that of paths which are absorbed as they go.
 TEST(WhiteRows, LightIsThatOfAbsorbedPaths) {
   const WhiteScene s;
-  const WhiteRows white = s.rows(4);
+  const WhiteRows white = s.rows(13);
   for (const double sigma_a : {0.0, 0.003, 0.05, 0.6}) {
     const ScatteringImage direct = s.sum({kSigmaS, sigma_a, 0.0, 1.3}, 9, 300).image();
     const WhiteRows::Light light = white.light(sigma_a);
@@ -57,17 +57,18 @@ TEST(WhiteRows, DeparturesAreTheSpreadOverSeeds) {
   EXPECT_LT(chi2, 1.6);
 }
 
-TEST(WhiteRows, LevelsDoubleThePaths) {
+TEST(WhiteRows, FourLevelsDoubleThePaths) {
   const WhiteScene s;
   EXPECT_EQ(s.rows(0).paths(), 0);
-  const WhiteRows first = s.rows(1), third = s.rows(3), again = s.rows(3);
+  const WhiteRows first = s.rows(1), ninth = s.rows(9), again = s.rows(9);
   EXPECT_EQ(first.paths(), WhiteRows::kFirstPaths);
-  EXPECT_EQ(third.paths(), 4 * WhiteRows::kFirstPaths);
-  EXPECT_EQ(third.light(0.02).l, again.light(0.02).l);
-  const double finer = third.departures(0.02).squaredNorm();
+  EXPECT_EQ(ninth.paths(), 4 * WhiteRows::kFirstPaths);
+  EXPECT_EQ(ninth.light(0.02).l, again.light(0.02).l);
+  const double finer = ninth.departures(0.02).squaredNorm();
   EXPECT_NEAR(first.departures(0.02).squaredNorm() / finer, 4.0, 1.2);
   EXPECT_EQ(WhiteRows::levels_for(1.0), 1);
   EXPECT_EQ(WhiteRows::levels_for(WhiteRows::kFirstPaths + 1.0), 2);
+  EXPECT_EQ(WhiteRows::paths_of(2) % WhiteRows::kBatches, 0);
 }
 
 // Of an equal object with more paths only.
