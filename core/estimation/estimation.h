@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/atlas/transport_atlas.h"
 #include "core/base/progress.h"
 #include "core/base/stopwatch.h"
 #include "core/estimation/channel_result.h"
@@ -16,7 +17,6 @@
 #include "core/estimation/estimate.h"
 #include "core/estimation/material_channel.h"
 #include "core/estimation/nuisances.h"
-#include "core/atlas/transport_atlas.h"
 #include "core/fit/dipole_fit.h"
 
 namespace scattermeter {

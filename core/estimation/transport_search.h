@@ -1,10 +1,10 @@
 // Search for the medium whose image by volume Monte Carlo matches the observed one.
 #pragma once
 
+#include "core/atlas/transport_atlas.h"
 #include "core/base/progress.h"
 #include "core/estimation/channel_result.h"
 #include "core/estimation/estimation.h"
-#include "core/atlas/transport_atlas.h"
 #include "core/fit/estimate.h"
 
 namespace scattermeter {
