@@ -42,6 +42,13 @@ class FileLock {
   int descriptor_;
 };
 
+// The earliest time if there is no such file.
+fs::file_time_type changed(const std::string& path) {
+  std::error_code none;
+  const fs::file_time_type at = fs::last_write_time(path, none);
+  return none ? fs::file_time_type::min() : at;
+}
+
 std::string center_name(const Eigen::Vector3d& center_mm) {
   return fmt::format("{},{},{}", center_mm.x(), center_mm.y(), center_mm.z());
 }
@@ -136,8 +143,12 @@ std::vector<Eigen::Vector3d> AtlasFolder::centers_mm(const LitBody& body) {
 
 std::optional<WhiteSums> AtlasFolder::find(const LitBody& body, const Eigen::Vector3d& center_mm,
                                            int node) {
-  const auto content = capture::read_checked_file(path_of(body, center_mm, node));
-  return content ? unpacked(*content) : std::nullopt;
+  const std::string path = path_of(body, center_mm, node);
+  const fs::file_time_type at = changed(path);
+  const auto content = capture::read_checked_file(path);
+  auto sums = content ? unpacked(*content) : std::nullopt;
+  if (sums) seen_[path] = {at, sums->levels};
+  return sums;
 }
 
 void AtlasFolder::keep(const LitBody& body, const Eigen::Vector3d& center_mm, int node,
@@ -146,9 +157,17 @@ void AtlasFolder::keep(const LitBody& body, const Eigen::Vector3d& center_mm, in
   try {
     capture::make_folder_of(path);
     const FileLock lock(folder_of(body) + "/lock");
-    const auto known = find(body, center_mm, node);
-    if (known && known->levels >= sums.levels) return;
+    // Read again only if another program has written it.
+    const auto seen = seen_.find(path);
+    if (seen == seen_.end() || seen->second.at != changed(path)) {
+      if (!find(body, center_mm, node)) seen_.erase(path);
+    }
+    if (const auto now = seen_.find(path);
+        now != seen_.end() && now->second.levels >= sums.levels) {
+      return;
+    }
     capture::write_checked_file(path, packed(sums));
+    seen_[path] = {changed(path), sums.levels};
   } catch (const InputError& e) {
     if (problem_.empty()) problem_ = e.what();
   }

@@ -1,6 +1,8 @@
 // The nodes of a transport atlas in a folder.
 #pragma once
 
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +35,12 @@ class AtlasFolder : public AtlasStore {
   std::string path_of(const LitBody& body, const Eigen::Vector3d& center_mm, int node) const;
   std::string folder_;
   std::string problem_;
+  // Of files as this object last saw them.
+  struct Seen {
+    std::filesystem::file_time_type at;
+    int levels;
+  };
+  std::map<std::string, Seen> seen_;
 };
 
 }  // namespace scattermeter::apps

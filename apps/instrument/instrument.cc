@@ -138,6 +138,8 @@ std::vector<ChannelResult> fitted_from_where_seen(
   constexpr double kWorthPaths = 2.0 * kVisibleMotion;
   // Enough of them tell where the objects lie; the others are for the view that stays.
   constexpr std::int64_t kLookingPaths = 300'000;
+  // A rig that all channels together contradict is not seen better from elsewhere.
+  constexpr double kContradicted = 1e-6;
   const std::int64_t paths = options.paths;
   bool by_transport = false;  // the view is where transport shows the objects to lie
   for (int views = 1;; ++views) {
@@ -159,9 +161,10 @@ std::vector<ChannelResult> fitted_from_where_seen(
       return r.model == "transport" && r.estimate.converged;
     });
     if (has_paths && !by_transport && !(found.motion > kVisibleMotion)) {
-      found = from(joint_pulls_of(results));
+      const JointJudgement joint = joint_pulls_of(results);
+      found = from(joint);
       by_transport = true;
-      if (!(found.motion > kWorthPaths)) {
+      if (!(found.motion > kWorthPaths) || chi_square_tail(joint.chi2, joint.dof) < kContradicted) {
         found = {};
         if (paths > options.paths) continue;
       }

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -59,8 +58,11 @@ class ChannelSimulation {
     TransportAtlas::LitView* in_atlas;
     double power;
     std::vector<std::size_t> shots;
-    // Pairs of a row of the images that it lights and the row of the view.
-    std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;
+    struct Row {
+      Eigen::Index of_image, of_view;
+      double towards;  // TransportAtlas::LitView::towards()
+    };
+    std::vector<Row> rows;  // those that it lights
   };
 
   const MaterialChannel& channel_;

@@ -4,36 +4,52 @@
 #include <cmath>
 
 namespace scattermeter {
+namespace {
 
-void start_like_others(std::span<const ChannelResult> found, Estimate& estimate) {
-  constexpr double kSimilar = 1.0;  // squared distance
+bool determines(const Estimate& dipole) {
+  const Quantity& s = dipole.sigma_s_prime_per_mm;
+  return dipole.converged && s.value > 0.0 && s.std <= 0.5 * s.value;
+}
+
+double squared_distance(const Estimate& one, const Estimate& other) {
   constexpr double kDilute = 1e-3;  // sigma_a / sigma_s' below which media are alike
-  const auto squared_distance = [&](const Estimate& dipole) {
-    const double a = dipole.sigma_s_prime_per_mm.value;
-    const double b = estimate.sigma_s_prime_per_mm.value;
-    const double scattering = std::log(a / b);
-    const double absorption = std::log((dipole.sigma_a_per_mm.value / a + kDilute) /
-                                       (estimate.sigma_a_per_mm.value / b + kDilute));
-    return scattering * scattering + 0.1 * absorption * absorption;
-  };
-  const ChannelResult* most_similar = nullptr;
+  const double a = one.sigma_s_prime_per_mm.value;
+  const double b = other.sigma_s_prime_per_mm.value;
+  const double scattering = std::log(a / b);
+  const double absorption = std::log((one.sigma_a_per_mm.value / a + kDilute) /
+                                     (other.sigma_a_per_mm.value / b + kDilute));
+  return scattering * scattering + 0.1 * absorption * absorption;
+}
+
+}  // namespace
+
+void start_like_others(std::span<const ChannelResult> found, const std::string& material,
+                       Estimate& start) {
+  constexpr double kSimilar = 1.0;  // squared distance
+  const bool has_start = determines(start);
+  const ChannelResult* like = nullptr;
   double least = kSimilar;
   for (const ChannelResult& r : found) {
-    if (r.model != "transport" || !r.estimate.converged || !r.dipole || !r.dipole->converged) {
-      continue;
+    if (!r.dipole || !r.estimate.converged || r.refused()) continue;
+    if (!has_start) {
+      if (like == nullptr || r.material == material) like = &r;
+    } else if (determines(*r.dipole) && squared_distance(*r.dipole, start) < least) {
+      least = squared_distance(*r.dipole, start);
+      like = &r;
     }
-    const double distance = squared_distance(*r.dipole);
-    if (!(distance < least)) continue;
-    least = distance;
-    most_similar = &r;
   }
-  if (most_similar == nullptr) return;
-  const Estimate& from = *most_similar->dipole;
-  const Estimate& to = most_similar->estimate;
-  estimate.sigma_s_prime_per_mm.value *=
-      to.sigma_s_prime_per_mm.value / from.sigma_s_prime_per_mm.value;
-  estimate.sigma_a_per_mm.value = std::max(
-      0.0, estimate.sigma_a_per_mm.value + to.sigma_a_per_mm.value - from.sigma_a_per_mm.value);
+  if (like == nullptr) return;
+  double& s = start.sigma_s_prime_per_mm.value;
+  double& a = start.sigma_a_per_mm.value;
+  const Estimate& to = like->estimate;
+  if (has_start) {
+    s *= to.sigma_s_prime_per_mm.value / like->dipole->sigma_s_prime_per_mm.value;
+    a += to.sigma_a_per_mm.value - like->dipole->sigma_a_per_mm.value;
+  } else {
+    s = to.sigma_s_prime_per_mm.value;
+    a = to.sigma_a_per_mm.value;
+  }
+  a = std::max(0.0, a);
 }
 
 }  // namespace scattermeter
