@@ -114,8 +114,9 @@ TEST_F(AtlasOfTheCube, NearViewsShareTheirNodes) {
   SeenObject seen = *cube_.shots[0].seen;
   const auto from = [&](double rad) -> TransportAtlas::LitView& {
     const Eigen::Vector3d to = cube_.shots[0].seen->camera_center_mm - seen.object->box.center_mm();
-    seen.camera_center_mm =
-        cube_.shots[0].seen->camera_center_mm + rad * to.norm() * to.unitOrthogonal();
+    const Eigen::Vector3d up =
+        (Eigen::Vector3d::UnitZ() - to.z() / to.squaredNorm() * to).normalized();
+    seen.camera_center_mm = cube_.shots[0].seen->camera_center_mm + rad * to.norm() * up;
     return atlas.lit_view(cube_.scene, seen, cube_.scene.lights[0], 0, 1.3);
   };
   TransportAtlas::LitView& straight = from(0.0);
