@@ -25,7 +25,7 @@ struct EstimateOptions {
   // Transport: maximum number of light paths of the last step for each light and view. If this
   // limit is reached before the time limit, the digits are the same on any machine.
   std::int64_t paths = 1'000'000'000;
-  double time_limit_s = 50;  // transport: per material and channel
+  double time_limit_s = 20;  // transport: per material and channel
   bool keep_rows = false;    // fill ChannelResult::rows
   // Transport: called with the dipole's results before it begins; false ends the estimation there.
   std::function<bool(const std::vector<ChannelResult>&)> goes_on_from_dipole = {};

@@ -24,6 +24,8 @@ namespace {
 
 constexpr int kFirstBlocks = 8;
 constexpr int kMaxRounds = 30;
+// Rounds after which every further one has more paths.
+constexpr int kPatience = 5;
 // Blocks of paths from which the pilot must have learned before a round may be the last.
 constexpr double kLearnedBlocks = 32.0;
 // Relative change of the image by a step beyond which earlier paths do not apply to the new point.
@@ -93,9 +95,9 @@ class TransportSearch {
         if (outliers_known || !leave_outliers_out(round)) return report(round, result);
         outliers_known = true;
         last = first_look(to);
-      } else if (round.step().change < 0.2 ||
+      } else if (round.step().change < 0.2 || i >= kPatience ||
                  (round.step().change < kFarStep && round.scatter_within() > 1.5)) {
-        // Noise of the paths dominates the step.
+        // Noise of the paths dominates the step. With the same paths, steps may lead in a circle.
         blocks = std::max(blocks, next_blocks(to, blocks));
       }
       at = to;
