@@ -16,6 +16,9 @@ class PathBudget {
         time_limit_s_(time_limit_s),
         start_(std::chrono::steady_clock::now()) {}
 
+  // The speed that counts before any path has been traced, as of two cores.
+  static constexpr double kUnknownPathsPerS = 1e5;
+
   double elapsed_s() const;
   double left_s() const { return time_limit_s_ - elapsed_s(); }
   void count(std::int64_t paths, double seconds) {

@@ -26,6 +26,9 @@ TEST(PathBudget, TimeLimitsThemByTheSpeedSoFar) {
   EXPECT_EQ(fast.next_blocks(100, 64, thousand_each), 200);
   EXPECT_EQ(slow.next_blocks(100, 64, thousand_each), 0);
   EXPECT_LE(PathBudget(1e6, 0.0).left_s(), 0.0);
+  // Before any path: kUnknownPathsPerS, of which there are 10^5 in a second.
+  EXPECT_EQ(PathBudget(1e6, 1.0).next_blocks(40, 64, thousand_each), 80);
+  EXPECT_EQ(PathBudget(1e6, 1.0).next_blocks(100, 64, thousand_each), 0);
 }
 
 }  // namespace
