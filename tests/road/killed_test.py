@@ -6,11 +6,13 @@ killed. Also: two runs on one folder at a time, a folder that can't be written, 
 with blanks, quotes, a newline and letters beyond ASCII, a rig behind a symbolic link.
 """
 import filecmp
+import hashlib
 import json
 import os
 import random
 import resource
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -120,6 +122,54 @@ class Killed(unittest.TestCase):
     def test_calibrate(self):
         self.simulate()
         self.kill_at_random("leds", "calibrate", "led", self.shots, "--rig", self.rig)
+
+    def paths_of_transport(self, folder):
+        """By file: levels and content. All are whole."""
+        out = {}
+        for path in files(folder):
+            if path.suffix == ".paths":
+                content = (folder / path).read_bytes()
+                digest, content = content[:64].decode(), content[64:]
+                self.assertEqual(hashlib.sha256(content).hexdigest(), digest, path)
+                out[path] = (struct.unpack_from("<q", content, 8)[0], content)
+        return out
+
+    @unittest.skipUnless("SCATTERMETER_LONG" in os.environ, "only with --long")
+    def test_atlas(self):
+        """Killed 50 times while paths are traced, which go on where they were, with the same digits."""
+        self.simulate()
+        words = ["measure", self.shots, "--rig", self.rig, "--model", "transport", "--material", "PE", "--channels",
+                 "G", "--paths", "300000", "--time-limit", "1000"]
+        began = time.monotonic()
+        first = self.run_program(*words, "--out", self.home / "fresh")
+        self.assertIn(first.returncode, (0, 1), first.stderr)
+        takes = time.monotonic() - began
+        alone = self.paths_of_transport(self.home / "fresh" / "atlas")
+        self.assertTrue(alone)
+        draw = random.Random(8)
+        levels, killed = {}, 0
+        for i in range(50):
+            # Every tenth begins anew.
+            out = self.home / f"again{i // 10}"
+            run = subprocess.Popen([PROGRAM, "-q", *words, "--out", out], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+            time.sleep(draw.uniform(0, takes))
+            run.kill()
+            killed += run.wait() < 0
+            for path, (level, content) in self.paths_of_transport(out / "atlas").items() if out.exists() else []:
+                self.assertGreaterEqual(level, levels.get((out, path), 0), path)  # nothing is lost
+                levels[out, path] = level
+                if path in alone and alone[path][0] == level:
+                    self.assertEqual(alone[path][1], content, path)
+        self.assertGreater(killed, 10)
+        equal = 0
+        for out in {out for out, _ in levels}:
+            last = self.run_program(*words, "--out", out)
+            self.assertEqual(last.returncode, first.returncode, last.stderr)
+            again = self.paths_of_transport(out / "atlas")
+            equal += sum(again.get(path) == node for path, node in alone.items())
+        print(f"{killed} killed; {equal} nodes with equal paths and equal digits")
+        self.assertGreater(equal, 0)
 
     def test_two_at_a_time_behind_a_link(self):
         self.simulate()
