@@ -144,17 +144,6 @@ TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const Seen
   return lit_.emplace_back(std::move(v));
 }
 
-double TransportAtlas::LitView::towards(const Eigen::Vector3d& camera_center_mm, int patch) const {
-  const Eigen::Vector3d normal = view_->patches->normal(patch);
-  const Eigen::Vector3d at = view_->patches->center_mm(patch);
-  const auto light = [&](const Eigen::Vector3d& center_mm) {
-    const double cosine = normal.dot((center_mm - at).normalized());
-    const double inside = std::sqrt(1.0 - (1.0 - cosine * cosine) / (view_->eta * view_->eta));
-    return 1.0 + 1.5 * inside;
-  };
-  return light(camera_center_mm) / light(view_->center_mm);
-}
-
 // With the paths that are in the store.
 WhiteRows& TransportAtlas::LitView::known_node(int idx) const {
   const auto [at, is_new] =

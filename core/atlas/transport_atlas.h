@@ -23,16 +23,17 @@ namespace scattermeter {
 // asked for. Seeds follow from what a node is of, so that the same levels have the same digits
 // whoever asked for them, and in whatever order. Not to be used from several threads at once.
 //
-// Views whose camera centres, seen from the object, are at most kNearViews apart share their nodes.
-// Their l is the light inside (core/transport/camera_connection.h), which goes with the cosine mu
-// of its direction to the surface nearly as that of a diffusing half-space, 1 + 1.5 mu: by 3e-3 of
-// itself at most at such a distance (eta 1.5), and as towards() corrects for this, by some 5e-4.
+// Views whose camera centres, seen from the object, are at most kNearViews apart share their nodes:
+// l is the light inside (core/transport/camera_connection.h), which between two such directions
+// changes by some 1e-4 of itself. In diffuse light, 1 + 1.5 mu along the cosine mu to the surface,
+// and by most, 3e-4, at an eta of 1.5 and 45 degrees.
 class TransportAtlas {
  public:
   // Between neighbouring nodes, of log sigma_s.
   static constexpr double kSpacing = 0.35;
   static double sigma_s_per_mm(int node);
-  static constexpr double kNearViews = 5e-3;  // rad
+  // rad
+  static constexpr double kNearViews = 1e-3;
 
   // store: of nodes, null: only in memory.
   explicit TransportAtlas(std::shared_ptr<AtlasStore> store = nullptr) : store_(std::move(store)) {}
@@ -44,8 +45,6 @@ class TransportAtlas {
     Eigen::Index row_of_patch(int patch) const {
       return view_->rows.row_of_patch[static_cast<std::size_t>(patch)];
     }
-    // l of a patch toward another camera nearby, over that of the node.
-    double towards(const Eigen::Vector3d& camera_center_mm, int patch) const;
     double size_mm() const { return view_->boundary->size_mm(); }
     // The node with at least so many levels. levels >= 1.
     const WhiteRows& node(int idx, int levels);

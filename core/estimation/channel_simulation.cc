@@ -108,8 +108,7 @@ void ChannelSimulation::set_rows(const ChannelRows& rows) {
     for (Lit& v : lit_) {
       if (std::find(v.shots.begin(), v.shots.end(), s) == v.shots.end()) continue;
       for (const auto& [row, patch] : used) {
-        v.rows.push_back({row, v.in_atlas->row_of_patch(patch),
-                          v.in_atlas->towards(seen.camera_center_mm, patch)});
+        v.rows.emplace_back(row, v.in_atlas->row_of_patch(patch));
       }
     }
   }
@@ -144,18 +143,17 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
       const Eigen::MatrixXd departures = node.departures(at.sigma_a_per_mm);
       const Eigen::VectorXd variance = departures.colwise().squaredNorm();
       Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(departures.rows(), projection.rows());
-      for (const auto& [row, at_view, towards] : v.rows) {
-        const double power = v.power * towards;
-        const double l = power * light.l[at_view];
+      for (const auto& [row, at_view] : v.rows) {
+        const double l = v.power * light.l[at_view];
         const double factor = share.weight * to_here.factor[row];
         image.l[row] += factor * l;
         image.per_log_sigma_s[row] += l * (share.weight * to_here.per_log_sigma_s[row] +
                                            share.per_log_sigma_s * to_here.factor[row]);
-        image.per_sigma_a[row] += factor * power * light.per_sigma_a[at_view] +
+        image.per_sigma_a[row] += factor * v.power * light.per_sigma_a[at_view] +
                                   share.weight * l * to_here.per_sigma_a[row];
-        image.variance[row] += factor * factor * power * power * variance[at_view];
+        image.variance[row] += factor * factor * v.power * v.power * variance[at_view];
         for (Eigen::SparseMatrix<double>::InnerIterator it(projection, row); it; ++it) {
-          projected.col(it.row()) += factor * power * it.value() * departures.col(at_view);
+          projected.col(it.row()) += factor * v.power * it.value() * departures.col(at_view);
         }
       }
       out.covariance += projected.transpose() * projected;

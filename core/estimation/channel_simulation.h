@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -58,11 +59,8 @@ class ChannelSimulation {
     TransportAtlas::LitView* in_atlas;
     double power;
     std::vector<std::size_t> shots;
-    struct Row {
-      Eigen::Index of_image, of_view;
-      double towards;  // TransportAtlas::LitView::towards()
-    };
-    std::vector<Row> rows;  // those that it lights
+    // Pairs of a row of the images that it lights and the row of the view.
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;
   };
 
   const MaterialChannel& channel_;
