@@ -30,11 +30,11 @@ constexpr int kPatience = 5;
 constexpr double kLearnedBlocks = 32.0;
 // Relative change of the image by a step beyond which earlier paths do not apply to the new point.
 constexpr double kFarStep = 0.3;
-// Mean free paths across the largest body from which the search starts at least: where the dipole
-// does not hold, its result may be any.
+// Mean free paths across the largest body from which the search starts: at least, and where the
+// dipole determines nothing, at most; sigma_a / sigma_s at most there.
 constexpr double kThinnest = 5.0;
-// Rows farther off than this many robust deviations are dust and scratches. Renderings by Monte
-// Carlo have longer tails than the noise of a camera.
+constexpr double kThickest = 60.0, kDarkest = 0.01;
+// Rows farther off, in robust deviations, are dust and scratches; Monte Carlo has long tails.
 constexpr double kTransportOutlierStd = 8.0;
 
 class TransportSearch {
@@ -60,9 +60,14 @@ class TransportSearch {
 
   void run(ChannelResult& result) {
     Estimate& estimate = result.estimate;
-    ScatteringPoint at{
-        std::max(estimate.sigma_s_prime_per_mm.value, kThinnest / simulation_.largest_size_mm()),
-        estimate.sigma_a_per_mm.value, has_free_scale() ? estimate.scale.value : 1.0};
+    const Quantity& start = estimate.sigma_s_prime_per_mm;
+    const double size_mm = simulation_.largest_size_mm();
+    ScatteringPoint at{std::max(start.value, kThinnest / size_mm), estimate.sigma_a_per_mm.value};
+    if (has_free_scale()) at.scale = estimate.scale.value;
+    if (start.std > 0.5 * start.value) {
+      at.sigma_s_per_mm = std::min(at.sigma_s_per_mm, kThickest / size_mm);
+      at.sigma_a_per_mm = std::min(at.sigma_a_per_mm, kDarkest * at.sigma_s_per_mm);
+    }
     result.singles.clear();
     result.agreement = {};
     result.evidence = {};
