@@ -33,7 +33,7 @@ constexpr double kFarStep = 0.3;
 // Mean free paths across the largest body from which the search starts: at least, and where the
 // dipole determines nothing, at most; sigma_a / sigma_s at most there.
 constexpr double kThinnest = 5.0;
-constexpr double kThickest = 60.0, kDarkest = 0.01;
+constexpr double kThickest = 30.0, kDarkest = 0.01;
 // Rows farther off, in robust deviations, are dust and scratches; Monte Carlo has long tails.
 constexpr double kTransportOutlierStd = 8.0;
 
