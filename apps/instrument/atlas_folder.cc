@@ -121,18 +121,19 @@ std::optional<WhiteSums> unpacked(std::string_view bytes) {
 
 }  // namespace
 
-std::string AtlasFolder::folder_of(const LitBody& body) const {
+std::string AtlasFolder::name(const std::vector<double>& numbers) const {
   constexpr std::size_t kDigits = 32;
-  return folder_ + "/" +
-         capture::Digest().text(kVersion).numbers(body.numbers).hex().substr(0, kDigits);
+  return capture::Digest().text(kVersion).numbers(numbers).hex().substr(0, kDigits);
 }
 
-std::string AtlasFolder::path_of(const LitBody& body, const Eigen::Vector3d& center_mm,
+std::string AtlasFolder::folder_of(const std::string& body) const { return folder_ + "/" + body; }
+
+std::string AtlasFolder::path_of(const std::string& body, const Eigen::Vector3d& center_mm,
                                  int node) const {
   return fmt::format("{}/{}/{}.paths", folder_of(body), center_name(center_mm), node);
 }
 
-std::vector<Eigen::Vector3d> AtlasFolder::centers_mm(const LitBody& body) {
+std::vector<Eigen::Vector3d> AtlasFolder::centers_mm(const std::string& body) {
   std::vector<Eigen::Vector3d> out;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder_of(body), ignored)) {
@@ -141,31 +142,28 @@ std::vector<Eigen::Vector3d> AtlasFolder::centers_mm(const LitBody& body) {
   return out;
 }
 
-std::optional<WhiteSums> AtlasFolder::find(const LitBody& body, const Eigen::Vector3d& center_mm,
-                                           int node) {
+std::optional<WhiteSums> AtlasFolder::find(const std::string& body,
+                                           const Eigen::Vector3d& center_mm, int node) {
   const std::string path = path_of(body, center_mm, node);
   const fs::file_time_type at = changed(path);
   const auto content = capture::read_checked_file(path);
   auto sums = content ? unpacked(*content) : std::nullopt;
-  if (sums) seen_[path] = {at, sums->levels};
+  seen_[path] = {at, sums ? sums->levels : 0};
   return sums;
 }
 
-void AtlasFolder::keep(const LitBody& body, const Eigen::Vector3d& center_mm, int node,
+void AtlasFolder::keep(const std::string& body, const Eigen::Vector3d& center_mm, int node,
                        const WhiteSums& sums) {
   const std::string path = path_of(body, center_mm, node);
   try {
     capture::make_folder_of(path);
     const FileLock lock(folder_of(body) + "/lock");
     // Read again only if another program has written it.
-    const auto seen = seen_.find(path);
-    if (seen == seen_.end() || seen->second.at != changed(path)) {
-      if (!find(body, center_mm, node)) seen_.erase(path);
+    if (const auto seen = seen_.find(path);
+        seen == seen_.end() || seen->second.at != changed(path)) {
+      find(body, center_mm, node);
     }
-    if (const auto now = seen_.find(path);
-        now != seen_.end() && now->second.levels >= sums.levels) {
-      return;
-    }
+    if (seen_.at(path).levels >= sums.levels) return;
     capture::write_checked_file(path, packed(sums));
     seen_[path] = {changed(path), sums.levels};
   } catch (const InputError& e) {

@@ -21,18 +21,19 @@ class AtlasFolder : public AtlasStore {
  public:
   explicit AtlasFolder(std::string folder) : folder_(std::move(folder)) {}
 
-  std::vector<Eigen::Vector3d> centers_mm(const LitBody& body) override;
-  std::optional<WhiteSums> find(const LitBody& body, const Eigen::Vector3d& center_mm,
+  std::string name(const std::vector<double>& numbers) const override;
+  std::vector<Eigen::Vector3d> centers_mm(const std::string& body) override;
+  std::optional<WhiteSums> find(const std::string& body, const Eigen::Vector3d& center_mm,
                                 int node) override;
-  void keep(const LitBody& body, const Eigen::Vector3d& center_mm, int node,
+  void keep(const std::string& body, const Eigen::Vector3d& center_mm, int node,
             const WhiteSums& sums) override;
 
   // Why the first node that could not be kept failed; empty if all were kept.
   const std::string& problem() const { return problem_; }
 
  private:
-  std::string folder_of(const LitBody& body) const;
-  std::string path_of(const LitBody& body, const Eigen::Vector3d& center_mm, int node) const;
+  std::string folder_of(const std::string& body) const;
+  std::string path_of(const std::string& body, const Eigen::Vector3d& center_mm, int node) const;
   std::string folder_;
   std::string problem_;
   // Of files as this object last saw them.

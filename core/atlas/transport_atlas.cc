@@ -41,23 +41,22 @@ std::vector<int> facing(const PatchMesh& patches, const Eigen::Vector3d& camera_
   return out;
 }
 
-// A light is told by where it enters: the first of its samples stand for its position, lobe or
-// picture, and for the plane that it may come by.
-LitBody lit_body(const TriangleMesh& mesh, const PatchMesh& patches, double eta,
-                 const DiffusePlane& plane, const EntrySource& source, std::uint64_t seed) {
+// From which the paths follow. A light is told by where it enters: the first of its samples stand
+// for its position, lobe or picture, and for the plane that it may come by.
+std::vector<double> numbers_of(const TriangleMesh& mesh, const PatchMesh& patches, double eta,
+                               const DiffusePlane& plane, const EntrySource& source,
+                               std::uint64_t seed) {
   constexpr int kSamples = 512;
-  LitBody out;
-  std::vector<double>& n = out.numbers;
-  n = {kPathsVersion,
-       WhiteRows::kFirstPaths,
-       WhiteRows::kBatches,
-       TransportAtlas::kSpacing,
-       eta,
-       patches.patch_size_mm(),
-       plane.z_mm,
-       plane.albedo,
-       static_cast<double>(plane.contact),
-       static_cast<double>(seed)};
+  std::vector<double> n = {kPathsVersion,
+                           WhiteRows::kFirstPaths,
+                           WhiteRows::kBatches,
+                           TransportAtlas::kSpacing,
+                           eta,
+                           patches.patch_size_mm(),
+                           plane.z_mm,
+                           plane.albedo,
+                           static_cast<double>(plane.contact),
+                           static_cast<double>(seed)};
   const auto add = [&](const Eigen::Vector3d& v) { n.insert(n.end(), v.begin(), v.end()); };
   for (const Eigen::Vector3d& v : mesh.vertices_mm) add(v);
   for (const auto& facet : mesh.triangles) n.insert(n.end(), facet.begin(), facet.end());
@@ -69,7 +68,7 @@ LitBody lit_body(const TriangleMesh& mesh, const PatchMesh& patches, double eta,
     add(entry->position_mm);
     add(entry->direction);
   }
-  return out;
+  return n;
 }
 
 }  // namespace
@@ -120,12 +119,12 @@ TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const Seen
   v.channel_ = own;
   v.plane_ = plane;
   v.seed_ = (static_cast<std::uint64_t>(own + 1) * kLights + index_in(scene, light)) * kNodes;
-  // From the nearest centre of which all that is seen is in the store.
+  // From the nearest centre in the store that shows all that is seen, or else from this one.
   std::vector<Eigen::Vector3d> centers;
   if (store_) {
     v.store_ = store_.get();
-    v.body_ = lit_body(seen.object->rays->mesh(), *seen.patches, eta_int_over_ext, plane,
-                       *v.source_, v.seed_);
+    v.body_ = store_->name(numbers_of(seen.object->rays->mesh(), *seen.patches, eta_int_over_ext,
+                                      plane, *v.source_, v.seed_));
     centers = store_->centers_mm(v.body_);
     std::erase_if(centers, [&](const Eigen::Vector3d& c) {
       return !are_near(*seen.object, c, seen.camera_center_mm);
@@ -134,13 +133,11 @@ TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const Seen
       return (a - seen.camera_center_mm).norm() < (b - seen.camera_center_mm).norm();
     });
   }
+  centers.push_back(seen.camera_center_mm);
   for (const Eigen::Vector3d& center : centers) {
-    const View& near = view(seen, center, eta_int_over_ext);
-    if (!near.shows(seen, eta_int_over_ext)) continue;
-    v.view_ = &near;
-    break;
+    v.view_ = &view(seen, center, eta_int_over_ext);
+    if (v.view_->shows(seen, eta_int_over_ext)) break;
   }
-  if (v.view_ == nullptr) v.view_ = &view(seen, seen.camera_center_mm, eta_int_over_ext);
   return lit_.emplace_back(std::move(v));
 }
 

@@ -7,6 +7,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "core/atlas/atlas_store.h"
 #include "core/light/diffuse_plane.h"
@@ -72,7 +74,7 @@ class TransportAtlas {
     std::unique_ptr<EntrySource> source_;
     std::uint64_t seed_ = 0;
     AtlasStore* store_ = nullptr;
-    LitBody body_;  // for the store
+    std::string body_;  // its name in the store
     mutable std::map<int, WhiteRows> nodes_;
   };
 

@@ -64,7 +64,7 @@ class TransportSearch {
     const double size_mm = simulation_.largest_size_mm();
     ScatteringPoint at{std::max(start.value, kThinnest / size_mm), estimate.sigma_a_per_mm.value};
     if (has_free_scale()) at.scale = estimate.scale.value;
-    if (start.std > 0.5 * start.value) {
+    if (is_undetermined(start)) {
       at.sigma_s_per_mm = std::min(at.sigma_s_per_mm, kThickest / size_mm);
       at.sigma_a_per_mm = std::min(at.sigma_a_per_mm, kDarkest * at.sigma_s_per_mm);
     }

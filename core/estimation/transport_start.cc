@@ -7,8 +7,7 @@ namespace scattermeter {
 namespace {
 
 bool determines(const Estimate& dipole) {
-  const Quantity& s = dipole.sigma_s_prime_per_mm;
-  return dipole.converged && s.value > 0.0 && s.std <= 0.5 * s.value;
+  return dipole.converged && !is_undetermined(dipole.sigma_s_prime_per_mm);
 }
 
 double squared_distance(const Estimate& one, const Estimate& other) {

@@ -1,8 +1,9 @@
 #include "apps/instrument/atlas_folder.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,8 @@
 namespace scattermeter::apps {
 namespace {
 
-const LitBody kBody{{1.0, 2.0, 1.0 / 3.0}};
+const std::vector<double> kNumbers{1.0, 2.0, 1.0 / 3.0};
+const std::string kBody = AtlasFolder("").name(kNumbers);
 const Eigen::Vector3d kCenter(1.0 / 3.0, -400.0, 1e-7);
 
 WhiteSums sums(int levels) {
@@ -44,8 +46,9 @@ TEST(AtlasFolder, FindsWhatAnotherKept) {
   EXPECT_EQ(centers[0], kCenter);
   expect_equal(other.find(kBody, kCenter, -4), kept);
   EXPECT_FALSE(other.find(kBody, kCenter, -3));
-  EXPECT_FALSE(other.find({{1.0, 2.0, 0.3333}}, kCenter, -4));
-  EXPECT_TRUE(other.centers_mm({{1.0, 2.0}}).empty());
+  EXPECT_EQ(other.name(kNumbers), kBody);
+  EXPECT_FALSE(other.find(other.name({1.0, 2.0, 0.3333}), kCenter, -4));
+  EXPECT_TRUE(other.centers_mm(other.name({1.0, 2.0})).empty());
 }
 
 // Two programs that refine the same node: the one with more paths stays, in either order.

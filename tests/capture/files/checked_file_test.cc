@@ -1,6 +1,7 @@
 #include "capture/files/checked_file.h"
 
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,9 +1,12 @@
 #include "core/atlas/transport_atlas.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -65,24 +68,29 @@ TEST_F(AtlasOfTheCube, PlanesAreToldApart) {
 // A store in memory, of one light of one body.
 class ListedNodes : public AtlasStore {
  public:
-  std::vector<Eigen::Vector3d> centers_mm(const LitBody&) override {
+  std::string name(const std::vector<double>& numbers) const override {
+    std::string out;
+    for (const double n : numbers) out += std::to_string(std::bit_cast<std::uint64_t>(n)) + " ";
+    return out;
+  }
+  std::vector<Eigen::Vector3d> centers_mm(const std::string&) override {
     return {center_, center_ + Eigen::Vector3d(1e-3, 0, 0)};
   }
-  std::optional<WhiteSums> find(const LitBody& body, const Eigen::Vector3d& center_mm,
+  std::optional<WhiteSums> find(const std::string& body, const Eigen::Vector3d& center_mm,
                                 int node) override {
     const auto known = nodes_.find(node);
-    if (known == nodes_.end() || body.numbers != body_ || center_mm != center_) return {};
+    if (known == nodes_.end() || body != body_ || center_mm != center_) return {};
     return known->second;
   }
-  void keep(const LitBody& body, const Eigen::Vector3d& center_mm, int node,
+  void keep(const std::string& body, const Eigen::Vector3d& center_mm, int node,
             const WhiteSums& sums) override {
-    body_ = body.numbers;
+    body_ = body;
     center_ = center_mm;
     nodes_[node] = sums;
   }
 
  private:
-  std::vector<double> body_;
+  std::string body_;
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   std::map<int, WhiteSums> nodes_;
 };
