@@ -1,13 +1,13 @@
 #include "apps/instrument/instrument.h"
 
 #include <algorithm>
-#include <functional>
 #include <set>
 
 #include <fmt/core.h>
 
 #include "apps/instrument/closer_look.h"
 #include "apps/instrument/first_look.h"
+#include "apps/instrument/fitted_view.h"
 #include "apps/instrument/focus.h"
 #include "apps/instrument/frame_watch.h"
 #include "apps/instrument/light_look.h"
@@ -17,8 +17,6 @@
 #include "core/base/chi_square.h"
 #include "core/base/input_error.h"
 #include "core/base/progress.h"
-#include "core/estimation/joint_evidence.h"
-#include "core/estimation/view_shift.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -40,10 +38,6 @@ double distance_to_camera_mm(const Rig& rig, const ObjectScenes& objects,
   }
   return distance_mm;
 }
-
-constexpr const char* kUnsettledReason =
-    "the shots do not tell from where the object is seen: its place keeps moving from fit to fit; "
-    "check the pose points and the position of its mesh, or add shots under another LED";
 
 // Pose points that scatter by far more than the rig states about the best pose: lens or marks are
 // not as stated, and no pose is right.
@@ -121,64 +115,6 @@ std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
                                [](const ChannelResult& r) { return !r.refused(); });
   if (any || findings.empty()) run(estimator(options.model), estimation);
   return std::move(estimation.results);
-}
-
-// Fits the shots, opens them again from where the fit shows the objects to lie, and so on until the
-// objects stay there.
-std::vector<ChannelResult> fitted_from_where_seen(
-    const Scene& scene, SeenShots& seen, EstimateOptions options,
-    const std::function<std::vector<ChannelResult>(const EstimateOptions&)>& fit,
-    Stopwatch& watch) {
-  constexpr int kMostViews = 8;
-  // Round bodies approach their place in turns from either side.
-  constexpr int kWholeSteps = 2;
-  constexpr double kHalf = 0.5;
-  constexpr double kUnsettled = 2.0 * kVisibleMotion;
-  // Paths are traced anew for the larger motions only, and once.
-  constexpr double kWorthPaths = 2.0 * kVisibleMotion;
-  // Enough of them tell where the objects lie; the others are for the view that stays.
-  constexpr std::int64_t kLookingPaths = 300'000;
-  // A rig that all channels together contradict is not seen better from elsewhere.
-  constexpr double kContradicted = 1e-6;
-  const std::int64_t paths = options.paths;
-  bool by_transport = false;  // the view is where transport shows the objects to lie
-  for (int views = 1;; ++views) {
-    const auto from = [&](const JointJudgement& joint) {
-      return seen_elsewhere(scene, seen.shots(), joint.pulls, views <= kWholeSteps ? 1.0 : kHalf);
-    };
-    const bool is_last = views == kMostViews || by_transport;
-    SeenElsewhere found;
-    // Where the dipole does not hold, its derivatives do not tell where the object lies.
-    options.goes_on_from_dipole = [&](const std::vector<ChannelResult>& results) {
-      if (by_transport) return true;
-      found = from(joint_pulls_of(results));
-      return is_last || !(found.motion > kVisibleMotion);
-    };
-    options.paths = by_transport ? paths : std::min(paths, kLookingPaths);
-    std::vector<ChannelResult> results = fit(options);
-    if (options.model == "dipole") found = from(most_probable_pulls_of(results));
-    const bool has_paths = std::any_of(results.begin(), results.end(), [](const ChannelResult& r) {
-      return r.model == "transport" && r.estimate.converged;
-    });
-    if (has_paths && !by_transport && !(found.motion > kVisibleMotion)) {
-      const JointJudgement joint = joint_pulls_of(results);
-      found = from(joint);
-      by_transport = true;
-      if (!(found.motion > kWorthPaths) || chi_square_tail(joint.chi2, joint.dof) < kContradicted) {
-        found = {};
-        if (paths > options.paths) continue;
-      }
-    }
-    if (is_last || !(found.motion > kVisibleMotion)) {
-      if (!(found.motion > kUnsettled)) return results;
-      for (ChannelResult& r : results) {
-        if (!r.refused()) r.estimate.reasons.emplace_back(kUnsettledReason);
-      }
-      return results;
-    }
-    seen.open_from(found.shifts);
-    watch.lap("shots");
-  }
 }
 
 }  // namespace
