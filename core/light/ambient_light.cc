@@ -6,13 +6,15 @@
 namespace scattermeter {
 namespace {
 
-// Radiance 1 from everywhere.
+// Radiance 1 from everywhere, in pixels of 3 degrees: what is above a pixel is summed once, what is
+// below again for every facet.
 const ProbeTree& even_probe() {
   static const ProbeTree even([] {
+    constexpr int kHeight = 64;
     Environment out;
-    out.width_px = 4;
-    out.height_px = 2;
-    out.radiance.assign(std::size_t{3} * 4 * 2, 1.0F);
+    out.width_px = 2 * kHeight;
+    out.height_px = kHeight;
+    out.radiance.assign(std::size_t{3} * 2 * kHeight * kHeight, 1.0F);
     return out;
   }());
   return even;

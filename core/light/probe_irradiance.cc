@@ -75,6 +75,7 @@ ProbeIrradiance::ProbeIrradiance(const ProbeTree& tree, const RayScene* scene,
   };
   while (lattice_size() > kMostLattice) ++shift_;
   lattice_.assign(lattice_size(), 0U);
+  if (tree_.is_even()) set_facet(Eigen::Vector3d::UnitZ(), {});
 }
 
 void ProbeIrradiance::set_facet(const Eigen::Vector3d& normal,
@@ -89,7 +90,8 @@ void ProbeIrradiance::set_facet(const Eigen::Vector3d& normal,
     bright_energy_.push_back(cut_energy(pixel, true, kSumCuts));
     open_bright_ += bright_energy_.back();
   }
-  open_sky_ = sky_energy(tree_.root());
+  // Even light is the same on all facets: that of the first, which the constructor sets.
+  if (facet_ == 1 || !tree_.is_even()) open_sky_ = sky_energy(tree_.root());
 }
 
 // Light of a small cell: its directions' cosines are spread about the mean by the standard

@@ -31,7 +31,9 @@ ProbeTree::ProbeTree(Environment environment) : ProbeTree(std::move(environment)
 
 ProbeTree::ProbeTree(Environment environment, const Options& options)
     : environment_(checked(std::move(environment))),
-      map_(environment_.projection, environment_.width_px, environment_.height_px) {
+      map_(environment_.projection, environment_.width_px, environment_.height_px),
+      is_even_(std::equal(environment_.radiance.begin() + 3, environment_.radiance.end(),
+                          environment_.radiance.begin())) {
   find_bright(options.bright_share);
   build();
 }

@@ -53,6 +53,8 @@ class ProbeTree {
   // Flux from the whole sphere, W/mm^2 per unit of the probe, of sky and bright pixels.
   const Eigen::Array3d& sky_flux() const { return sky_flux_; }
   const Eigen::Array3d& bright_flux() const { return bright_flux_; }
+  // Whether every direction has the same radiance.
+  bool is_even() const { return is_even_; }
 
   // The rectangle of the picture that a cell covers; empty if the cell lies outside the picture.
   ImageRect rect(const ProbeCell& cell) const;
@@ -77,6 +79,7 @@ class ProbeTree {
 
   Environment environment_;
   ProbeMap map_;
+  bool is_even_;
   std::vector<ProbeCell> bright_;      // by row, then column
   std::vector<bool> bright_by_pixel_;  // empty: none is
   std::vector<Level> levels_;          // level 1 first
