@@ -161,7 +161,7 @@ std::vector<Deviation> led_deviations() {
       {.name = "all LED intensities off",
        .words = kPowerWords,
        .unit = "%",
-       .sizes = {1.4, 6, 20},
+       .sizes = {1.4, 4, 20},
        .within = 1,
        .truth =
            [](TrueSetup& t, const DeviationDraw& d) {

@@ -89,12 +89,14 @@ auto times(std::size_t channel) {
   };
 }
 
+// Nothing but what the rig states tells the scale, and sigma_s' and sigma_a follow it: the second
+// size is two of the stated deviations, as the answer to three would be three of its own off.
 std::vector<Deviation> scales() {
   return {
       {.name = "exposure time off",
        .words = kScaleWords,
        .unit = "%",
-       .sizes = {1.4, 6, 40},
+       .sizes = {1.4, 4, 40},
        .within = 1,
        .frames =
            [](std::vector<ColourFrame>& frames, const DeviationDraw& d) {
@@ -111,7 +113,7 @@ std::vector<Deviation> scales() {
       {.name = "responsivity off",
        .words = kScaleWords,
        .unit = "%",
-       .sizes = {1.4, 6, 20},
+       .sizes = {1.4, 4, 20},
        .within = 1,
        .truth =
            [](TrueSetup& t, const DeviationDraw& d) {
@@ -120,19 +122,19 @@ std::vector<Deviation> scales() {
       {.name = "responsivity of R off",
        .words = kScaleWords,
        .unit = "%",
-       .sizes = {1.4, 6, 20},
+       .sizes = {1.4, 4, 20},
        .within = 1,
        .truth = times(0)},
       {.name = "responsivity of G off",
        .words = kScaleWords,
        .unit = "%",
-       .sizes = {1.4, 6, 20},
+       .sizes = {1.4, 4, 20},
        .within = 1,
        .truth = times(1)},
       {.name = "responsivity of B off",
        .words = kScaleWords,
        .unit = "%",
-       .sizes = {1.4, 6, 20},
+       .sizes = {1.4, 4, 20},
        .within = 1,
        .truth = times(2)},
   };
