@@ -44,8 +44,9 @@ void declare_options(CLI::App& command, MeasureArguments& a) {
       ->check(CLI::PositiveNumber);
   command
       .add_option("--time-limit", estimate.time_limit_s,
-                  "transport: seconds per material and channel; if they run out, the digits depend "
-                  "on the speed of the machine")
+                  "transport: seconds per material and channel (half as many again where only the "
+                  "last paths are missing); if they run out, the digits depend on the speed of the "
+                  "machine")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command

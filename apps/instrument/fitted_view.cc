@@ -55,6 +55,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
       const JointJudgement joint = joint_pulls_of(results);
       found = from(joint);
       by_transport = true;
+      options.found = results;
       if (!(found.motion > kWorthPaths) || chi_square_tail(joint.chi2, joint.dof) < kContradicted) {
         found = {};
         if (paths > options.paths) continue;

@@ -122,6 +122,17 @@ std::int64_t ChannelSimulation::missing_paths(const ScatteringPoint& at, int blo
   return paths;
 }
 
+Eigen::VectorXd ChannelSimulation::light_at_node(int node, double sigma_a_per_mm,
+                                                 int blocks) const {
+  Eigen::VectorXd l = Eigen::VectorXd::Zero(n_rows());
+  const int levels = WhiteRows::levels_for(kBlockPaths * blocks);
+  for (const Lit& v : lit_) {
+    const Eigen::VectorXd of_view = v.in_atlas->node(node, levels).light(sigma_a_per_mm).l;
+    for (const auto& [row, at_view] : v.rows) l[row] += v.power * of_view[at_view];
+  }
+  return l;
+}
+
 ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int blocks,
                                                 const Eigen::SparseMatrix<double>& projection,
                                                 const Control& control) const {

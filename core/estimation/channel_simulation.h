@@ -50,6 +50,8 @@ class ChannelSimulation {
   // projection: any number of rows x n_rows(). Traces what is missing for so many blocks.
   Look look(const ScatteringPoint& at, int blocks, const Eigen::SparseMatrix<double>& projection,
             const Control& control) const;
+  // The light alone, at a node of the atlas, from at least so many blocks there: as image.l.
+  Eigen::VectorXd light_at_node(int node, double sigma_a_per_mm, int blocks) const;
   // Paths that look() would trace.
   std::int64_t missing_paths(const ScatteringPoint& at, int blocks) const;
 

@@ -29,6 +29,8 @@ struct EstimateOptions {
   bool keep_rows = false;    // fill ChannelResult::rows
   // Transport: called with the dipole's results before it begins; false ends the estimation there.
   std::function<bool(const std::vector<ChannelResult>&)> goes_on_from_dipole = {};
+  // Transport: what an earlier estimation of the same shots found, to start from.
+  std::vector<ChannelResult> found = {};
   bool without_noise = false;  // shots are noise-free expected values (dipole only)
 };
 

@@ -30,7 +30,7 @@ void estimate_from_dipole(Estimation& e, const char* otherwise, const Wants& wan
   for (const std::size_t i : wanted) {
     ChannelResult& result = e.results[i];
     Estimate of_dipole = result.estimate;
-    start_like_others(e.results, result.material, result.estimate);
+    if (!start_as_before(e.options.found, result)) start_like_others(e.results, result.estimate);
     result.model = "transport";
     result.dipole = std::move(of_dipole);
     result.rows.clear();

@@ -1,6 +1,7 @@
 #include "core/estimation/transport_pilot.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/diffusion/dipole_curve.h"
 
@@ -25,6 +26,21 @@ Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector
   const Eigen::Map<const Eigen::VectorXd> area(area_mm2.data(), l.size());
   const Eigen::VectorXd share = l.cwiseMax(0.0).cwiseQuotient(area);
   return share * (noisy_variance.sum() / share.sum());
+}
+
+DenseSystem system_of_paths(const DipoleSystem& dipole) {
+  DenseSystem system = dipole.system();
+  if (dipole.light_by_plane) system.l += dipole.light_by_plane();
+  std::vector<Eigen::Index> kept;
+  std::vector<Nuisance> nuisances;
+  for (std::size_t k = 0; k < system.nuisances.size(); ++k) {
+    if (system.nuisances[k].group == "camera shift") continue;
+    kept.push_back(static_cast<Eigen::Index>(k));
+    nuisances.push_back(system.nuisances[k]);
+  }
+  system.nuisances = std::move(nuisances);
+  system.nuisance_columns = Eigen::MatrixXd(system.nuisance_columns(Eigen::all, kept));
+  return system;
 }
 
 }  // namespace scattermeter

@@ -1,4 +1,4 @@
-// The smooth pilot image that weights the rows in the search by transport.
+// What the search by transport takes from the dipole: the shots' rows and a smooth pilot image.
 #pragma once
 
 #include <vector>
@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/diffusion/distance_weights.h"
+#include "core/estimation/estimation.h"
 #include "core/fit/scattering_equation.h"
 #include "core/transport/scattering_rows.h"
 
@@ -21,5 +22,10 @@ ScatteringImage dipole_pilot(const WeightMatrix& weights, const DistanceKnots& k
 // Precondition: some l is positive.
 Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector<double>& area_mm2,
                                      const Eigen::VectorXd& noisy_variance);
+
+// The dipole's system for the search: with the light by way of the plane, which paths simulate, and
+// without the shifts of single shots: with these, the search for faint materials ends with scale
+// and eta far off.
+DenseSystem system_of_paths(const DipoleSystem& dipole);
 
 }  // namespace scattermeter

@@ -13,6 +13,7 @@
 #include "core/estimation/residual_look.h"
 #include "core/estimation/transport_pilot.h"
 #include "core/estimation/transport_round.h"
+#include "core/estimation/transport_start.h"
 #include "core/estimation/transport_verdict.h"
 #include "core/fit/part_light.h"
 #include "core/fit/residual.h"
@@ -28,12 +29,12 @@ constexpr int kMaxRounds = 30;
 constexpr int kPatience = 5;
 // Blocks of paths from which the pilot must have learned before a round may be the last.
 constexpr double kLearnedBlocks = 32.0;
+// Time limits that a search may take which lacks but its last blocks to be judged.
+constexpr double kLongest = 1.5;
 // Relative change of the image by a step beyond which earlier paths do not apply to the new point.
 constexpr double kFarStep = 0.3;
-// Mean free paths across the largest body from which the search starts: at least, and where the
-// dipole determines nothing, at most; sigma_a / sigma_s at most there.
+// Mean free paths across the largest body from which the search starts, at least.
 constexpr double kThinnest = 5.0;
-constexpr double kThickest = 30.0, kDarkest = 0.01;
 // Rows farther off, in robust deviations, are dust and scratches; Monte Carlo has long tails.
 constexpr double kTransportOutlierStd = 8.0;
 
@@ -43,7 +44,7 @@ class TransportSearch {
                   TransportAtlas& atlas, const EstimateOptions& options, const ProgressStage& stage)
       : channel_(channel),
         knots_(dipole.knots),
-        system_(whole(dipole)),
+        system_(system_of_paths(dipole)),
         rows_(*dipole.rows),
         scale_(scale_prior(scene)),
         options_(options),
@@ -60,14 +61,6 @@ class TransportSearch {
 
   void run(ChannelResult& result) {
     Estimate& estimate = result.estimate;
-    const Quantity& start = estimate.sigma_s_prime_per_mm;
-    const double size_mm = simulation_.largest_size_mm();
-    ScatteringPoint at{std::max(start.value, kThinnest / size_mm), estimate.sigma_a_per_mm.value};
-    if (has_free_scale()) at.scale = estimate.scale.value;
-    if (is_undetermined(start)) {
-      at.sigma_s_per_mm = std::min(at.sigma_s_per_mm, kThickest / size_mm);
-      at.sigma_a_per_mm = std::min(at.sigma_a_per_mm, kDarkest * at.sigma_s_per_mm);
-    }
     result.singles.clear();
     result.agreement = {};
     result.evidence = {};
@@ -79,6 +72,7 @@ class TransportSearch {
                                       estimate.rows, TransportRound::kLeastRows)};
       return;
     }
+    ScatteringPoint at = start(estimate);
     int blocks = kFirstBlocks;  // per light and view; more as the search closes in
     Look last = first_look(at);
     bool outliers_known = false;
@@ -111,29 +105,29 @@ class TransportSearch {
   }
 
  private:
-  // With the light by way of the plane, which paths simulate, and without the shifts of single
-  // shots: with these, the search for faint materials ends with scale and eta far off.
-  static DenseSystem whole(const DipoleSystem& dipole) {
-    DenseSystem system = dipole.system();
-    if (dipole.light_by_plane) system.l += dipole.light_by_plane();
-    std::vector<Eigen::Index> kept;
-    std::vector<Nuisance> nuisances;
-    for (std::size_t k = 0; k < system.nuisances.size(); ++k) {
-      if (system.nuisances[k].group == "camera shift") continue;
-      kept.push_back(static_cast<Eigen::Index>(k));
-      nuisances.push_back(system.nuisances[k]);
-    }
-    system.nuisances = std::move(nuisances);
-    system.nuisance_columns = Eigen::MatrixXd(system.nuisance_columns(Eigen::all, kept));
-    return system;
-  }
-
   // The errors to be expected, by an earlier look.
   struct Look {
     ScatteringImage image;
     int blocks = 0;
     double scatter = 1;
   };
+
+  ScatteringPoint start(const Estimate& dipole) {
+    const double size_mm = simulation_.largest_size_mm();
+    const Quantity& scattering = dipole.sigma_s_prime_per_mm;
+    if (!is_undetermined(scattering)) {
+      return {std::max(scattering.value, kThinnest / size_mm), dipole.sigma_a_per_mm.value,
+              has_free_scale() ? dipole.scale.value : 1.0};
+    }
+    constexpr int kCoarseBlocks = 4;
+    const auto light = [&](int node, double sigma_a_per_mm) -> Eigen::ArrayXd {
+      stage_.check();
+      return parts_.parts() *
+             Eigen::VectorXd(parts_.cells() *
+                             simulation_.light_at_node(node, sigma_a_per_mm, kCoarseBlocks));
+    };
+    return nearest_point(size_mm, has_free_scale(), light);
+  }
 
   bool has_free_scale() const { return !std::isfinite(scale_.relative_std); }
 
@@ -155,7 +149,11 @@ class TransportSearch {
     while (may_be_last && is_close(round.step(), round.blocks()) &&
            !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
       stage_.check();
-      const int more = next_blocks(round.at(), round.blocks());
+      int more = next_blocks(round.at(), round.blocks());
+      if (more == 0 && round.blocks() < kLeastBlocks &&
+          budget_.has_time_for(simulation_.missing_paths(round.at(), kLeastBlocks), kLongest)) {
+        more = kLeastBlocks;
+      }
       if (more == 0) break;
       round.take(look(round.at(), more, projection));
     }

@@ -1,13 +1,19 @@
 #include "core/estimation/transport_start.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "core/atlas/transport_atlas.h"
 
 namespace scattermeter {
 namespace {
 
-bool determines(const Estimate& dipole) {
-  return dipole.converged && !is_undetermined(dipole.sigma_s_prime_per_mm);
+bool determines(const Estimate& estimate) {
+  return estimate.converged && !is_undetermined(estimate.sigma_s_prime_per_mm);
 }
 
 double squared_distance(const Estimate& one, const Estimate& other) {
@@ -20,35 +26,79 @@ double squared_distance(const Estimate& one, const Estimate& other) {
   return scattering * scattering + 0.1 * absorption * absorption;
 }
 
+// Mean square of log(measured light over this), and the scale that was fitted for it, else 1.
+std::pair<double, double> offset_of(const Eigen::ArrayXd& light, bool has_free_scale) {
+  constexpr double kDarkPart = 1e-3;  // of the brightest, of a part that has none
+  const double brightest = light.maxCoeff();
+  if (!(brightest > 0.0)) return {std::numeric_limits<double>::max(), 1.0};
+  Eigen::ArrayXd offset = light.max(kDarkPart * brightest).log();
+  const double common = has_free_scale ? offset.mean() : 0.0;
+  offset -= common;
+  return {offset.square().mean(), std::exp(-common)};
+}
+
 }  // namespace
 
-void start_like_others(std::span<const ChannelResult> found, const std::string& material,
-                       Estimate& start) {
-  constexpr double kSimilar = 1.0;  // squared distance
-  const bool has_start = determines(start);
+void start_like_others(std::span<const ChannelResult> found, Estimate& start) {
+  if (!determines(start)) return;
   const ChannelResult* like = nullptr;
-  double least = kSimilar;
+  double least = 1.0;  // squared distance
   for (const ChannelResult& r : found) {
-    if (!r.dipole || !r.estimate.converged || r.refused()) continue;
-    if (!has_start) {
-      if (like == nullptr || r.material == material) like = &r;
-    } else if (determines(*r.dipole) && squared_distance(*r.dipole, start) < least) {
-      least = squared_distance(*r.dipole, start);
-      like = &r;
-    }
+    if (!r.dipole || !r.estimate.converged || r.refused() || !determines(*r.dipole)) continue;
+    const double distance = squared_distance(*r.dipole, start);
+    if (distance >= least) continue;
+    least = distance;
+    like = &r;
   }
   if (like == nullptr) return;
-  double& s = start.sigma_s_prime_per_mm.value;
-  double& a = start.sigma_a_per_mm.value;
   const Estimate& to = like->estimate;
-  if (has_start) {
-    s *= to.sigma_s_prime_per_mm.value / like->dipole->sigma_s_prime_per_mm.value;
-    a += to.sigma_a_per_mm.value - like->dipole->sigma_a_per_mm.value;
-  } else {
-    s = to.sigma_s_prime_per_mm.value;
-    a = to.sigma_a_per_mm.value;
+  start.sigma_s_prime_per_mm.value *=
+      to.sigma_s_prime_per_mm.value / like->dipole->sigma_s_prime_per_mm.value;
+  double& a = start.sigma_a_per_mm.value;
+  a = std::max(0.0, a + to.sigma_a_per_mm.value - like->dipole->sigma_a_per_mm.value);
+}
+
+bool start_as_before(std::span<const ChannelResult> found, ChannelResult& result) {
+  const auto same = std::find_if(found.begin(), found.end(), [&](const ChannelResult& r) {
+    return r.material == result.material && r.channel == result.channel;
+  });
+  if (same == found.end() || same->model != "transport" || !determines(same->estimate))
+    return false;
+  result.estimate.sigma_s_prime_per_mm = same->estimate.sigma_s_prime_per_mm;
+  result.estimate.sigma_a_per_mm = same->estimate.sigma_a_per_mm;
+  result.estimate.scale = same->estimate.scale;
+  return true;
+}
+
+ScatteringPoint nearest_point(double size_mm, bool has_free_scale,
+                              const std::function<Eigen::ArrayXd(int, double)>& light) {
+  constexpr double kThinnest = 5.0, kThickest = 300.0;  // mean free paths across
+  constexpr int kStep = 2;                              // nodes
+  constexpr std::array<double, 9> kDark = {1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8};
+  const auto node_at = [&](double paths_across) {
+    return std::log(paths_across / size_mm) / TransportAtlas::kSpacing;
+  };
+  const int first = static_cast<int>(std::ceil(node_at(kThinnest)));
+  const int steps = static_cast<int>(std::floor(node_at(kThickest)) - first) / kStep + 1;
+  Eigen::ArrayXXd distance(steps, kDark.size()), scale(steps, kDark.size());
+  for (Eigen::Index i = 0; i < steps; ++i) {
+    const int node = first + kStep * static_cast<int>(i);
+    for (Eigen::Index k = 0; k < distance.cols(); ++k) {
+      std::tie(distance(i, k), scale(i, k)) = offset_of(
+          light(node, kDark[static_cast<std::size_t>(k)] * TransportAtlas::sigma_s_per_mm(node)),
+          has_free_scale);
+    }
   }
-  a = std::max(0.0, a);
+  Eigen::Index i = 0, k = 0;
+  distance.minCoeff(&i, &k);
+  double x = first + kStep * static_cast<double>(i);
+  if (i > 0 && i + 1 < steps) {
+    const double before = distance(i - 1, k) - distance(i, k);
+    const double after = distance(i + 1, k) - distance(i, k);
+    if (before + after > 0.0) x += kStep * 0.5 * (before - after) / (before + after);
+  }
+  const double sigma_s = std::exp(TransportAtlas::kSpacing * x);
+  return {sigma_s, kDark[static_cast<std::size_t>(k)] * sigma_s, scale(i, k)};
 }
 
 }  // namespace scattermeter

@@ -1,10 +1,13 @@
 // Where the search by transport starts.
 #pragma once
 
+#include <functional>
 #include <span>
-#include <string>
+
+#include <Eigen/Core>
 
 #include "core/estimation/channel_result.h"
+#include "core/fit/scattering_equation.h"
 
 namespace scattermeter {
 
@@ -12,11 +15,22 @@ namespace scattermeter {
 // holding channels that it has searched, among others. Where the dipole does not hold, its
 // estimates are off by what the body's shape does to them, and that is nearly the same in like
 // media: as transport moved the dipole's estimate of the channel with the most similar one, within
-// a factor of e in sigma_s', sigma_s' by their ratio and sigma_a by their difference. Where the
-// dipole determines nothing (a standard deviation beyond half of sigma_s'), to the estimate of
-// another channel of the material, or else of another material. Only from channels that are not
-// refused; without any, the start stays where it is.
-void start_like_others(std::span<const ChannelResult> found, const std::string& material,
-                       Estimate& start);
+// a factor of e in sigma_s', sigma_s' by their ratio and sigma_a by their difference. Only from
+// channels that are not refused; without any, or where the dipole determines nothing (a standard
+// deviation beyond half of sigma_s'), the start stays where it is.
+void start_like_others(std::span<const ChannelResult> found, Estimate& start);
+
+// Starts where transport ended for the same channel of `found`. False: it was not searched, or the
+// search did not find a medium.
+bool start_as_before(std::span<const ChannelResult> found, ChannelResult& result);
+
+// Where the dipole determines nothing: the point whose light is nearest to the shots', of a coarse
+// grid of the atlas's nodes and sigma_a / sigma_s from 1e-4 to 0.8, and between its nodes by a
+// parabola. Bodies of size_mm are 5 to 300 mean free paths across. light(node, sigma_a in 1/mm): of
+// every part of the shots, at scale 1, relative to the measured one; noise of 10 % is allowed.
+// has_free_scale: the light of all parts together tells nothing, and the point has the scale that
+// fits it.
+ScatteringPoint nearest_point(double size_mm, bool has_free_scale,
+                              const std::function<Eigen::ArrayXd(int, double)>& light);
 
 }  // namespace scattermeter

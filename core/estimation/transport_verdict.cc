@@ -34,13 +34,15 @@ const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
 }  // namespace
 
 bool is_close(const ScatteringEquation::Step& step, int blocks) {
-  constexpr double kShort = 0.02;
+  constexpr double kShort = 0.02, kLong = 0.25;
   constexpr double kOfStd = 0.15;
   const double more = blocks > kLeastBlocks ? 1.7 : 1.0;
   const Eigen::MatrixXd& paths = covariance_by(step, "Monte Carlo");
   const double saved = 1.0 - std::min(1.0, blocks / kFinalPathBlocks);
-  for (Eigen::Index k = 0; k < step.move.size(); ++k) {
-    const double change = std::abs(step.move[k]) * step.size[k] / more;
+  for (Eigen::Index k = 0; k < step.taken.size(); ++k) {
+    const double change = std::abs(step.taken[k]) * step.size[k] / more;
+    // Whatever the deviation: it is that of a point too far off.
+    if (change > kLong) return false;
     const double std = std::sqrt(step.covariance(k, k) - saved * paths(k, k)) * step.size[k];
     if (change > kShort && 0.5 * change * change > kOfStd * std) return false;
   }

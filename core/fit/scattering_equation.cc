@@ -113,18 +113,10 @@ ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
   const Eigen::MatrixXd slope = projection_ * jacobian(m, at, n == 3);
   const Eigen::VectorXd misfit = projection_ * (system_.l - at.scale * m.l);
   const Eigen::MatrixXd inverse = inverse_lu(slope);
-  Eigen::VectorXd move = inverse * misfit;
-  // By its effect on the image: a small sigma_a affects light that has travelled far.
-  const double largest = move.cwiseAbs().cwiseProduct(relative_size_).maxCoeff();
   Step out;
-  out.move = move;
+  out.move = inverse * misfit;
   out.inverse = inverse;
-  out.change = largest;
   out.size = relative_size_;
-  constexpr double kMost = 0.4;
-  if (largest > kMost) move *= kMost / largest;
-  out.to = {at.sigma_s_per_mm * std::exp(move[0]), std::max(0.0, at.sigma_a_per_mm + move[1]),
-            n == 3 ? at.scale * std::exp(move[2]) : at.scale};
   const auto add = [&](const std::string& name, const Eigen::MatrixXd& of_projection) {
     out.causes.push_back({name, inverse * of_projection * inverse.transpose()});
   };
@@ -141,6 +133,15 @@ ScatteringEquation::Step ScatteringEquation::step(const ScatteringImage& m,
   for (const auto& [name, covariance] : groups) out.causes.push_back({name, covariance});
   out.covariance = Eigen::MatrixXd::Zero(n, n);
   for (const Step::Cause& cause : out.causes) out.covariance += cause.covariance;
+  out.taken = out.move;
+  const double below = at.sigma_a_per_mm + out.move[1];
+  if (below < 0.0) out.taken -= below / out.covariance(1, 1) * out.covariance.col(1);
+  // By its effect on the image: a small sigma_a affects light that has travelled far.
+  out.change = out.taken.cwiseAbs().cwiseProduct(relative_size_).maxCoeff();
+  constexpr double kMost = 0.4;
+  const Eigen::VectorXd cut = std::min(1.0, kMost / out.change) * out.taken;
+  out.to = {at.sigma_s_per_mm * std::exp(cut[0]), std::max(0.0, at.sigma_a_per_mm + cut[1]),
+            n == 3 ? at.scale * std::exp(cut[2]) : at.scale};
   return out;
 }
 

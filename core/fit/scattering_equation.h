@@ -59,19 +59,22 @@ class ScatteringEquation {
     };
     std::vector<Cause> causes;
     Eigen::MatrixXd covariance;  // the sum
-    // Largest relative change of the image by the move of one unknown (for sigma_s: its own
-    // relative change, if that is larger), before the step is cut.
+    // Largest relative change of the image by what one unknown takes (sigma_s: its own relative
+    // change, if that is larger).
     double change = 0;
-    Eigen::VectorXd size;     // relative change of the image per unit of each unknown
-    Eigen::VectorXd move;     // in the unknowns, before the step is cut
+    Eigen::VectorXd size;  // relative change of the image per unit of each unknown
+    Eigen::VectorXd move;  // in the unknowns, to the root
+    // The same, or where the root has a negative sigma_a, to the most probable point at 0: the
+    // other unknowns follow by their covariance with it. Before the step is cut.
+    Eigen::VectorXd taken;
     Eigen::MatrixXd inverse;  // from projection() * l to the move
     // Moves caused by one deviation of each common cause: a column for every nuisance, and one for
     // a scale with a prior.
     Eigen::MatrixXd common_causes;
   };
   // One Newton step from `at`, given m there and the covariance of projection() * m at scale 1. A
-  // step is cut to a change of 0.4 and at sigma_a = 0. scatter >= 1: the rows' error variance
-  // beyond their noise over their Monte Carlo variance (core/fit/excess_scatter.h).
+  // step is cut to a change of 0.4 and ends at sigma_a = 0 at the latest. scatter >= 1: the rows'
+  // error variance beyond their noise over their Monte Carlo variance (core/fit/excess_scatter.h).
   Step step(const ScatteringImage& m, const Eigen::MatrixXd& projected_covariance,
             const ScatteringPoint& at, double scatter = 1.0) const;
 

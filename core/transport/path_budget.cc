@@ -8,12 +8,16 @@ double PathBudget::elapsed_s() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
+bool PathBudget::has_time_for(std::int64_t paths, double limits) const {
+  const double speed = tracing_s_ > 0.0 ? traced_ / tracing_s_ : kUnknownPathsPerS;
+  return static_cast<double>(paths) <= speed * (limits * time_limit_s_ - elapsed_s());
+}
+
 int PathBudget::next_blocks(int now, int least,
                             const std::function<std::int64_t(int)>& missing_paths) const {
-  const double in_time = left_s() * (tracing_s_ > 0.0 ? traced_ / tracing_s_ : kUnknownPathsPerS);
   for (const int more : {2 * now, std::max(least, 3 * now / 2), 5 * now / 4}) {
     if (!(more > now && more <= most_blocks_)) continue;
-    if (static_cast<double>(missing_paths(more)) <= in_time) return more;
+    if (has_time_for(missing_paths(more))) return more;
   }
   return 0;
 }

@@ -29,6 +29,8 @@ class PathBudget {
   // them; 0: there is not even room for a quarter more. missing_paths: to be traced for so many.
   int next_blocks(int now, int least,
                   const std::function<std::int64_t(int blocks)>& missing_paths) const;
+  // Whether so many fit into `limits` times the time limit.
+  bool has_time_for(std::int64_t paths, double limits = 1.0) const;
 
  private:
   double most_blocks_, time_limit_s_;

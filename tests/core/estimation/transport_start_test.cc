@@ -1,9 +1,15 @@
 #include "core/estimation/transport_start.h"
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "core/atlas/transport_atlas.h"
 
 namespace scattermeter {
 namespace {
@@ -39,7 +45,7 @@ TEST(TransportStart, MovesAsTheMostSimilarMediumDid) {
       searched("milk", estimate(3.0, 0.002), estimate(2.0, 0.1)),
   };
   Estimate start = estimate(1.2, 0.001);
-  start_like_others(found, "milk", start);
+  start_like_others(found, start);
   expect_at(start, 1.32, 0.004);
 }
 
@@ -55,28 +61,80 @@ TEST(TransportStart, StaysAtTheDipoleWithoutASimilarMedium) {
   found.push_back(searched("wax", estimate(4.0, 0.001), estimate(5.0, 0.1)));
   found.push_back(searched("wax", estimate(1.2, 0.001, 3.0), estimate(5.0, 0.1)));
   Estimate start = estimate(1.2, 0.001);
-  start_like_others(found, "wax", start);
+  start_like_others(found, start);
   expect_at(start, 1.2, 0.001);
   // By difference, absorption may not become negative.
   found.push_back(searched("wax", estimate(1.2, 0.03), estimate(1.2, 0.01)));
   start = estimate(1.2, 0.015);
-  start_like_others(found, "wax", start);
+  start_like_others(found, start);
   expect_at(start, 1.2, 0.0);
 }
 
-TEST(TransportStart, IsThatOfTheMaterialWhereTheDipoleDeterminesNothing) {
-  std::vector<ChannelResult> found = {
-      searched("milk", estimate(1.2, 0.001), estimate(3.0, 0.02)),
-      searched("wax", estimate(0.1, 0.001), estimate(1.1, 0.005)),
-      searched("milk", estimate(1.2, 0.001), estimate(2.0, 0.01)),
-  };
+TEST(TransportStart, StaysWhereTheDipoleDeterminesNothing) {
+  const std::vector<ChannelResult> found = {
+      searched("milk", estimate(0.001, 5.0), estimate(3.0, 0.02))};
   Estimate start = estimate(0.001, 5.0, 20.0);
-  start_like_others(found, "wax", start);
-  expect_at(start, 1.1, 0.005);
-  start = estimate(0.001, 5.0, 20.0);
-  start_like_others(found, "soap", start);
-  expect_at(start, 3.0, 0.02);
+  start_like_others(found, start);
+  expect_at(start, 0.001, 5.0);
 }
+
+TEST(TransportStart, IsWhereTransportEndedBefore) {
+  ChannelResult before = searched("milk", estimate(0.001, 5.0, 20.0), estimate(3.0, 0.02));
+  before.channel = 'G';
+  ChannelResult result = before;
+  result.estimate = *before.dipole;
+  EXPECT_TRUE(start_as_before(std::vector{before}, result));
+  expect_at(result.estimate, 3.0, 0.02);
+  // Another channel, the dipole's alone, and a search that found nothing.
+  result.estimate = *before.dipole;
+  std::vector<ChannelResult> others(3, before);
+  others[0].channel = 'R';
+  EXPECT_FALSE(start_as_before(std::span(others).first(1), result));
+  others[1].model = "dipole";
+  EXPECT_FALSE(start_as_before(std::span(others).subspan(1, 1), result));
+  others[2].estimate.converged = false;
+  EXPECT_FALSE(start_as_before(std::span(others).last(1), result));
+  expect_at(result.estimate, 0.001, 5.0);
+}
+
+// Light that, in a body of 20 mm, falls with the distance: near light tells sigma_s, far light
+// sigma_a. Noise is 10 %, and shots end where a fiftieth of the light is left by absorption.
+class NearestPoint : public ::testing::TestWithParam<double> {
+ protected:
+  static double per_reach_mm(double sigma_s, double sigma_a) {
+    return std::sqrt(3.0 * sigma_a * (sigma_s + sigma_a));
+  }
+  static ScatteringPoint found(double sigma_s, double sigma_a, double scale, bool has_free_scale) {
+    const double farthest_mm = std::min(15.0, std::log(50.0) / per_reach_mm(sigma_s, sigma_a));
+    const Eigen::ArrayXd d_mm = Eigen::ArrayXd::LinSpaced(64, 0.03 * farthest_mm, farthest_mm);
+    const auto light = [&](double s, double a) -> Eigen::ArrayXd {
+      return s * (-per_reach_mm(s, a) * d_mm).exp() / (1.0 + s * d_mm).square();
+    };
+    const Eigen::ArrayXd truth = scale * light(sigma_s, sigma_a);
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> noise(0.0, 0.1);
+    return nearest_point(20.0, has_free_scale, [&](int node, double a) {
+      Eigen::ArrayXd out = light(TransportAtlas::sigma_s_per_mm(node), a) / truth;
+      for (double& l : out) l *= 1.0 + noise(random);
+      return out;
+    });
+  }
+};
+
+// Nodes are 0.7 apart in log sigma_s, and sigma_a between its grid's points shifts the nearest.
+TEST_P(NearestPoint, IsWithinAStepAndAHalfOfTheMedium) {
+  const double sigma_s = GetParam();
+  for (const double dark : {2e-4, 0.005, 0.2}) {
+    for (const bool has_free_scale : {false, true}) {
+      const double scale = has_free_scale ? 3.0 : 1.0;
+      const ScatteringPoint at = found(sigma_s, dark * sigma_s, scale, has_free_scale);
+      EXPECT_NEAR(std::log(at.sigma_s_per_mm / sigma_s), 0.0, 1.05) << dark << has_free_scale;
+      EXPECT_NEAR(at.scale, scale, has_free_scale ? scale : 0.0) << dark;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Media, NearestPoint, ::testing::Values(0.3, 1.0, 2.5, 9.0));
 
 }  // namespace
 }  // namespace scattermeter

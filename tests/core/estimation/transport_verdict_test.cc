@@ -14,7 +14,7 @@ ScatteringEquation::Step made_step(double move, double noise, double paths) {
   ScatteringEquation::Step step;
   step.to = {2.0, 0.01, 1.0};
   step.size = Eigen::Vector2d::Ones();
-  step.move = Eigen::Vector2d(move, 0.0);
+  step.move = step.taken = Eigen::Vector2d(move, 0.0);
   step.causes = {{"noise", noise * Eigen::Matrix2d::Identity()},
                  {"Monte Carlo", paths * Eigen::Matrix2d::Identity()}};
   step.covariance = (noise + paths) * Eigen::Matrix2d::Identity();
@@ -31,6 +31,9 @@ TEST(TransportVerdict, StepsAreCloseWhereTheirSquaresAreSmall) {
   // Once many paths are spent, up to 1.7 times as long.
   EXPECT_TRUE(is_close(made_step(0.0339, 1e-12, 0.0), 65));
   EXPECT_FALSE(is_close(made_step(0.0339, 1e-12, 0.0), 64));
+  // Of more than a quarter, none.
+  EXPECT_TRUE(is_close(made_step(0.249, 1.0, 0.0), 8));
+  EXPECT_FALSE(is_close(made_step(0.251, 1.0, 0.0), 8));
 }
 
 // Deviations of paths that further blocks will remove do not excuse a long step.

@@ -101,6 +101,36 @@ TEST(ScatteringEquation, DeviationsAreAsStated) {
   }
 }
 
+// Where noise takes the root to a negative sigma_a, the step ends at the least squares of sigma_s
+// alone, without absorption.
+TEST(ScatteringEquation, AtTheBoundOfSigmaATheOthersAreMostProbable) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  const ScatteringPoint at{2.0, 0.002, 1.0};
+  const ScatteringImage m = image_of(at.sigma_s_per_mm, at.sigma_a_per_mm);
+  int bound = 0;
+  for (int draw = 0; draw < 20; ++draw) {
+    DenseSystem system = system_of(m.l - 0.003 * m.per_sigma_a, 1e-2);
+    for (double& l : system.l) l += 1e-2 * normal(random);
+    ScatteringImage pilot = m;
+    pilot.variance.setZero();
+    const ScatteringEquation equation(system, {0.0}, pilot, at);
+    const ScatteringEquation::Step step = equation.step(m, Eigen::MatrixXd::Zero(2, 2), at);
+    if (at.sigma_a_per_mm + step.move[1] >= 0.0) {
+      EXPECT_EQ(step.taken, step.move);
+      continue;
+    }
+    ++bound;
+    const Eigen::VectorXd without = system.l - (m.l - at.sigma_a_per_mm * m.per_sigma_a);
+    const double alone = m.per_log_sigma_s.dot(without) / m.per_log_sigma_s.squaredNorm();
+    EXPECT_NEAR(step.taken[0], alone, 1e-9);
+    EXPECT_NEAR(step.to.sigma_s_per_mm, 2.0 * std::exp(alone), 1e-8);
+    EXPECT_NEAR(step.to.sigma_a_per_mm, 0.0, 1e-15);
+    EXPECT_GT(std::abs(step.move[0] - alone), 1e-4);
+  }
+  EXPECT_GE(bound, 8);
+}
+
 // A nuisance that the rows cannot tell apart from the medium widens the answer; the causes add up.
 TEST(ScatteringEquation, NuisancesWiden) {
   const ScatteringImage truth = image_of(2.0, 0.01);

@@ -31,5 +31,14 @@ TEST(PathBudget, TimeLimitsThemByTheSpeedSoFar) {
   EXPECT_EQ(PathBudget(1e6, 1.0).next_blocks(100, 64, thousand_each), 0);
 }
 
+TEST(PathBudget, TellsWhetherPathsFitIntoTimesItsLimit) {
+  PathBudget budget(1e6, 100.0);
+  budget.count(1'000'000, 1.0);
+  EXPECT_TRUE(budget.has_time_for(90'000'000));
+  EXPECT_FALSE(budget.has_time_for(110'000'000));
+  EXPECT_TRUE(budget.has_time_for(110'000'000, 1.5));
+  EXPECT_FALSE(budget.has_time_for(160'000'000, 1.5));
+}
+
 }  // namespace
 }  // namespace scattermeter
