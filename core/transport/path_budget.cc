@@ -15,8 +15,11 @@ bool PathBudget::has_time_for(std::int64_t paths, double limits) const {
 
 int PathBudget::next_blocks(int now, int least,
                             const std::function<std::int64_t(int)>& missing_paths) const {
+  const bool has_found_most =
+      now >= least && traced_ < 0.5 * static_cast<double>(missing_paths(2 * now));
   for (const int more : {2 * now, std::max(least, 3 * now / 2), 5 * now / 4}) {
     if (!(more > now && more <= most_blocks_)) continue;
+    if (has_found_most && 2 * more < 3 * now - 1) break;
     if (has_time_for(missing_paths(more))) return more;
   }
   return 0;

@@ -26,7 +26,9 @@ class PathBudget {
     if (paths > 0) tracing_s_ += seconds;
   }
   // Twice as many blocks as now, or as few as a quarter more, but then `least` if there is room for
-  // them; 0: there is not even room for a quarter more. missing_paths: to be traced for so many.
+  // them; 0: there is not even room for a quarter more, or, where most of at least `least` blocks
+  // had been traced before this search, for half as many: they would hardly tell more.
+  // missing_paths: to be traced for so many.
   int next_blocks(int now, int least,
                   const std::function<std::int64_t(int blocks)>& missing_paths) const;
   // Whether so many fit into `limits` times the time limit.

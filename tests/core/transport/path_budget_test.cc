@@ -10,7 +10,8 @@ constexpr double kHour_s = 3600.0;
 std::int64_t thousand_each(int blocks) { return 1000 * std::int64_t{blocks}; }
 
 TEST(PathBudget, BlocksAreLimited) {
-  const PathBudget budget(300.0, kHour_s);
+  PathBudget budget(300.0, kHour_s);
+  budget.count(1'000'000, 1.0);
   EXPECT_GT(budget.left_s(), 0.0);
   EXPECT_EQ(budget.next_blocks(100, 64, thousand_each), 200);
   EXPECT_EQ(budget.next_blocks(180, 64, thousand_each), 270);
@@ -29,6 +30,23 @@ TEST(PathBudget, TimeLimitsThemByTheSpeedSoFar) {
   // Before any path: kUnknownPathsPerS, of which there are 10^5 in a second.
   EXPECT_EQ(PathBudget(1e6, 1.0).next_blocks(40, 64, thousand_each), 80);
   EXPECT_EQ(PathBudget(1e6, 1.0).next_blocks(100, 64, thousand_each), 0);
+}
+
+// 10^5 paths found; there is time for 60, 40 and 60 thousand more, or for 40 of which 60 were
+// traced by this search.
+TEST(PathBudget, AFewMorePathsThanWereFoundAreNotWorthTheTime) {
+  const auto budget = [](double seconds) {
+    PathBudget out(1e6, seconds);
+    out.count(1, 1e-5);  // 10^5 a second
+    return out;
+  };
+  const auto missing = [](int blocks) { return 1000 * std::int64_t{blocks - 100}; };
+  EXPECT_EQ(budget(0.6).next_blocks(100, 64, missing), 150);
+  EXPECT_EQ(budget(0.4).next_blocks(100, 64, missing), 0);
+  EXPECT_EQ(budget(0.4).next_blocks(100, 128, missing), 125);
+  PathBudget own(1e6, 0.4);
+  own.count(60'000, 0.6);
+  EXPECT_EQ(own.next_blocks(100, 64, missing), 125);
 }
 
 TEST(PathBudget, TellsWhetherPathsFitIntoTimesItsLimit) {
