@@ -25,7 +25,8 @@ std::vector<ChannelResult> fitted_from_where_seen(
   constexpr int kWholeSteps = 2;
   constexpr double kHalf = 0.5;
   constexpr double kUnsettled = 2.0 * kVisibleMotion;
-  // Paths are traced anew for the larger motions only, and once.
+  // Paths are traced anew for the larger motions only, beyond what the paths' own noise makes up,
+  // and once.
   constexpr double kWorthPaths = 2.0 * kVisibleMotion;
   // Enough of them tell where the objects lie; the others are for the view that stays.
   constexpr std::int64_t kLookingPaths = 300'000;
@@ -56,7 +57,8 @@ std::vector<ChannelResult> fitted_from_where_seen(
       found = from(joint);
       by_transport = true;
       options.found = results;
-      if (!(found.motion > kWorthPaths) || chi_square_tail(joint.chi2, joint.dof) < kContradicted) {
+      if (!(found.motion > kWorthPaths) || !is_determined_elsewhere(joint.pulls) ||
+          chi_square_tail(joint.chi2, joint.dof) < kContradicted) {
         found = {};
         if (paths > options.paths) continue;
       }

@@ -221,6 +221,7 @@ JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels,
     PriorPull& pull = out.pulls[static_cast<std::size_t>(k)];
     pull.pull = told(k, k) > kRounding ? v[k] / std::sqrt(told(k, k)) : 0.0;
     pull.offset = v[k] * std[static_cast<std::size_t>(k)];
+    pull.std = std::sqrt(posterior(k, k)) * std[static_cast<std::size_t>(k)];
     pull.image_relative = std::abs(v[k]) * image[static_cast<std::size_t>(k)];
     pull.explained_relative = std::abs(pull.pull) / std::max(out.data_length, 1e-300);
   }

@@ -89,6 +89,15 @@ PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
          shift_like_lens(shot, scene.camera.intrinsics, lens);
 }
 
+bool is_determined_elsewhere(const std::vector<PriorPull>& joint_pulls) {
+  constexpr double kDetermined = 2.5;
+  return std::any_of(joint_pulls.begin(), joint_pulls.end(), [](const PriorPull& p) {
+    const bool moves = p.group == "pose" || p.group == "lens" || p.group == "mesh position" ||
+                       p.group == "mesh scale";
+    return moves && std::abs(p.offset) > kDetermined * p.std;
+  });
+}
+
 SeenElsewhere seen_elsewhere(const Scene& scene, std::span<const ObservedShot> shots,
                              const std::vector<PriorPull>& pulls, double step) {
   SeenElsewhere out;

@@ -30,6 +30,10 @@ struct SeenElsewhere {
   std::map<std::string, PoseShift> shifts;  // by object: for the next view (see_all())
 };
 
+// Whether the images determine that they were taken from elsewhere: a quantity by which the view
+// moves is off by more than 2.5 of its deviations, prior and images together.
+bool is_determined_elsewhere(const std::vector<PriorPull>& joint_pulls);
+
 // Where the shots show the objects to lie, against their views, by the pulls of all channels
 // together. The next view goes the share `step` of the way. Nothing without pulls, and for shots
 // with poses of their own.

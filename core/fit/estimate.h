@@ -49,6 +49,7 @@ struct PriorPull {
   // What the other quantities leave of that change and the residual confirms: the part of the
   // residual that the offset explains, relative to the image.
   double explained_relative = 1;
+  double std = 0;  // of the offset, by prior and images; joint pulls only
 };
 
 struct Estimate {

@@ -27,7 +27,8 @@ std::vector<ChannelResult> three_channels_and_one() {
   return results;
 }
 
-// v = (a1 b1 + a2 b2) / (1 + a1 + a2), and its variance (a1 + a2) / (1 + a1 + a2).
+// v = (b1 + b2) / (1 + a1 + a2), its variance if all statements hold (a1 + a2) / (1 + a1 + a2), and
+// that of the true value 1 / (1 + a1 + a2).
 TEST(JointEvidence, TwoChannelsInClosedForm) {
   const auto channel = [](double a, double b) {
     return RigEvidence{{kPosition},
@@ -41,6 +42,7 @@ TEST(JointEvidence, TwoChannelsInClosedForm) {
   EXPECT_EQ(pulls[0].name, "led1.position0");
   EXPECT_NEAR(pulls[0].pull, 1.5 / std::sqrt(0.9), 1e-12);
   EXPECT_NEAR(pulls[0].offset, 1.5 * 0.2, 1e-12);
+  EXPECT_NEAR(pulls[0].std, 0.2 / std::sqrt(10.0), 1e-12);
   EXPECT_NEAR(pulls[0].image_relative, 1.5 * 0.01, 1e-12);
   EXPECT_TRUE(joint_pulls(std::vector<const RigEvidence*>{}).pulls.empty());
   // (b1 + b2)^2 / (a (1 + a)).

@@ -74,6 +74,17 @@ TEST_F(ViewShiftTest, OfTheLens) {
 
 std::vector<PriorPull> at_side(double mm) { return {{"cube.position0", "mesh position", 0.0, mm}}; }
 
+TEST(ViewShift, IsDeterminedBeyondItsDeviation) {
+  const auto pull = [](const char* group, double offset) {
+    return PriorPull{"q", group, 1.0, offset, 0.01, 1.0, 0.1};
+  };
+  EXPECT_FALSE(is_determined_elsewhere({}));
+  EXPECT_FALSE(is_determined_elsewhere({pull("mesh position", 0.24), pull("pose", -0.24)}));
+  EXPECT_TRUE(is_determined_elsewhere({pull("pose", 0.0), pull("mesh position", -0.26)}));
+  // A light that is off moves no view.
+  EXPECT_FALSE(is_determined_elsewhere({pull("LED position", 0.9)}));
+}
+
 TEST_F(ViewShiftTest, IsVisibleAgainstThePatch) {
   const double patch_mm = shot().seen->patches->patch_size_mm();
   const SeenElsewhere far = seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2));
