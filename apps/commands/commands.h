@@ -49,6 +49,7 @@ inline void require_results_folder(const std::string& out, const std::string& sh
   capture::require_output_folder(out);
 }
 
+void add_init_command(CLI::App& app, CommandContext& context);
 void add_measure_command(CLI::App& app, CommandContext& context);
 void add_check_command(CLI::App& app, CommandContext& context);
 void add_calibrate_camera(CLI::App& calibrate, CommandContext& context);

@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+
+#include "apps/commands/commands.h"
+#include "apps/drafting/drafted_body.h"
+#include "apps/drafting/rig_draft.h"
+#include "apps/rig/rig.h"
+#include "capture/files/pending_file.h"
+#include "core/base/input_error.h"
+
+namespace scattermeter::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct InitArguments {
+  std::string shots, out = "rig.yaml", board, material = "material";
+  std::vector<std::string> bodies = {"cube:20"}, leds = {"led1", "led2"};
+  bool is_example = false;
+};
+
+struct NewFile {
+  std::string path, text;
+};
+
+std::string free_path(const fs::path& path) {
+  if (fs::exists(path)) {
+    throw InputError(path.string(), "exists already; init replaces no file: choose another --out");
+  }
+  return path.string();
+}
+
+// The object of --body, and its mesh if it is to be written.
+DraftedObject object_of(const std::string& body, const fs::path& folder,
+                        std::vector<NewFile>& files) {
+  if (body.ends_with(".obj")) {
+    if (!fs::exists(body)) throw MissingFile("--body", "no such mesh: " + body);
+    return {fs::path(body).stem().string(),
+            fs::relative(body, folder.empty() ? fs::path(".") : folder).string()};
+  }
+  const DraftedBody drafted = drafted_body(body);
+  const std::string mesh = drafted.name + ".obj";
+  files.push_back({free_path(folder / mesh), obj_text(drafted.mesh)});
+  return {drafted.name, mesh};
+}
+
+RigDraft draft_of(const InitArguments& a, std::vector<NewFile>& files) {
+  RigDraft draft;
+  draft.material = a.material;
+  draft.is_example = a.is_example;
+  if (!a.board.empty()) draft.board = drafted_board(a.board);
+  for (const std::string& led : a.leds) draft.leds.push_back(drafted_led(led));
+  for (const std::string& body : a.bodies) {
+    draft.objects.push_back(object_of(body, fs::path(a.out).parent_path(), files));
+  }
+  draft.listing = a.is_example ? example_listing(draft.leds) : list_shots(a.shots);
+  return draft;
+}
+
+int run_init(const InitArguments& a, CommandContext& context) {
+  if (a.shots.empty() != a.is_example) {
+    throw InputError("init", "needs the folder of the shots, or --example without one");
+  }
+  capture::require_output_file(a.out);
+  free_path(a.out);
+  std::vector<NewFile> files;
+  const RigDraft draft = draft_of(a, files);
+  const DraftedRig rig = drafted_rig(draft);
+  files.push_back({a.out, rig.yaml});
+  for (const NewFile& file : files) capture::write_text_file(file.path, file.text);
+  read_rig(a.out);  // what it does not accept is a defect, told as such
+  for (const std::string& skipped : draft.listing.skipped) {
+    context.err << "scattermeter: left out: " << skipped << "\n";
+  }
+  if (context.quiet) return 0;
+  context.out << draft.listing.shots.size() << " shots by a " << draft.listing.model << ", "
+              << draft.listing.width_px << " x " << draft.listing.height_px << " px\n";
+  for (const NewFile& file : files) context.out << "written: " << file.path << "\n";
+  if (rig.to_measure.empty()) {
+    context.out << "try: scattermeter simulate " << a.out << " --out shots\n";
+    return 0;
+  }
+  context.out << "still to be measured (marked MEASURE in " << a.out << "):\n";
+  for (const std::string& what : rig.to_measure) context.out << "  - " << what << "\n";
+  context.out << "then: scattermeter check " << a.shots << " --rig " << a.out << "\n";
+  return 0;
+}
+
+}  // namespace
+
+void add_init_command(CLI::App& app, CommandContext& context) {
+  const auto a = std::make_shared<InitArguments>();
+  CLI::App* command = app.add_subcommand(
+      "init",
+      "Begin a rig file from the raw shots of a folder.\n"
+      "Camera, size and the list of shots are read from the raws, their exposures stand beside "
+      "them; meshes of simple bodies are written. What no file tells is a placeholder, marked "
+      "MEASURE and listed at the end. Existing files are not replaced.");
+  command->add_option("SHOTS", a->shots, "folder of the raw files");
+  command->add_option("--out", a->out, "rig file to write; meshes go to its folder")
+      ->capture_default_str();
+  command
+      ->add_option("--body", a->bodies,
+                   "piece in mm: cube:20, box:30x20x10, slab:40x40x10, pyramid:20x20x15, "
+                   "cylinder:20x20x30, sphere:20, or a mesh (.obj); may be repeated")
+      ->capture_default_str();
+  command
+      ->add_option("--led", a->leds,
+                   "name of an LED and, if known, its position in mm: "
+                   "left:-60,-80,120; may be repeated")
+      ->capture_default_str();
+  command->add_option("--board", a->board,
+                      "ChArUco board: squares, mm of a square and of a marker: 10x7:6:4.5");
+  command->add_option("--material", a->material, "name of the material")->capture_default_str();
+  command->add_flag("--example", a->is_example,
+                    "no shots: a rig with a truth, to be simulated, measured and changed");
+  run_if_named(*command, context, [a, &context] { return run_init(*a, context); });
+}
+
+}  // namespace scattermeter::apps

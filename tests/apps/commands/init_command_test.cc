@@ -1,0 +1,61 @@
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "apps/rig/rig.h"
+#include "tests/fixtures/apps/small_rig.h"
+#include "tests/fixtures/temporary_folder.h"
+
+namespace scattermeter::apps {
+namespace {
+
+using ::testing::HasSubstr;
+
+// At a quarter of its size.
+TEST(InitCommand, TheExampleIsMeasured) {
+  const TemporaryFolder folder;
+  const std::string rig = folder / "rig/rig.yaml", shots = folder / "shots";
+  const Answer made = run({"init", "--example", "--out", rig});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("written: " + (folder / "rig/cube.obj")));
+  std::string text = replaced(slurp(rig), "[3872, 2592]", "[968, 648]");
+  text = replaced(text, "fx_px: 9680, fy_px: 9680, cx_px: 1935.5, cy_px: 1295.5",
+                  "fx_px: 2420, fy_px: 2420, cx_px: 483.5, cy_px: 323.5");
+  write_file(rig, text);
+  const Answer simulated = run({"simulate", rig, "--out", shots});
+  ASSERT_EQ(simulated.status, 0) << simulated.err;
+  const Answer measured = run({"measure", shots, "--rig", rig, "--out", folder / "out"});
+  EXPECT_EQ(measured.status, 0) << measured.out << measured.err;
+}
+
+TEST(InitCommand, BeginsARigFromShots) {
+  SmallRig small;
+  small.keep_shots("PE_cube_1");
+  ASSERT_EQ(run({"simulate", small.rig(), "--out", small.shots(), "--quiet"}).status, 0);
+  const TemporaryFolder folder;
+  const Answer made = run({"init", small.shots(), "--out", folder / "rig.yaml", "--body",
+                           "sphere:25", "--led", "lamp:10,-60,80", "--material", "wax"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("still to be measured"));
+  const Rig rig = read_rig(folder / "rig.yaml");
+  ASSERT_EQ(rig.scene.shots.size(), 1U);
+  EXPECT_EQ(rig.scene.shots[0].object, "sphere");
+  EXPECT_EQ(rig.scene.shots[0].material, "wax");
+  EXPECT_EQ(rig.scene.light("lamp").led()->led.position_mm, Eigen::Vector3d(10, -60, 80));
+}
+
+TEST(InitCommand, ReplacesNoFile) {
+  const TemporaryFolder folder;
+  write_file(folder / "cube.obj", "mine");
+  const Answer mesh = run({"init", "--example", "--out", folder / "rig.yaml"});
+  EXPECT_EQ(mesh.status, 2);
+  EXPECT_THAT(mesh.err, HasSubstr("cube.obj"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "rig.yaml"));
+  EXPECT_EQ(slurp(folder / "cube.obj"), "mine");
+  EXPECT_EQ(run({"init"}).status, 2);
+  EXPECT_EQ(run({"init", folder.path(), "--example"}).status, 2);
+}
+
+}  // namespace
+}  // namespace scattermeter::apps
