@@ -52,6 +52,7 @@ inline void require_results_folder(const std::string& out, const std::string& sh
 void add_init_command(CLI::App& app, CommandContext& context);
 void add_measure_command(CLI::App& app, CommandContext& context);
 void add_check_command(CLI::App& app, CommandContext& context);
+void add_compare_command(CLI::App& app, CommandContext& context);
 void add_calibrate_camera(CLI::App& calibrate, CommandContext& context);
 void add_calibrate_led(CLI::App& calibrate, CommandContext& context);
 void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context);

@@ -69,6 +69,7 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
   add_calibrate_radiance(*calibrate, context);
   add_simulate_command(app, context);
   add_render_command(app, context);
+  add_compare_command(app, context);
   add_export_command(app, context);
   add_plan_command(app, context);
 #ifdef SCATTERMETER_BENCH

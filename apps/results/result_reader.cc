@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -33,6 +34,12 @@ class JsonField {
     const std::string path = path_.empty() ? key : path_ + "." + key;
     if (it == json_.end()) throw InputError(file_ + ": " + path, "is missing");
     return {*it, file_, path};
+  }
+
+  // A field that need not be there.
+  std::optional<JsonField> find(const std::string& key) const {
+    if (!json_.is_object() || !json_.contains(key)) return std::nullopt;
+    return at(key);
   }
 
   std::vector<JsonField> items() const {
@@ -107,6 +114,12 @@ ReadChannel read_channel(const JsonField& field) {
   c.sigma_s_prime_per_mm = read_quantity(field.at("sigma_s_prime_per_mm"), c.refused, 1e-12);
   c.sigma_a_per_mm = read_quantity(field.at("sigma_a_per_mm"), c.refused, 0.0);
   c.correlation = field.at("correlation").number();
+  if (const auto budget = field.find("budget")) {
+    for (const JsonField& line : budget->items()) {
+      c.budget.push_back({line.at("cause").text(), line.at("sigma_s_prime_per_mm").number(),
+                          line.at("sigma_a_per_mm").number()});
+    }
+  }
   return c;
 }
 
@@ -137,6 +150,10 @@ ReadResult read_result(const std::string& path) {
   result.path = path;
   result.version = root.at("version").text();
   result.command = root.at("command").text();
+  if (const auto inputs = root.find("inputs")) {
+    const std::vector<JsonField> files = inputs->items();
+    if (!files.empty()) result.rig_sha256 = files.front().at("sha256").text();
+  }
   std::set<std::pair<std::string, char>> seen;
   for (const JsonField& entry : root.at("results").items()) {
     const ReadChannel c = read_channel(entry);

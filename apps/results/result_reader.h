@@ -19,6 +19,7 @@ struct ReadChannel {
   Quantity sigma_s_prime_per_mm;  // unless refused: value > 0
   Quantity sigma_a_per_mm;        // unless refused: value >= 0
   double correlation = 0;
+  std::vector<BudgetLine> budget;  // empty: not in the file
   bool refused = false;
   std::vector<std::string> reasons;
 
@@ -31,6 +32,7 @@ struct ReadResult {
   std::string path;
   std::string version;  // of the program that measured
   std::string command;
+  std::string rig_sha256;             // of the first input; empty: not in the file
   std::vector<ReadChannel> channels;  // in the file's order
 };
 
