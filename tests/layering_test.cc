@@ -120,6 +120,7 @@ TEST(Layering, EachForeignLibraryHasItsDoor) {
         "calib/board/opencv_quiet.cc", "calib/board/opencv_storage.h", "calib/board/tone_picture.h",
         "calib/pose/pose_search.cc", "calib/lens/camera_start.cc", "calib/lens/view_selection.cc",
         "apps/report/overlay_picture.cc", "apps/report/picture.cc"}},
+      {"cairo", {"apps/report/sheet_file.cc"}},
       {"embree", {"core/mesh/ray_scene.cc"}},
       {"hwy/",
        {"core/sums/cluster_verdicts.cc", "core/sums/dipole_kernels.cc",

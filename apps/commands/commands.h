@@ -50,6 +50,7 @@ inline void require_results_folder(const std::string& out, const std::string& sh
 }
 
 void add_init_command(CLI::App& app, CommandContext& context);
+void add_print_command(CLI::App& app, CommandContext& context);
 void add_measure_command(CLI::App& app, CommandContext& context);
 void add_check_command(CLI::App& app, CommandContext& context);
 void add_compare_command(CLI::App& app, CommandContext& context);

@@ -59,6 +59,7 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
                  "number of threads (default: all cores); the result does not depend on it")
       ->check(CLI::PositiveNumber);
   add_init_command(app, context);
+  add_print_command(app, context);
   add_measure_command(app, context);
   add_check_command(app, context);
   CLI::App* calibrate = app.add_subcommand(

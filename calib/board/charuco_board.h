@@ -38,13 +38,15 @@ class CharucoPattern {
  public:
   explicit CharucoPattern(const CharucoBoard& board);
   double reflectance(double x_mm, double y_mm) const;
+  // Along a side of a marker, its black border included.
+  int cells() const { return cells_; }
 
  private:
   int squares_x_;
   int squares_y_;
   double square_mm_;
   double marker_mm_;
-  int cells_;                       // along a side of a marker, including the black border
+  int cells_;
   std::vector<int> marker_id_;      // per square from the upper left, row by row; -1: black, none
   std::vector<unsigned char> bit_;  // cells x cells per id, from the upper left, row by row
 };
