@@ -7,6 +7,7 @@
 #include "apps/drafting/drafted_body.h"
 #include "apps/drafting/rig_draft.h"
 #include "apps/rig/rig.h"
+#include "capture/files/obj_reader.h"
 #include "capture/files/pending_file.h"
 #include "core/base/input_error.h"
 
@@ -36,14 +37,14 @@ std::string free_path(const fs::path& path) {
 DraftedObject object_of(const std::string& body, const fs::path& folder,
                         std::vector<NewFile>& files) {
   if (body.ends_with(".obj")) {
-    if (!fs::exists(body)) throw MissingFile("--body", "no such mesh: " + body);
     return {fs::path(body).stem().string(),
-            fs::relative(body, folder.empty() ? fs::path(".") : folder).string()};
+            fs::relative(body, folder.empty() ? fs::path(".") : folder).string(),
+            bounds(capture::read_obj(body))};
   }
   const DraftedBody drafted = drafted_body(body);
   const std::string mesh = drafted.name + ".obj";
   files.push_back({free_path(folder / mesh), obj_text(drafted.mesh)});
-  return {drafted.name, mesh};
+  return {drafted.name, mesh, bounds(drafted.mesh)};
 }
 
 RigDraft draft_of(const InitArguments& a, std::vector<NewFile>& files) {

@@ -117,6 +117,11 @@ const std::vector<std::string>& paper_names() {
   return names;
 }
 
+Eigen::Vector3d board_beside(const Eigen::Vector2d& board_size_mm, const Box3d& piece) {
+  return {piece.center_mm().x() - 0.5 * board_size_mm.x(),
+          piece.min_mm.y() - kGap_mm - board_size_mm.y(), 0.0};
+}
+
 BoardSheet board_sheet(const calib::CharucoBoard& board, const std::optional<TriangleMesh>& piece,
                        const std::string& paper) {
   if (const std::string problem = calib::board_problem(board); !problem.empty()) {
@@ -147,17 +152,14 @@ BoardSheet board_sheet(const calib::CharucoBoard& board, const std::optional<Tri
                   board.squares_x, board.squares_y, board.square_mm, board.marker_mm);
   out.sheet.texts.push_back({{out.board_mm.x(), above_mm - 5.0}, text, 3.0});
   if (!piece) return out;
-  // The world's origin on the sheet: the outline above the board, in its middle.
-  const Eigen::Vector2d origin(0.5 * page.width_mm - box.center_mm().x(),
-                               above_mm - box.min_mm.y());
+  out.board_in_world_mm = board_beside(board_size, box);
+  const Eigen::Vector2d origin = out.board_mm - out.board_in_world_mm->head<2>();
   SheetLine outline;
   for (const Eigen::Vector2d& p : outline_of(*piece)) outline.points_mm.push_back(origin + p);
   out.sheet.lines.push_back(std::move(outline));
   for (const Eigen::Vector2d& arm : {Eigen::Vector2d(2.0, 0.0), Eigen::Vector2d(0.0, 2.0)}) {
     out.sheet.lines.push_back({{origin - arm, origin + arm}, 0.1});
   }
-  const Eigen::Vector2d corner = out.board_mm - origin;
-  out.board_in_world_mm = Eigen::Vector3d(corner.x(), corner.y(), 0.0);
   return out;
 }
 

@@ -36,10 +36,13 @@ struct Sheet {
 struct BoardSheet {
   Sheet sheet;
   Eigen::Vector2d board_mm;  // the board's lower left corner on the sheet
-  // With a piece: that corner in the world of the piece's mesh, which stands on z = 0 on its
-  // outline.
+  // With a piece: that corner in the world of the piece's mesh (board_beside()).
   std::optional<Eigen::Vector3d> board_in_world_mm;
 };
+
+// Where the lower left corner of the board lies in the world of a piece on z = 0, when it is drawn
+// in front of the piece's outline (towards -y), mm.
+Eigen::Vector3d board_beside(const Eigen::Vector2d& board_size_mm, const Box3d& piece);
 
 // The names of paper sizes: "A4", "A3", "letter".
 const std::vector<std::string>& paper_names();

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/drafting/board_sheet.h"
 #include "apps/drafting/listed_numbers.h"
 #include "core/base/input_error.h"
 
@@ -97,15 +98,14 @@ class Writer {
     const DraftedBoard board = draft_.board.value_or(DraftedBoard{});
     const std::string marked =
         mark(draft_.board ? "where the board's lower left corner lies in the world: origin_mm"
-                          : "the ChArUco board in the shots, or pose.points");
+                          : "the ChArUco board in the shots (`scattermeter print` draws this one), "
+                            "or pose.points");
     add("\npose:");
     add(
         fmt::format("  charuco: {{squares: [{}, {}], square_mm: {:.6g}, marker_mm: {:.6g}, "
                     "origin_mm: {}}}{}",
                     board.squares_x, board.squares_y, board.square_mm, board.marker_mm,
-                    list({-0.5 * board.squares_x * board.square_mm,
-                          -0.5 * board.squares_y * board.square_mm, 0.0}),
-                    marked));
+                    list(board_beside(board.size_mm(), draft_.objects[0].box)), marked));
   }
 
   void objects() {

@@ -8,12 +8,14 @@
 #include <Eigen/Core>
 
 #include "apps/drafting/shot_listing.h"
+#include "core/mesh/triangle_mesh.h"
 
 namespace scattermeter::apps {
 
 struct DraftedObject {
   std::string name;
   std::string mesh;  // file, relative to the rig
+  Box3d box;         // of the mesh, mm
 };
 
 struct DraftedLed {
@@ -27,6 +29,7 @@ DraftedLed drafted_led(const std::string& text);
 struct DraftedBoard {
   int squares_x = 10, squares_y = 7;
   double square_mm = 6.0, marker_mm = 4.5;
+  Eigen::Vector2d size_mm() const { return {squares_x * square_mm, squares_y * square_mm}; }
 };
 
 // "10x7:6:4.5": squares, mm of a square, mm of a marker. Throws InputError naming --board.

@@ -19,7 +19,8 @@ RigDraft two_pieces() {
   for (const char* file : {"a.nef", "b's.nef", "c.nef", "d.nef"}) {
     out.listing.shots.push_back({file, 0.25, 100, 11});
   }
-  out.objects = {{"cube", "cube.obj"}, {"pyramid", "pyramid.obj"}};
+  const Box3d box{{-10, -10, 0}, {10, 10, 20}};
+  out.objects = {{"cube", "cube.obj", box}, {"pyramid", "pyramid.obj", box}};
   out.leds = {{"left", Eigen::Vector3d(-60, -80, 120)}, {"right", {}}};
   return out;
 }
@@ -33,6 +34,14 @@ TEST(RigDraft, GivesShotsToLedsAndPiecesInTurn) {
   EXPECT_THAT(yaml, HasSubstr("{file: 'b''s.nef', object: cube" + shot + "[right]}"));
   EXPECT_THAT(yaml, HasSubstr("{file: 'c.nef', object: pyramid" + shot + "[left]}"));
   EXPECT_THAT(yaml, HasSubstr("{file: 'd.nef', object: pyramid" + shot + "[right]}"));
+}
+
+// As `print` draws it.
+TEST(RigDraft, TheBoardLiesInFrontOfThePiece) {
+  EXPECT_THAT(
+      drafted_rig(two_pieces()).yaml,
+      HasSubstr("charuco: {squares: [10, 7], square_mm: 6, marker_mm: 4.5, origin_mm: [-30, "
+                "-60, 0]}"));
 }
 
 TEST(RigDraft, ListsWhatIsAPlaceholder) {
