@@ -1,5 +1,6 @@
 #include "apps/drafting/rig_draft.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -18,7 +19,6 @@ namespace {
 
 // Of the width, a macro lens on a small sensor: placeholders only.
 constexpr double kFocalLength = 2.5;
-constexpr double kCameraDistance_mm = 300.0;
 
 // A name that needs no quotes in YAML.
 const std::string& checked_name(const std::string& name, const char* option) {
@@ -153,8 +153,15 @@ class Writer {
   void truth() {
     add("\n# For `simulate` and `plan`.");
     add("truth:");
-    add(fmt::format("  pose: {{position_mm: [0, {:.6g}, {:.6g}], look_at_mm: [0, 0, 10]}}",
-                    -0.8 * kCameraDistance_mm, 0.6 * kCameraDistance_mm));
+    // Board and piece fill the frame's height.
+    const DraftedBoard board = draft_.board.value_or(DraftedBoard{});
+    const Box3d& box = draft_.objects[0].box;
+    const double front_mm = board_beside(board.size_mm(), box).y();
+    const double extent_mm = std::max(board.size_mm().x(), box.max_mm.y() - front_mm);
+    const Eigen::Vector3d at(box.center_mm().x(), 0.5 * (box.max_mm.y() + front_mm),
+                             0.25 * box.max_mm.z());
+    const Eigen::Vector3d from = at + extent_mm * Eigen::Vector3d(0.0, -3.3, 2.4);
+    add(fmt::format("  pose: {{position_mm: {}, look_at_mm: {}}}", list(from), list(at)));
     add("  materials:");
     add(
         fmt::format("    {}: {{sigma_s_prime_per_mm: [1.15, 1.32, 1.5], sigma_a_per_mm: [0.0016, "
