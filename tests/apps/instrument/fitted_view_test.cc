@@ -8,6 +8,7 @@
 #include "apps/instrument/instrument.h"
 #include "apps/instrument/open_objects.h"
 #include "apps/simulation/virtual_shots.h"
+#include "core/mesh/bodies.h"
 #include "core/scene/default_uncertainty.h"
 #include "tests/fixtures/apps/body_rig.h"
 
