@@ -47,7 +47,7 @@ TEST(InitCommand, BeginsARigFromShots) {
 
 TEST(InitCommand, ReplacesNoFile) {
   const TemporaryFolder folder;
-  write_file(folder / "cube.obj", "mine");
+  write_file(folder / "cube.obj", std::string("mine"));
   const Answer mesh = run({"init", "--example", "--out", folder / "rig.yaml"});
   EXPECT_EQ(mesh.status, 2);
   EXPECT_THAT(mesh.err, HasSubstr("cube.obj"));
