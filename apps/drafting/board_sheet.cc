@@ -87,11 +87,11 @@ void add_board(const calib::CharucoBoard& board, const Eigen::Vector2d& at_mm, S
 void add_ruler(Sheet& sheet) {
   const int length_mm = 10 * static_cast<int>((sheet.width_mm - 2 * kMargin_mm) / 10.0);
   const double y = kMargin_mm;
-  sheet.lines.push_back({{{kMargin_mm, y}, {kMargin_mm + length_mm, y}}, 0.1});
+  sheet.lines.push_back({{{kMargin_mm, y}, {kMargin_mm + length_mm, y}}, 0.1, false});
   for (int k = 0; k <= length_mm; ++k) {
     const double x = kMargin_mm + k;
     const double tick = k % 10 == 0 ? 4.0 : k % 5 == 0 ? 3.0 : 2.0;
-    sheet.lines.push_back({{{x, y}, {x, y + tick}}, 0.1});
+    sheet.lines.push_back({{{x, y}, {x, y + tick}}, 0.1, false});
   }
   sheet.texts.push_back({{kMargin_mm, y + 6.0},
                          fmt::format("{} mm: print at 100 %, then measure this line", length_mm),
@@ -146,19 +146,25 @@ BoardSheet board_sheet(const calib::CharucoBoard& board, const std::optional<Tri
   out.board_mm = {0.5 * (page.width_mm - board_size.x()), kMargin_mm + kRuler_mm};
   add_board(board, out.board_mm, out.sheet);
   add_ruler(out.sheet);
-  const double above_mm = out.board_mm.y() + board_size.y() + kGap_mm;
   std::string text =
       fmt::format("ChArUco {}, {} x {} squares of {:g} mm, markers {:g} mm", board.dictionary,
                   board.squares_x, board.squares_y, board.square_mm, board.marker_mm);
-  out.sheet.texts.push_back({{out.board_mm.x(), above_mm - 5.0}, text, 3.0});
+  out.sheet.texts.push_back({{out.board_mm.x(), out.board_mm.y() - 4.0}, text, 3.0});
   if (!piece) return out;
   out.board_in_world_mm = board_beside(board_size, box);
   const Eigen::Vector2d origin = out.board_mm - out.board_in_world_mm->head<2>();
-  SheetLine outline;
+  // As far around as the piece is wide; towards the board, which needs a white border, less.
+  const double around_mm = std::min(box.size_mm().head<2>().maxCoeff(),
+                                    0.5 * (page.width_mm - box.size_mm().x()) - kMargin_mm);
+  const Eigen::Vector2d low(around_mm, 0.6 * kGap_mm), high(around_mm, around_mm);
+  out.sheet.black.push_back({origin + box.min_mm.head<2>() - low,
+                             (origin + box.max_mm.head<2>() + high)
+                                 .cwiseMin(Eigen::Vector2d(page.width_mm, page.height_mm))});
+  SheetLine outline{{}, 0.2, true};
   for (const Eigen::Vector2d& p : outline_of(*piece)) outline.points_mm.push_back(origin + p);
   out.sheet.lines.push_back(std::move(outline));
   for (const Eigen::Vector2d& arm : {Eigen::Vector2d(2.0, 0.0), Eigen::Vector2d(0.0, 2.0)}) {
-    out.sheet.lines.push_back({{origin - arm, origin + arm}, 0.1});
+    out.sheet.lines.push_back({{origin - arm, origin + arm}, 0.1, true});
   }
   return out;
 }

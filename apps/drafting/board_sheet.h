@@ -18,6 +18,7 @@ struct SheetRectangle {
 struct SheetLine {
   std::vector<Eigen::Vector2d> points_mm;
   double width_mm = 0.2;
+  bool white = false;
 };
 struct SheetText {
   Eigen::Vector2d start_mm;  // left end of the base line
@@ -25,7 +26,8 @@ struct SheetText {
   double size_mm = 3;
 };
 
-// Black on white; mm from the lower left corner of the paper, x to the right, y up.
+// Black on white, lines and texts above rectangles; mm from the lower left corner of the paper, x
+// to the right, y up.
 struct Sheet {
   double width_mm = 210, height_mm = 297;
   std::vector<SheetRectangle> black;
@@ -48,8 +50,9 @@ Eigen::Vector3d board_beside(const Eigen::Vector2d& board_size_mm, const Box3d& 
 const std::vector<std::string>& paper_names();
 
 // The board at the foot of the sheet, above a ruler; above it the outline of the piece seen from
-// above, with a cross at the world's origin. The board's world_from_board is not used. Throws
-// InputError where they do not fit on the paper, and for a board that board_problem() names.
+// above, with a cross at the world's origin, white on a black ground (the black stand that a rig
+// has by default). The board's world_from_board is not used. Throws InputError where they do not
+// fit on the paper, and for a board that board_problem() names.
 BoardSheet board_sheet(const calib::CharucoBoard& board, const std::optional<TriangleMesh>& piece,
                        const std::string& paper);
 

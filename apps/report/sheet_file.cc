@@ -31,10 +31,13 @@ void draw(cairo_t* to, const Sheet& sheet, double units_per_mm) {
   }
   cairo_fill(to);
   for (const SheetLine& line : sheet.lines) {
+    const double grey = line.white ? 1.0 : 0.0;
+    cairo_set_source_rgb(to, grey, grey, grey);
     cairo_set_line_width(to, line.width_mm);
     for (const Eigen::Vector2d& p : line.points_mm) cairo_line_to(to, p.x(), p.y());
     cairo_stroke(to);
   }
+  cairo_set_source_rgb(to, 0.0, 0.0, 0.0);
   cairo_select_font_face(to, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
   for (const SheetText& text : sheet.texts) {
     cairo_save(to);

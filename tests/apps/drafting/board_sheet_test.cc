@@ -57,9 +57,14 @@ TEST(BoardSheet, TellsWhereThePieceStands) {
                    [](const SheetLine& line) { return line.points_mm.size() == 5; });
   ASSERT_NE(outline, drawn.sheet.lines.end());
   EXPECT_EQ(outline->points_mm.front(), outline->points_mm.back());
+  EXPECT_TRUE(outline->white);
+  const SheetRectangle& ground = drawn.sheet.black.back();
+  EXPECT_GT(ground.min_mm.y(), drawn.board_mm.y() + 42.0 + 3.0);  // a white border of 3 mm
   for (const Eigen::Vector2d& p : outline->points_mm) {
     const Eigen::Vector2d world = p - drawn.board_mm + drawn.board_in_world_mm->head<2>();
     EXPECT_LT((world.cwiseAbs() - Eigen::Vector2d(15.0, 10.0)).norm(), 1e-9);
+    EXPECT_TRUE((p.array() > ground.min_mm.array() + 4.0).all());
+    EXPECT_TRUE((p.array() < ground.max_mm.array() - 4.0).all());
   }
 }
 
