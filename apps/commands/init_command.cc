@@ -1,7 +1,7 @@
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <ostream>
+#include <set>
 
 #include "apps/commands/commands.h"
 #include "apps/drafting/drafted_body.h"
@@ -60,6 +60,14 @@ RigDraft draft_of(const InitArguments& a, std::vector<NewFile>& files) {
   return draft;
 }
 
+template <class Named>
+void require_distinct(const std::vector<Named>& all, const char* option) {
+  std::set<std::string> names;
+  for (const Named& one : all) {
+    if (!names.insert(one.name).second) throw InputError(option, "names " + one.name + " twice");
+  }
+}
+
 int run_init(const InitArguments& a, CommandContext& context) {
   if (a.shots.empty() != a.is_example) {
     throw InputError("init", "needs the folder of the shots, or --example without one");
@@ -68,6 +76,8 @@ int run_init(const InitArguments& a, CommandContext& context) {
   free_path(a.out);
   std::vector<NewFile> files;
   const RigDraft draft = draft_of(a, files);
+  require_distinct(draft.objects, "--body");
+  require_distinct(draft.leds, "--led");
   const DraftedRig rig = drafted_rig(draft);
   files.push_back({a.out, rig.yaml});
   for (const NewFile& file : files) capture::write_text_file(file.path, file.text);

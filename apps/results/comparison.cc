@@ -10,7 +10,6 @@
 
 #include "core/base/chi_square.h"
 #include "core/base/input_error.h"
-#include "core/base/nearest_name.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -31,21 +30,6 @@ Eigen::Array2d shared_variance(const ReadChannel& first, const ReadChannel& seco
     }
   }
   return out;
-}
-
-std::vector<std::string> material_names(const ReadResult& result) {
-  std::vector<std::string> out;
-  for (const ReadChannel& c : result.channels) {
-    if (std::find(out.begin(), out.end(), c.material) == out.end()) out.push_back(c.material);
-  }
-  return out;
-}
-
-const std::string& known(const std::string& name, const ReadResult& result) {
-  const std::vector<std::string> names = material_names(result);
-  if (std::find(names.begin(), names.end(), name) != names.end()) return name;
-  throw InputError(result.path, fmt::format("holds no material {}, only {}{}", name,
-                                            fmt::join(names, ", "), did_you_mean(name, names)));
 }
 
 const ReadChannel* measured(const ReadResult& result, const std::string& material, char channel) {
@@ -87,7 +71,9 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const ReadResult& firs
   for (const std::string& name : named) {
     const std::size_t equals = name.find('=');
     const std::string to = equals == std::string::npos ? name : name.substr(equals + 1);
-    out.emplace_back(known(name.substr(0, equals), first), known(to, second));
+    out.emplace_back(name.substr(0, equals), to);
+    require_material(first, out.back().first);
+    require_material(second, to);
   }
   if (!out.empty()) return out;
   const std::vector<std::string> ours = material_names(first), theirs = material_names(second);

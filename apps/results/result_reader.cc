@@ -166,19 +166,26 @@ ReadResult read_result(const std::string& path) {
   return result;
 }
 
+std::vector<std::string> material_names(const ReadResult& result) {
+  std::vector<std::string> out;
+  for (const ReadChannel& c : result.channels) {
+    if (std::find(out.begin(), out.end(), c.material) == out.end()) out.push_back(c.material);
+  }
+  return out;
+}
+
+void require_material(const ReadResult& result, const std::string& name) {
+  const std::vector<std::string> all = material_names(result);
+  if (std::find(all.begin(), all.end(), name) != all.end()) return;
+  throw InputError(result.path, fmt::format("holds no material {}, only {}{}", name,
+                                            fmt::join(all, ", "), did_you_mean(name, all)));
+}
+
 std::vector<MeasuredMaterial> materials_of(const ReadResult& result,
                                            const std::vector<std::string>& names) {
-  std::vector<std::string> all;
-  for (const ReadChannel& c : result.channels) {
-    if (std::find(all.begin(), all.end(), c.material) == all.end()) all.push_back(c.material);
-  }
-  for (const std::string& name : names) {
-    if (std::find(all.begin(), all.end(), name) != all.end()) continue;
-    throw InputError(result.path, fmt::format("holds no material {}, only {}{}", name,
-                                              fmt::join(all, ", "), did_you_mean(name, all)));
-  }
+  for (const std::string& name : names) require_material(result, name);
   std::vector<MeasuredMaterial> out;
-  for (const std::string& name : all) {
+  for (const std::string& name : material_names(result)) {
     if (!names.empty() && std::find(names.begin(), names.end(), name) == names.end()) continue;
     MeasuredMaterial m;
     m.name = name;

@@ -41,6 +41,11 @@ struct ReadResult {
 // domain. Ignores all other fields.
 ReadResult read_result(const std::string& path);
 
+// In the order of their first channels.
+std::vector<std::string> material_names(const ReadResult& result);
+// Throws InputError naming the file unless it holds the material.
+void require_material(const ReadResult& result, const std::string& name);
+
 // The three channels of a material.
 struct MeasuredMaterial {
   std::string name;

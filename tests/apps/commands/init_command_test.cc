@@ -54,6 +54,11 @@ TEST(InitCommand, ReplacesNoFile) {
   EXPECT_FALSE(std::filesystem::exists(folder / "rig.yaml"));
   EXPECT_EQ(slurp(folder / "cube.obj"), "mine");
   EXPECT_EQ(run({"init"}).status, 2);
+  EXPECT_THAT(run({"init", "--example", "--out", folder / "b/rig.yaml", "--body", "cube:20",
+                   "--body", "cube:30"})
+                  .err,
+              HasSubstr("--body: names cube twice"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "b"));
   EXPECT_EQ(run({"init", folder.path(), "--example"}).status, 2);
 }
 
