@@ -72,14 +72,14 @@ bool start_as_before(std::span<const ChannelResult> found, ChannelResult& result
 
 ScatteringPoint nearest_point(double size_mm, bool has_free_scale,
                               const std::function<Eigen::ArrayXd(int, double)>& light) {
-  constexpr double kThinnest = 5.0, kThickest = 300.0;  // mean free paths across
-  constexpr int kStep = 2;                              // nodes
+  constexpr double kFewest = 5.0, kMost = 300.0;  // mean free paths across
+  constexpr int kStep = 2;                        // nodes
   constexpr std::array<double, 9> kDark = {1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8};
   const auto node_at = [&](double paths_across) {
     return std::log(paths_across / size_mm) / TransportAtlas::kSpacing;
   };
-  const int first = static_cast<int>(std::ceil(node_at(kThinnest)));
-  const int steps = static_cast<int>(std::floor(node_at(kThickest)) - first) / kStep + 1;
+  const int first = static_cast<int>(std::ceil(node_at(kFewest)));
+  const int steps = static_cast<int>(std::floor(node_at(kMost)) - first) / kStep + 1;
   Eigen::ArrayXXd distance(steps, kDark.size()), scale(steps, kDark.size());
   for (Eigen::Index i = 0; i < steps; ++i) {
     const int node = first + kStep * static_cast<int>(i);
