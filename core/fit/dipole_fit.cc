@@ -62,6 +62,12 @@ void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, cons
   };
   profile(Coefficient::kSigmaSPrime, 0, s);
   profile(Coefficient::kSigmaA, 1, a);
+  // The image tells less of a larger sigma_a: where noise has taken it too low, the deviation there
+  // is too short to reach the true one.
+  const double longer = (a.high95 - a.value) / (1.96 * a.std);
+  if (!(longer > 1.0) || !std::isfinite(longer)) return;
+  a.std *= longer;
+  for (BudgetLine& line : estimate.budget) line.std_sigma_a_per_mm *= longer;
 }
 
 template <class... Parts>

@@ -56,7 +56,8 @@ struct DipoleFit {
 // The dipole of least chi-square on the image (DipoleSolver). Standard deviations from the Jacobian
 // at the optimum, widened by sqrt(reduced chi-square) where that exceeds 1; intervals are +-1.96
 // std, cut at 0, or from the profile likelihood where a standard deviation exceeds a tenth of its
-// value. A significant misfit counts per direction of r instead of per row, and widens the errors
+// value; that of sigma_a is then at least the upper part of its interval over 1.96. A significant
+// misfit counts per direction of r instead of per row, and widens the errors
 // of the method; so does a stated scale or eta that the image contradicts. Where the image does not
 // determine the scale (uniform light), an error of a scale stated as exact cannot be detected. The
 // result lists its reasons for refusal: too few rows, values that are not finite, not converged, a

@@ -161,6 +161,32 @@ std::string reasons(const Estimate& e) {
   return all;
 }
 
+// sigma_a of a third of its deviation and more: the deviation reaches as far up as the interval,
+// and the budget adds up to it.
+TEST(DipoleFit, DeviationOfALittleAbsorptionIsThatTowardsMore) {
+  const Medium truth{1.2, 0.0005, 1.4};
+  const HalfLitPlate plate(1.0);
+  const DistanceKnots knots = plate.knots();
+  const WeightMatrix w = plate.weights(knots);
+  const Eigen::VectorXd l = plate.image(Dipole(truth));
+  DipoleFitOptions options;
+  options.eta_int_over_ext = truth.eta_int_over_ext;
+  int longer = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Estimate e = fit_dipole(noisy_system(w, l, 0.03, seed), knots, options).estimate;
+    const Quantity& a = e.sigma_a_per_mm;
+    if (!(a.std > 0.2 * a.value) || !std::isfinite(a.std)) continue;
+    EXPECT_GE(1.96 * a.std, (a.high95 - a.value) * (1.0 - 1e-9)) << seed;
+    double square = 0.0;
+    for (const BudgetLine& line : e.budget) {
+      square += line.std_sigma_a_per_mm * line.std_sigma_a_per_mm;
+    }
+    EXPECT_NEAR(std::sqrt(square), a.std, 1e-6 * a.std) << seed;
+    ++longer;
+  }
+  EXPECT_GE(longer, 5);
+}
+
 TEST(DipoleFit, RefusesWhatItCannotTell) {
   const HalfLitPlate plate(1.0);
   const DistanceKnots knots = plate.knots();
