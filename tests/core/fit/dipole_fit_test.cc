@@ -173,7 +173,7 @@ TEST(DipoleFit, DeviationOfALittleAbsorptionIsThatTowardsMore) {
   options.eta_int_over_ext = truth.eta_int_over_ext;
   int longer = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) {
-    const Estimate e = fit_dipole(noisy_system(w, l, 0.03, seed), knots, options).estimate;
+    const Estimate e = fit_dipole(noisy_system(w, l, 0.3, seed), knots, options).estimate;
     const Quantity& a = e.sigma_a_per_mm;
     if (!(a.std > 0.2 * a.value) || !std::isfinite(a.std)) continue;
     EXPECT_GE(1.96 * a.std, (a.high95 - a.value) * (1.0 - 1e-9)) << seed;
