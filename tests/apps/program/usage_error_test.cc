@@ -24,7 +24,8 @@ TEST(UsageError, SuggestsWhatWasMeant) {
     return r.err;
   };
   EXPECT_THAT(told({"mesure", "shots"}),
-              HasSubstr("mesure is no command; did you mean measure? (there are: measure, check,"));
+              HasSubstr("mesure is no command; did you mean measure? (there are: init, print, "
+                        "measure, check,"));
   EXPECT_THAT(told({"--threads", "2", "chekc", "x"}), HasSubstr("did you mean check?"));
   EXPECT_THAT(told({"calibrate", "camra", "x"}),
               HasSubstr("camra is no command; did you mean camera?"));
