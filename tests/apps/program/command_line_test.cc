@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 TEST(CommandLine, HelpNamesEveryCommand) {
   const Answer r = run({"--help"});
   EXPECT_EQ(r.status, 0);
-  for (const char* word : {"measure", "check", "simulate", "plan", "render", "export", "bench",
-                           "--threads", "--quiet", "--version"}) {
+  for (const char* word : {"init", "print", "measure", "check", "simulate", "plan", "render",
+                           "compare", "export", "bench", "--threads", "--quiet", "--version"}) {
     EXPECT_THAT(r.out, HasSubstr(word));
   }
   for (const char* command : {"measure", "check", "simulate", "plan"}) {
