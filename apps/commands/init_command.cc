@@ -7,7 +7,6 @@
 #include "apps/drafting/drafted_body.h"
 #include "apps/drafting/rig_draft.h"
 #include "apps/rig/rig.h"
-#include "capture/files/obj_reader.h"
 #include "capture/files/pending_file.h"
 #include "core/base/input_error.h"
 
@@ -36,14 +35,13 @@ std::string free_path(const fs::path& path) {
 // The object of --body, and its mesh if it is to be written.
 DraftedObject object_of(const std::string& body, const fs::path& folder,
                         std::vector<NewFile>& files) {
-  if (body.ends_with(".obj")) {
-    return {fs::path(body).stem().string(),
-            fs::relative(body, folder.empty() ? fs::path(".") : folder).string(),
-            bounds(capture::read_obj(body))};
-  }
   const DraftedBody drafted = drafted_body(body);
-  const std::string mesh = drafted.name + ".obj";
-  files.push_back({free_path(folder / mesh), obj_text(drafted.mesh)});
+  std::string mesh = drafted.name + ".obj";
+  if (body.ends_with(".obj")) {
+    mesh = fs::relative(body, folder.empty() ? fs::path(".") : folder).string();
+  } else {
+    files.push_back({free_path(folder / mesh), obj_text(drafted.mesh)});
+  }
   return {drafted.name, mesh, bounds(drafted.mesh)};
 }
 

@@ -8,31 +8,21 @@
 #include "apps/drafting/drafted_body.h"
 #include "apps/drafting/rig_draft.h"
 #include "apps/report/sheet_file.h"
-#include "capture/files/obj_reader.h"
 
 namespace scattermeter::apps {
 namespace {
 
 struct PrintArguments {
-  std::string out = "board.pdf", board = "10x7:6:4.5", dictionary = "DICT_4X4_50", paper = "A4",
+  std::string out = "board.pdf", board = kUsualBoard, dictionary = "DICT_4X4_50", paper = "A4",
               body;
 };
 
 int run_print(const PrintArguments& a, CommandContext& context) {
   capture::require_output_file(a.out);
-  const DraftedBoard size = drafted_board(a.board);
-  calib::CharucoBoard board;
-  board.squares_x = size.squares_x;
-  board.squares_y = size.squares_y;
-  board.square_mm = size.square_mm;
-  board.marker_mm = size.marker_mm;
+  calib::CharucoBoard board = drafted_board(a.board);
   board.dictionary = a.dictionary;
   std::optional<TriangleMesh> piece;
-  if (a.body.ends_with(".obj")) {
-    piece = capture::read_obj(a.body);
-  } else if (!a.body.empty()) {
-    piece = drafted_body(a.body).mesh;
-  }
+  if (!a.body.empty()) piece = drafted_body(a.body).mesh;
   const BoardSheet sheet = board_sheet(board, piece, a.paper);
   write_sheet(a.out, sheet.sheet);
   if (context.quiet) return 0;

@@ -23,6 +23,10 @@ struct Paper {
 constexpr std::array<Paper, 3> kPapers = {
     {{"A4", 210.0, 297.0}, {"A3", 297.0, 420.0}, {"letter", 215.9, 279.4}}};
 
+Eigen::Vector2d size_mm(const calib::CharucoBoard& board) {
+  return {board.squares_x * board.square_mm, board.squares_y * board.square_mm};
+}
+
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -117,9 +121,9 @@ const std::vector<std::string>& paper_names() {
   return names;
 }
 
-Eigen::Vector3d board_beside(const Eigen::Vector2d& board_size_mm, const Box3d& piece) {
-  return {piece.center_mm().x() - 0.5 * board_size_mm.x(),
-          piece.min_mm.y() - kGap_mm - board_size_mm.y(), 0.0};
+Eigen::Vector3d board_beside(const calib::CharucoBoard& board, const Box3d& piece) {
+  const Eigen::Vector2d size = size_mm(board);
+  return {piece.center_mm().x() - 0.5 * size.x(), piece.min_mm.y() - kGap_mm - size.y(), 0.0};
 }
 
 BoardSheet board_sheet(const calib::CharucoBoard& board, const std::optional<TriangleMesh>& piece,
@@ -131,8 +135,7 @@ BoardSheet board_sheet(const calib::CharucoBoard& board, const std::optional<Tri
   BoardSheet out;
   out.sheet.width_mm = page.width_mm;
   out.sheet.height_mm = page.height_mm;
-  const Eigen::Vector2d board_size(board.squares_x * board.square_mm,
-                                   board.squares_y * board.square_mm);
+  const Eigen::Vector2d board_size = size_mm(board);
   const Box3d box =
       piece ? bounds(*piece) : Box3d{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   const double needed_mm = std::max(board_size.x(), box.size_mm().x()) + 2.0 * kMargin_mm;
@@ -151,7 +154,7 @@ BoardSheet board_sheet(const calib::CharucoBoard& board, const std::optional<Tri
                   board.squares_x, board.squares_y, board.square_mm, board.marker_mm);
   out.sheet.texts.push_back({{out.board_mm.x(), out.board_mm.y() - 4.0}, text, 3.0});
   if (!piece) return out;
-  out.board_in_world_mm = board_beside(board_size, box);
+  out.board_in_world_mm = board_beside(board, box);
   const Eigen::Vector2d origin = out.board_mm - out.board_in_world_mm->head<2>();
   // As far around as the piece is wide; towards the board, which needs a white border, less.
   const double around_mm = std::min(box.size_mm().head<2>().maxCoeff(),

@@ -44,7 +44,7 @@ struct BoardSheet {
 
 // Where the lower left corner of the board lies in the world of a piece on z = 0, when it is drawn
 // in front of the piece's outline (towards -y), mm.
-Eigen::Vector3d board_beside(const Eigen::Vector2d& board_size_mm, const Box3d& piece);
+Eigen::Vector3d board_beside(const calib::CharucoBoard& board, const Box3d& piece);
 
 // The names of paper sizes: "A4", "A3", "letter".
 const std::vector<std::string>& paper_names();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "apps/drafting/listed_numbers.h"
+#include "capture/files/obj_reader.h"
 #include "core/base/input_error.h"
 #include "core/base/nearest_name.h"
 #include "core/mesh/bodies.h"
@@ -63,6 +65,9 @@ Eigen::Vector3d size_of(std::string_view text, const std::string& whole) {
 }  // namespace
 
 DraftedBody drafted_body(const std::string& text) {
+  if (text.ends_with(".obj")) {
+    return {std::filesystem::path(text).stem().string(), capture::read_obj(text)};
+  }
   const std::size_t colon = text.find(':');
   const std::string name = text.substr(0, colon);
   std::vector<std::string> names;

@@ -50,7 +50,10 @@ Eigen::Vector3d placeholder_mm(std::size_t led) {
 
 class Writer {
  public:
-  explicit Writer(const RigDraft& draft) : draft_(draft) {}
+  explicit Writer(const RigDraft& draft)
+      : draft_(draft),
+        board_(draft.board ? *draft.board : drafted_board(kUsualBoard)),
+        board_in_world_mm_(board_beside(board_, draft.objects[0].box)) {}
 
   DraftedRig write() {
     out_.yaml =
@@ -95,7 +98,6 @@ class Writer {
   }
 
   void pose() {
-    const DraftedBoard board = draft_.board.value_or(DraftedBoard{});
     const std::string marked =
         mark(draft_.board ? "where the board's lower left corner lies in the world: origin_mm"
                           : "the ChArUco board in the shots (`scattermeter print` draws this one), "
@@ -104,8 +106,8 @@ class Writer {
     add(
         fmt::format("  charuco: {{squares: [{}, {}], square_mm: {:.6g}, marker_mm: {:.6g}, "
                     "origin_mm: {}}}{}",
-                    board.squares_x, board.squares_y, board.square_mm, board.marker_mm,
-                    list(board_beside(board.size_mm(), draft_.objects[0].box)), marked));
+                    board_.squares_x, board_.squares_y, board_.square_mm, board_.marker_mm,
+                    list(board_in_world_mm_), marked));
   }
 
   void objects() {
@@ -154,10 +156,10 @@ class Writer {
     add("\n# For `simulate` and `plan`.");
     add("truth:");
     // Board and piece fill the frame's height.
-    const DraftedBoard board = draft_.board.value_or(DraftedBoard{});
     const Box3d& box = draft_.objects[0].box;
-    const double front_mm = board_beside(board.size_mm(), box).y();
-    const double extent_mm = std::max(board.size_mm().x(), box.max_mm.y() - front_mm);
+    const double front_mm = board_in_world_mm_.y();
+    const double extent_mm =
+        std::max(board_.squares_x * board_.square_mm, box.max_mm.y() - front_mm);
     const Eigen::Vector3d at(box.center_mm().x(), 0.5 * (box.max_mm.y() + front_mm),
                              0.25 * box.max_mm.z());
     const Eigen::Vector3d from = at + extent_mm * Eigen::Vector3d(0.0, -3.3, 2.4);
@@ -170,6 +172,8 @@ class Writer {
   }
 
   const RigDraft& draft_;
+  calib::CharucoBoard board_;
+  Eigen::Vector3d board_in_world_mm_;
   DraftedRig out_;
 };
 
@@ -188,7 +192,7 @@ DraftedLed drafted_led(const std::string& text) {
   return out;
 }
 
-DraftedBoard drafted_board(const std::string& text) {
+calib::CharucoBoard drafted_board(const std::string& text) {
   const std::size_t colon = text.find(':');
   const std::vector<double> squares =
       listed_numbers(std::string_view(text).substr(0, colon), 'x', "--board", text);
@@ -203,7 +207,12 @@ DraftedBoard drafted_board(const std::string& text) {
         "--board",
         "needs squares, their size and that of the markers in mm, as in 10x7:6:4.5, got " + text);
   }
-  return {static_cast<int>(squares[0]), static_cast<int>(squares[1]), sizes[0], sizes[1]};
+  calib::CharucoBoard out;
+  out.squares_x = static_cast<int>(squares[0]);
+  out.squares_y = static_cast<int>(squares[1]);
+  out.square_mm = sizes[0];
+  out.marker_mm = sizes[1];
+  return out;
 }
 
 ShotListing example_listing(const std::vector<DraftedLed>& leds) {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "apps/drafting/shot_listing.h"
+#include "calib/board/charuco_board.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace scattermeter::apps {
@@ -26,21 +27,17 @@ struct DraftedLed {
 // "left:-60,-80,120" or "left". Throws InputError naming --led.
 DraftedLed drafted_led(const std::string& text);
 
-struct DraftedBoard {
-  int squares_x = 10, squares_y = 7;
-  double square_mm = 6.0, marker_mm = 4.5;
-  Eigen::Vector2d size_mm() const { return {squares_x * square_mm, squares_y * square_mm}; }
-};
-
+// A board that an A4 sheet holds beside a piece.
+inline constexpr const char* kUsualBoard = "10x7:6:4.5";
 // "10x7:6:4.5": squares, mm of a square, mm of a marker. Throws InputError naming --board.
-DraftedBoard drafted_board(const std::string& text);
+calib::CharucoBoard drafted_board(const std::string& text);
 
 struct RigDraft {
   ShotListing listing;
   std::vector<DraftedObject> objects;  // at least one
   std::string material = "material";
-  std::vector<DraftedLed> leds;       // at least one
-  std::optional<DraftedBoard> board;  // absent: a placeholder
+  std::vector<DraftedLed> leds;              // at least one
+  std::optional<calib::CharucoBoard> board;  // absent: kUsualBoard, a placeholder
   // A rig that can be simulated at once: with a responsivity and a truth.
   bool is_example = false;
 };

@@ -1,35 +1,18 @@
 #include "apps/drafting/shot_listing.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <system_error>
+#include <set>
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "capture/raw/raw_reader.h"
+#include "capture/shots/shot_folder.h"
 #include "core/base/input_error.h"
 
 namespace scattermeter::apps {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::vector<std::string> names_in(const std::string& folder) {
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) throw MissingFile(folder, "is no folder of shots");
-  std::vector<std::string> out;
-  for (fs::directory_iterator it(folder, error); it != fs::directory_iterator();
-       it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    if (!name.starts_with('.') && !it->is_directory()) out.push_back(name);
-    if (error) break;
-  }
-  if (error) throw InputError(folder, "cannot be read: " + error.message());
-  std::sort(out.begin(), out.end());
-  return out;
-}
 
 struct Read {
   std::optional<ListedShot> shot;
@@ -40,7 +23,8 @@ struct Read {
 Read read(const std::string& folder, const std::string& name) {
   Read out;
   try {
-    const capture::RawFrame frame = capture::read_raw((fs::path(folder) / name).string());
+    const capture::RawFrame frame =
+        capture::read_raw((std::filesystem::path(folder) / name).string());
     out.shot = {name, frame.exposure_s, frame.iso, frame.f_number};
     out.model = frame.model.starts_with(frame.make) ? frame.model : frame.make + " " + frame.model;
     out.width_px = frame.width_px;
@@ -54,7 +38,8 @@ Read read(const std::string& folder, const std::string& name) {
 }  // namespace
 
 ShotListing list_shots(const std::string& folder) {
-  const std::vector<std::string> names = names_in(folder);
+  const std::set<std::string> files = capture::files_of_shots(folder);
+  const std::vector<std::string> names(files.begin(), files.end());
   std::vector<Read> all(names.size());
   tbb::parallel_for(std::size_t{0}, names.size(),
                     [&](std::size_t i) { all[i] = read(folder, names[i]); });
@@ -78,8 +63,7 @@ ShotListing list_shots(const std::string& folder) {
     out.shots.push_back(*r.shot);
   }
   if (!out.shots.empty()) return out;
-  throw InputError(
-      folder, out.skipped.empty() ? "is empty" : "has no raw that can be read: " + out.skipped[0]);
+  throw InputError(folder, "has no raw that can be read: " + out.skipped[0]);
 }
 
 }  // namespace scattermeter::apps

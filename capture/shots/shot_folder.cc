@@ -9,9 +9,9 @@
 
 namespace scattermeter::capture {
 
-ShotFolder match_shots(const Scene& scene, const std::set<std::string>& also_listed,
-                       const std::string& folder) {
-  namespace fs = std::filesystem;
+namespace fs = std::filesystem;
+
+std::set<std::string> files_of_shots(const std::string& folder) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
   if (!fs::exists(status)) throw MissingFile(folder, "the folder of shots does not exist");
@@ -26,6 +26,12 @@ ShotFolder match_shots(const Scene& scene, const std::set<std::string>& also_lis
     throw InputError(folder, "the folder of shots cannot be read: " + e.code().message());
   }
   if (present.empty()) throw InputError(folder, "the folder of shots is empty");
+  return present;
+}
+
+ShotFolder match_shots(const Scene& scene, const std::set<std::string>& also_listed,
+                       const std::string& folder) {
+  const std::set<std::string> present = files_of_shots(folder);
   ShotFolder out;
   std::string missing;
   int first_line = 0;

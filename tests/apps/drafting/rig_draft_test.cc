@@ -68,7 +68,7 @@ TEST(RigDraft, AnExampleHasATruthAndNothingToMeasure) {
 TEST(RigDraft, OptionsAreReadOrNamed) {
   EXPECT_FALSE(drafted_led("left").position_mm.has_value());
   EXPECT_EQ(*drafted_led("left:-60,-80,120").position_mm, Eigen::Vector3d(-60, -80, 120));
-  const DraftedBoard board = drafted_board("12x9:5:3.5");
+  const calib::CharucoBoard board = drafted_board("12x9:5:3.5");
   EXPECT_EQ(board.squares_x, 12);
   EXPECT_EQ(board.squares_y, 9);
   EXPECT_EQ(board.square_mm, 5.0);
