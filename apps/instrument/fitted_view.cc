@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "core/base/chi_square.h"
 #include "core/estimation/joint_evidence.h"
@@ -56,11 +57,13 @@ std::vector<ChannelResult> fitted_from_where_seen(
       const JointJudgement joint = joint_pulls_of(results);
       found = from(joint);
       by_transport = true;
-      options.found = results;
       if (!(found.motion > kWorthPaths) || !is_determined_elsewhere(joint.pulls) ||
           chi_square_tail(joint.chi2, joint.dof) < kContradicted) {
         found = {};
-        if (paths > options.paths) continue;
+        if (paths > options.paths) {
+          options.found = std::move(results);
+          continue;
+        }
       }
     }
     if (is_last || !(found.motion > kVisibleMotion)) {
@@ -70,6 +73,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
       }
       return results;
     }
+    if (by_transport) options.found = std::move(results);
     seen.open_from(found.shifts);
     watch.lap("shots");
   }

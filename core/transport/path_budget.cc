@@ -19,7 +19,7 @@ int PathBudget::next_blocks(int now, int least,
       now >= least && traced_ < 0.5 * static_cast<double>(missing_paths(2 * now));
   for (const int more : {2 * now, std::max(least, 3 * now / 2), 5 * now / 4}) {
     if (!(more > now && more <= most_blocks_)) continue;
-    if (has_found_most && 2 * more < 3 * now - 1) break;
+    if (has_found_most && more < 3 * now / 2) break;
     if (has_time_for(missing_paths(more))) return more;
   }
   return 0;
