@@ -28,8 +28,7 @@ struct TrueShot {
 struct TrueSetup {
   Rig rig;  // camera, truth.pose, sensor with truth.sensor, eta of the one object
   TriangleMesh mesh;
-  double phase_mean_cosine = 0;  // g of Henyey and Greenstein; volume only
-  std::vector<TrueShot> shots;   // as rig.scene.shots
+  std::vector<TrueShot> shots;  // as rig.scene.shots
   // The pose marks were taken by the true camera; otherwise by the stated one, before it changed.
   bool marks_by_true_camera = false;
 };
@@ -59,7 +58,6 @@ struct Deviation {
   // The first so many sizes are within what the stated rig allows for: these must be answered.
   int within = 0;
   DeviationNeeds needs = {};
-  bool counted = true;  // in the totals
   // Changes what is true.
   std::function<void(TrueSetup&, const DeviationDraw&)> truth = {};
   // Changes the expected counts of the shots, before noise.

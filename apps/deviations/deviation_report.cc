@@ -86,12 +86,11 @@ DeviationSummary summarise(const std::vector<DeviationResult>& results) {
       if (r.run.kind != &kind) continue;
       count.by_size[r.run.size_idx].add(r.judged);
       count.all.add(r.judged);
-      if (!kind.counted) continue;
       (r.run.volume ? out.volume : out.dipole).add(r.judged);
       if (r.run.within()) out.within.add(r.judged);
     }
     if (count.all.runs == 0) continue;
-    if (kind.counted) out.total.add(count.all);
+    out.total.add(count.all);
     out.kinds.push_back(count);
   }
   return out;
@@ -149,7 +148,7 @@ std::string deviation_table(const std::vector<DeviationResult>& results) {
       DeviationRun run;
       run.kind = k.kind;
       run.size_idx = s;
-      const char* mark = !k.kind->counted ? "not counted" : run.within() ? "within" : "";
+      const char* mark = run.within() ? "within" : "";
       add_row(table, is_first ? k.kind->name : "", size_text(run), mark, k.by_size[s]);
       is_first = false;
     }

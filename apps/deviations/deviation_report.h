@@ -32,7 +32,7 @@ struct DeviationKindCount {
 
 struct DeviationSummary {
   std::vector<DeviationKindCount> kinds;  // those that occur, in the order of all_deviations()
-  // Of the kinds that count: of all sizes; of sizes within what the rig states, by rendering.
+  // Of all sizes; of sizes within what the rig states, by rendering.
   DeviationCount total, within;
   DeviationCount dipole, volume;  // of all sizes
 };

@@ -66,7 +66,9 @@ std::string key_of(const TrueSetup& setup, const SceneLight& light,
                    const std::array<Medium, 3>& media, bool volume) {
   Key key;
   key.add(volume);
-  if (volume) key.add(setup.phase_mean_cosine);
+  if (volume) {
+    for (const double v : setup.rig.scene.objects.front().phase.numbers()) key.add(v);
+  }
   for (const Medium& m : media) key.add(m);
   key.add(setup.rig.scene.objects.front().eta_int_over_ext);
   key.add(setup.rig.scene.camera.intrinsics);
@@ -141,7 +143,6 @@ std::shared_ptr<const UnitPicture> UnitPictures::of(const TrueSetup& setup, cons
     RenderTransport transport;
     transport.volume = volume;
     transport.paths = paths_ / 2;
-    transport.phase_mean_cosine = setup.phase_mean_cosine;
     transport.seed = stream + half;
     return ShotRenderer(rig, objects, transport).render_colour(rig.scene.shots[0]);
   };

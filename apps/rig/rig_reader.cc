@@ -16,10 +16,36 @@
 namespace scattermeter::apps {
 namespace {
 
+// Of a g from the literature, for another sample of the material.
+constexpr double kStatedGammaStd = 0.1;
+
+void read_phase(const YamlField& field, SceneObject& object) {
+  field.only({"g", "g_std", "gamma", "gamma_std", "share", "other_g"});
+  const YamlField g = field.at("g");
+  const auto gamma = field.find("gamma");
+  const auto share = field.find("share");
+  // By Henyey and Greenstein, gamma is 1 + g.
+  const auto std = field.find(gamma ? "gamma_std" : "g_std");
+  constexpr double kLeast = -0.4, kMost = 0.99;
+  if (gamma) {
+    const double of_hg = 1.0 + g.number(0.01, kMost);
+    object.phase = PhaseFunction::with_gamma(of_hg - 1.0, gamma->number(0.61, of_hg));
+  } else if (share) {
+    object.phase = PhaseFunction::mixture(share->number(0.0, 1.0), g.number(-kMost, kMost),
+                                          field.at("other_g").number(-kMost, kMost));
+    if (object.phase.gamma() < 1.0 + kLeast) {
+      field.fail("expected a gamma of at least 0.6");
+    }
+  } else {
+    object.phase = g.number(kLeast, kMost);
+  }
+  object.gamma_std = std ? std->number(0.0, 2.0) : kStatedGammaStd;
+}
+
 SceneObject read_object(const std::string& name, const YamlField& field,
                         const std::string& rig_path) {
   field.only({"mesh", "eta", "eta_std", "position_std_mm", "scale_relative_std", "edge_std_mm",
-              "patch_size_mm"});
+              "phase", "patch_size_mm"});
   SceneObject object;
   object.name = name;
   object.line = field.line();
@@ -31,6 +57,8 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   object.scale_relative_std =
       field.number_or("scale_relative_std", default_uncertainty::kMeshScale, 0.0, 1.0);
   object.edge_std_mm = field.number_or("edge_std_mm", default_uncertainty::kEdge_mm, 0.0, 1000.0);
+  object.gamma_std = default_uncertainty::kGamma;
+  if (const auto f = field.find("phase")) read_phase(*f, object);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   return object;
 }

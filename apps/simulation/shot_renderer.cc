@@ -131,7 +131,7 @@ SurfaceField ShotRenderer::volume_field(const SceneShot& shot, Stage& s) {
       if (!(light->power()[c] > 0.0)) continue;
       Medium reduced = truth_of(rig_, shot)[static_cast<std::size_t>(c)];
       reduced.eta_int_over_ext = eta;
-      const ScatteringMedium medium = scattering_medium(reduced, transport_.phase_mean_cosine);
+      const ScatteringMedium medium = scattering_medium(reduced, scene.stated->phase);
       std::optional<DiffusePlane> plane;
       if (const auto& stated = rig_.scene.surroundings.plane) {
         plane = stated->in(static_cast<std::size_t>(c));

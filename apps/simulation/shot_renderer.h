@@ -48,8 +48,7 @@ struct RenderTransport {
   bool volume = false;
   std::int64_t paths = 1'000'000;  // for each light of a shot and channel
   std::uint64_t seed = 1;
-  PathPeers* peers = nullptr;    // processes that share the paths
-  double phase_mean_cosine = 0;  // g of the phase function (Henyey and Greenstein), volume only
+  PathPeers* peers = nullptr;  // processes that share the paths
 };
 
 // The camera of simulated shots: at truth.pose, otherwise at the pose from the pose points. Throws

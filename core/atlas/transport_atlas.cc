@@ -43,21 +43,22 @@ std::vector<int> facing(const PatchMesh& patches, const Eigen::Vector3d& camera_
 
 // From which the paths follow. A light is told by where it enters: the first of its samples stand
 // for its position, lobe or picture, and for the plane that it may come by.
-std::vector<double> numbers_of(const TriangleMesh& mesh, const PatchMesh& patches, double eta,
-                               const DiffusePlane& plane, const EntrySource& source,
-                               std::uint64_t seed) {
+std::vector<double> numbers_of(const TriangleMesh& mesh, const PatchMesh& patches,
+                               const AtlasMedium& medium, const DiffusePlane& plane,
+                               const EntrySource& source, std::uint64_t seed) {
   constexpr int kSamples = 512;
   std::vector<double> n = {kPathsVersion,
                            WhiteRows::kFirstPaths,
                            WhiteRows::kBatches,
                            TransportAtlas::kSpacing,
-                           eta,
+                           medium.eta_int_over_ext,
                            patches.patch_size_mm(),
                            plane.z_mm,
                            plane.albedo,
                            static_cast<double>(plane.contact),
                            static_cast<double>(seed)};
-  const auto add = [&](const Eigen::Vector3d& v) { n.insert(n.end(), v.begin(), v.end()); };
+  const auto add = [&](const auto& v) { n.insert(n.end(), v.begin(), v.end()); };
+  if (!medium.phase.is_isotropic()) add(medium.phase.numbers());
   for (const Eigen::Vector3d& v : mesh.vertices_mm) add(v);
   for (const auto& facet : mesh.triangles) n.insert(n.end(), facet.begin(), facet.end());
   RandomStream random(seed, 0);
@@ -103,19 +104,21 @@ const TransportAtlas::View& TransportAtlas::view(const SeenObject& seen,
 
 TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const SeenObject& seen,
                                                   const SceneLight& light, std::size_t channel,
-                                                  double eta_int_over_ext) {
+                                                  const AtlasMedium& medium) {
+  const double eta_int_over_ext = medium.eta_int_over_ext;
   const DiffusePlane plane = plane_below(scene, *seen.object).in(channel);
   // An LED lights all channels alike but for its power.
   const int own = light.led() != nullptr ? -1 : static_cast<int>(channel);
   const auto known = std::find_if(lit_.begin(), lit_.end(), [&](const LitView& v) {
     return v.view_->shows(seen, eta_int_over_ext) && v.light_ == &light && v.channel_ == own &&
-           same(v.plane_, plane);
+           v.phase_ == medium.phase && same(v.plane_, plane);
   });
   if (known != lit_.end()) return *known;
   LitView v;
   v.source_ =
       entry_above(light, *seen.object->rays, eta_int_over_ext, static_cast<int>(channel), plane);
   v.light_ = &light;
+  v.phase_ = medium.phase;
   v.channel_ = own;
   v.plane_ = plane;
   v.seed_ = (static_cast<std::uint64_t>(own + 1) * kLights + index_in(scene, light)) * kNodes;
@@ -123,8 +126,8 @@ TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const Seen
   std::vector<Eigen::Vector3d> centers;
   if (store_) {
     v.store_ = store_.get();
-    v.body_ = store_->name(numbers_of(seen.object->rays->mesh(), *seen.patches, eta_int_over_ext,
-                                      plane, *v.source_, v.seed_));
+    v.body_ = store_->name(
+        numbers_of(seen.object->rays->mesh(), *seen.patches, medium, plane, *v.source_, v.seed_));
     centers = store_->centers_mm(v.body_);
     std::erase_if(centers, [&](const Eigen::Vector3d& c) {
       return !are_near(*seen.object, c, seen.camera_center_mm);
@@ -158,7 +161,8 @@ std::int64_t TransportAtlas::LitView::missing_paths(int idx, int levels) const {
 const WhiteRows& TransportAtlas::LitView::node(int idx, int levels) {
   WhiteRows& out = known_node(idx);
   if (out.levels() >= levels) return out;
-  const ScatteringMedium medium{out.sigma_s_per_mm(), 0.0, 0.0, view_->eta};
+  const ScatteringMedium medium =
+      scattering_medium({out.sigma_s_per_mm(), 0.0, view_->eta}, phase_);
   const CameraConnection camera = view_->camera->with(medium, plane_);
   const PathWorld world{*view_->boundary, medium, *source_, &camera, plane_};
   const std::uint64_t seed = seed_ + static_cast<std::uint64_t>(idx + static_cast<int>(kNodes / 2));

@@ -13,6 +13,7 @@
 #include "core/atlas/atlas_store.h"
 #include "core/light/diffuse_plane.h"
 #include "core/light/entry_source.h"
+#include "core/material/phase_function.h"
 #include "core/scene/scene.h"
 #include "core/scene/seen_object.h"
 #include "core/transport/camera_connection.h"
@@ -21,7 +22,14 @@
 
 namespace scattermeter {
 
-// Nodes stand at fixed values of sigma_s, evenly in its logarithm, and are traced when they are
+// What the paths of an object need to know of its medium, besides sigma_s'.
+struct AtlasMedium {
+  double eta_int_over_ext = 1;
+  PhaseFunction phase = {};
+  bool operator==(const AtlasMedium&) const = default;
+};
+
+// Nodes stand at fixed values of sigma_s', evenly in its logarithm, and are traced when they are
 // asked for. Seeds follow from what a node is of, so that the same levels have the same digits
 // whoever asked for them, and in whatever order. Not to be used from several threads at once.
 //
@@ -33,7 +41,7 @@ class TransportAtlas {
  public:
   // Between neighbouring nodes, of log sigma_s.
   static constexpr double kSpacing = 0.35;
-  static double sigma_s_per_mm(int node);
+  static double sigma_s_per_mm(int node);  // sigma_s'
   // rad
   static constexpr double kNearViews = 1e-3;
 
@@ -58,7 +66,7 @@ class TransportAtlas {
     struct View {
       const ObjectScene* object = nullptr;
       const PatchMesh* patches = nullptr;
-      double eta = 1;
+      double eta = 1;                                       // int over ext
       Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();  // of the camera
       std::unique_ptr<PathBoundary> boundary;
       std::optional<CameraConnection> camera;  // of some medium
@@ -69,6 +77,7 @@ class TransportAtlas {
 
     const View* view_ = nullptr;
     const SceneLight* light_ = nullptr;
+    PhaseFunction phase_;
     int channel_ = -1;    // -1: the same in all
     DiffusePlane plane_;  // below the object
     std::unique_ptr<EntrySource> source_;
@@ -81,7 +90,7 @@ class TransportAtlas {
   // Of unit power. Scene and objects are the same in all calls, and outlive the atlas. Throws
   // InputError if the light reaches no part of the object. The reference stays valid.
   LitView& lit_view(const Scene& scene, const SeenObject& seen, const SceneLight& light,
-                    std::size_t channel, double eta_int_over_ext);
+                    std::size_t channel, const AtlasMedium& medium);
 
  private:
   using View = LitView::View;

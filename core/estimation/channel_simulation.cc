@@ -71,8 +71,8 @@ ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& 
       const SceneLight& light = scene.light(name);
       const double power = light->power()[static_cast<Eigen::Index>(channel.channel)];
       if (!(power > 0.0)) continue;
-      TransportAtlas::LitView* in_atlas =
-          &atlas.lit_view(scene, *shot.seen, light, channel.channel, channel.eta_int_over_ext);
+      TransportAtlas::LitView* in_atlas = &atlas.lit_view(
+          scene, *shot.seen, light, channel.channel, {channel.eta_int_over_ext, channel.phase});
       auto known = std::find_if(lit_.begin(), lit_.end(),
                                 [&](const Lit& v) { return v.in_atlas == in_atlas; });
       if (known == lit_.end()) {

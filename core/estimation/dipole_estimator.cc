@@ -11,7 +11,7 @@
 #include "core/estimation/edge_width.h"
 #include "core/estimation/estimation.h"
 #include "core/estimation/joint_evidence.h"
-#include "core/estimation/mesh_scale.h"
+#include "core/estimation/material_channel.h"
 #include "core/estimation/nuisances.h"
 #include "core/estimation/residual_look.h"
 #include "core/estimation/sensitivities.h"

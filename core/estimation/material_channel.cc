@@ -23,16 +23,24 @@ std::vector<MaterialChannel> material_channels(const Scene& scene,
   for (const std::string& material : scene.materials()) {
     for (std::size_t c = 0; c < kRgb; ++c) {
       if (!channels.empty() && channels.find(kRgbName[c]) == std::string::npos) continue;
-      MaterialChannel one{material, c, {}, 0.0};
+      MaterialChannel one{material, c, {}};
       for (const ObservedShot& shot : shots) {
         if (shot.stated->material != material) continue;
-        const double eta = shot.seen->object->stated->eta_int_over_ext;
+        const SceneObject& object = *shot.seen->object->stated;
+        const double eta = object.eta_int_over_ext;
         if (!one.shots.empty() && eta != one.eta_int_over_ext) {
           throw InputError(scene.at(shot.stated->line) + ": shots.object",
                            fmt::format("material {} has eta {} here but {} in another shot",
                                        material, eta, one.eta_int_over_ext));
         }
+        if (!one.shots.empty() && !(object.phase == one.phase)) {
+          throw InputError(
+              scene.at(shot.stated->line) + ": shots.object",
+              fmt::format("material {} has another phase function in another shot", material));
+        }
         one.eta_int_over_ext = eta;
+        one.phase = object.phase;
+        one.gamma_std = std::max(one.gamma_std, object.gamma_std);
         one.shots.push_back(&shot);
       }
       if (!one.shots.empty()) out.push_back(one);
@@ -57,6 +65,17 @@ std::string shot_problem(const ObservedShot& shot, std::size_t channel) {
                        shot.stated->file, name, o.brightest_counts);
   }
   return "";
+}
+
+void widen_by_mesh_scale(const MaterialChannel& channel, Estimate& estimate) {
+  double relative = 0.0;
+  for (const ObservedShot* shot : channel.shots) {
+    relative = std::max(relative, shot->seen->object->stated->scale_relative_std);
+  }
+  if (!(relative > 0.0)) return;
+  const double by_s = relative * estimate.sigma_s_prime_per_mm.value;
+  const double by_a = relative * estimate.sigma_a_per_mm.value;
+  widen({"mesh scale", by_s, by_a}, by_s * by_a, estimate);
 }
 
 double patch_size_mm(const MaterialChannel& channel) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fit/estimate.h"
 #include "core/scene/observed_shot.h"
 #include "core/scene/scene.h"
 
@@ -16,6 +17,8 @@ struct MaterialChannel {
   std::size_t channel;  // 0 R, 1 G, 2 B
   std::vector<const ObservedShot*> shots;
   double eta_int_over_ext = 0;
+  PhaseFunction phase = {};
+  double gamma_std = 0;  // the largest of the objects
 };
 
 // The shots' materials in the scene's order, each in the channels of `channels` (R, G, B; empty:
@@ -26,6 +29,13 @@ std::vector<MaterialChannel> material_channels(const Scene& scene,
 
 // The patch size of the channel's objects, the largest, mm.
 double patch_size_mm(const MaterialChannel& channel);
+
+// An object that is larger than its mesh by a factor 1 + s, with light and camera at the matching
+// scale, looks like the mesh with coefficients that are larger by the same factor: lengths are
+// known by their products with the coefficients alone. Widens deviations and 95 % intervals by the
+// largest SceneObject::scale_relative_std of the channel's objects, common to both coefficients,
+// and adds the budget's line "mesh scale".
+void widen_by_mesh_scale(const MaterialChannel& channel, Estimate& estimate);
 
 // Why a shot is useless as a whole in a channel (dark, over-exposed, nothing seen); empty: it is
 // usable.

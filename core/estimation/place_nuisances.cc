@@ -108,7 +108,7 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
 // The effect of the object's position, orientation and size: what the samples see shifts along the
 // surface as if the camera moved, and every LED moves the other way. A larger object looks like the
 // mesh with camera and LEDs nearer to its centre, LEDs of less power, and coefficients that are
-// larger by as much (core/estimation/mesh_scale.h).
+// larger by as much (widen_by_mesh_scale()).
 void SceneNuisances::add_place(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
                                Columns& columns) const {
   const SeenObject& seen = *shot.seen;

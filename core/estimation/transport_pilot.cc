@@ -28,18 +28,22 @@ Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector
   return share * (noisy_variance.sum() / share.sum());
 }
 
-DenseSystem system_of_paths(const DipoleSystem& dipole) {
+DenseSystem system_of_paths(const DipoleSystem& dipole, double gamma_std) {
   DenseSystem system = dipole.system();
   if (dipole.light_by_plane) system.l += dipole.light_by_plane();
   std::vector<Eigen::Index> kept;
-  std::vector<Nuisance> nuisances;
+  std::vector<Nuisance> nuisances = {{"phase function", gamma_std, true, "gamma"}};
   for (std::size_t k = 0; k < system.nuisances.size(); ++k) {
     if (system.nuisances[k].group == "camera shift") continue;
     kept.push_back(static_cast<Eigen::Index>(k));
     nuisances.push_back(system.nuisances[k]);
   }
+  Eigen::MatrixXd columns(system.l.size(), static_cast<Eigen::Index>(nuisances.size()));
+  columns.col(0).setZero();
+  if (!kept.empty())
+    columns.rightCols(columns.cols() - 1) = system.nuisance_columns(Eigen::all, kept);
   system.nuisances = std::move(nuisances);
-  system.nuisance_columns = Eigen::MatrixXd(system.nuisance_columns(Eigen::all, kept));
+  system.nuisance_columns = std::move(columns);
   return system;
 }
 

@@ -25,7 +25,7 @@ Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector
 
 // The dipole's system for the search: with the light by way of the plane, which paths simulate, and
 // without the shifts of single shots: with these, the search for faint materials ends with scale
-// and eta far off.
-DenseSystem system_of_paths(const DipoleSystem& dipole);
+// and eta far off. Its first nuisance is gamma (PhaseFunction::gamma()), with a column of zeros.
+DenseSystem system_of_paths(const DipoleSystem& dipole, double gamma_std);
 
 }  // namespace scattermeter

@@ -9,7 +9,8 @@
 #include <fmt/core.h>
 
 #include "core/estimation/channel_simulation.h"
-#include "core/estimation/mesh_scale.h"
+#include "core/estimation/material_channel.h"
+#include "core/estimation/phase_nuisance.h"
 #include "core/estimation/residual_look.h"
 #include "core/estimation/transport_pilot.h"
 #include "core/estimation/transport_round.h"
@@ -44,12 +45,13 @@ class TransportSearch {
                   TransportAtlas& atlas, const EstimateOptions& options, const ProgressStage& stage)
       : channel_(channel),
         knots_(dipole.knots),
-        system_(system_of_paths(dipole)),
+        system_(system_of_paths(dipole, channel.gamma_std)),
         rows_(*dipole.rows),
         scale_(scale_prior(scene)),
         options_(options),
         stage_(stage),
         simulation_(scene, channel, atlas),
+        phase_(scene, channel, knots_),
         budget_(static_cast<double>(options.paths) / ChannelSimulation::kBlockPaths,
                 options.time_limit_s) {
     // The image is that of whole patches.
@@ -78,8 +80,9 @@ class TransportSearch {
     bool outliers_known = false;
     for (int i = 0; i < kMaxRounds && budget_.left_s() > 0.0; ++i) {
       stage_.check();
+      system_.nuisance_columns.col(0) = phase_.change(system_.weights, at);
       const bool learned = part_light_.blocks() >= kLearnedBlocks;
-      // During the search, a scale with a prior is taken as exact, which makes it more stable.
+      // During the search, a scale with a prior is taken as exact: that is more stable.
       TransportRound round({system_, parts_}, learned || has_free_scale() ? scale_ : ScalePrior{},
                            at, pilot(last.image, at),
                            last.blocks / kFinalPathBlocks + last.scatter - 1.0,
@@ -105,8 +108,7 @@ class TransportSearch {
   }
 
  private:
-  // The errors to be expected, by an earlier look.
-  struct Look {
+  struct Look {  // the errors to be expected, by an earlier look
     ScatteringImage image;
     int blocks = 0;
     double scatter = 1;
@@ -114,9 +116,8 @@ class TransportSearch {
 
   ScatteringPoint start(const Estimate& dipole) {
     const double size_mm = simulation_.largest_size_mm();
-    const Quantity& scattering = dipole.sigma_s_prime_per_mm;
-    if (!is_undetermined(scattering)) {
-      return {std::max(scattering.value, kThinnest / size_mm), dipole.sigma_a_per_mm.value,
+    if (const Quantity& s = dipole.sigma_s_prime_per_mm; !is_undetermined(s)) {
+      return {std::max(s.value, kThinnest / size_mm), dipole.sigma_a_per_mm.value,
               has_free_scale() ? dipole.scale.value : 1.0};
     }
     constexpr int kCoarseBlocks = 4;
@@ -189,6 +190,7 @@ class TransportSearch {
     }
     system_ = selected(system_, kept);
     simulation_.set_rows(rows_);
+    phase_.set_rows(rows_);
     parts_ =
         ShotParts(system_.shot_rows, simulation_.center_mm(), simulation_.area_mm2(), system_.l);
     part_light_.forget();
@@ -197,8 +199,7 @@ class TransportSearch {
   // Whether there were any.
   bool leave_outliers_out(const TransportRound& round) {
     const Eigen::VectorXd rest = round.equation().without_nuisances(round.residual());
-    RowSelectionOptions options;
-    options.outlier_std = kTransportOutlierStd;
+    const RowSelectionOptions options{.outlier_std = kTransportOutlierStd};
     const std::vector<Eigen::Index> far =
         outliers(rest, Eigen::VectorXd::Zero(rest.size()),
                  row_variance(round, round.scatter()).cwiseSqrt(), options);
@@ -281,6 +282,7 @@ class TransportSearch {
   const EstimateOptions& options_;
   const ProgressStage& stage_;
   ChannelSimulation simulation_;
+  PhaseNuisance phase_;
   ShotParts parts_;
   PartLight part_light_;
   PathBudget budget_;

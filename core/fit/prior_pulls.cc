@@ -36,7 +36,7 @@ double over_root(double value, double variance) {
 
 // The next step for a contradiction, by the group of the quantity.
 const char* advice(const std::string& group) {
-  constexpr std::array<std::pair<const char*, const char*>, 18> kAdvice = {{
+  constexpr std::array<std::pair<const char*, const char*>, 19> kAdvice = {{
       {"pose", "check the pose points, and that neither camera nor object has moved"},
       {"camera shift", "fasten camera and object, and take the shot again"},
       {"lens", "calibrate the camera at this focus, and check the mesh's proportions"},
@@ -50,6 +50,7 @@ const char* advice(const std::string& group) {
       {"LED calibration", "calibrate the LED again"},
       {"scale", "check the LED's intensity and the camera's responsivity"},
       {"eta", "measure the refractive index, or state a larger eta_std"},
+      {"phase function", "state phase.g, or leave out phase"},
       {"even light", "switch off other lamps, or list an ambient light"},
       {"surroundings", "state the surroundings, or put the object on a black stand"},
       {"pedestal", "check the black level, and look for stray light and glare in the lens"},

@@ -6,16 +6,16 @@
 #include <string>
 
 #include "core/material/medium.h"
+#include "core/material/phase_function.h"
 
 namespace scattermeter {
 
-// Scattering by Henyey and Greenstein's phase function of mean cosine g. Domain: sigma_s > 0,
-// sigma_a >= 0, -1 < g < 1, eta_int_over_ext >= 1 (a body not optically thinner than its
+// Domain: sigma_s > 0, sigma_a >= 0, eta_int_over_ext >= 1 (a body not optically thinner than its
 // surroundings).
 struct ScatteringMedium {
   double sigma_s_per_mm = 1;
   double sigma_a_per_mm = 0;
-  double g = 0;
+  PhaseFunction phase = {};
   double eta_int_over_ext = 1;
 
   double sigma_t_per_mm() const { return sigma_s_per_mm + sigma_a_per_mm; }
@@ -23,19 +23,19 @@ struct ScatteringMedium {
 
   // Throws std::invalid_argument outside the domain.
   void check() const {
-    if (!(sigma_s_per_mm > 0.0 && sigma_a_per_mm >= 0.0 && std::abs(g) < 1.0 &&
-          eta_int_over_ext >= 1.0 && std::isfinite(sigma_t_per_mm() * eta_int_over_ext))) {
+    phase.check();
+    if (!(sigma_s_per_mm > 0.0 && sigma_a_per_mm >= 0.0 && eta_int_over_ext >= 1.0 &&
+          std::isfinite(sigma_t_per_mm() * eta_int_over_ext))) {
       throw std::invalid_argument("ScatteringMedium: sigma_s = " + std::to_string(sigma_s_per_mm) +
                                   ", sigma_a = " + std::to_string(sigma_a_per_mm) +
-                                  ", g = " + std::to_string(g) +
                                   ", eta = " + std::to_string(eta_int_over_ext));
     }
   }
 };
 
-// The medium with this g and the reduced coefficients of `medium`.
-inline ScatteringMedium scattering_medium(const Medium& medium, double g = 0.0) {
-  return {medium.sigma_s_prime_per_mm / (1.0 - g), medium.sigma_a_per_mm, g,
+// The medium with this phase function and the reduced coefficients of `medium`.
+inline ScatteringMedium scattering_medium(const Medium& medium, const PhaseFunction& phase = {}) {
+  return {medium.sigma_s_prime_per_mm / (1.0 - phase.mean_cosine()), medium.sigma_a_per_mm, phase,
           medium.eta_int_over_ext};
 }
 

@@ -19,6 +19,7 @@
 #include "core/light/diffuse_plane.h"
 #include "core/light/distant_light.h"
 #include "core/light/led_light.h"
+#include "core/material/phase_function.h"
 
 namespace scattermeter {
 
@@ -53,6 +54,8 @@ struct SceneObject {
   std::string mesh_path;  // of a closed mesh, mm; for messages and for the code that reads it
   double eta_int_over_ext = 1.3;
   double eta_std = 0;
+  PhaseFunction phase;
+  double gamma_std = 0;  // of PhaseFunction::gamma()
   // Standard deviation of each coordinate of the object's position, world, mm; its orientation is
   // uncertain by the same amount at a distance of its own size.
   double position_std_mm = 0;

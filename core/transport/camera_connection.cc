@@ -97,7 +97,7 @@ CameraConnection::CameraConnection(const PathBoundary& boundary,
       eta_(medium.eta_int_over_ext),
       sigma_t_(medium.sigma_t_per_mm()),
       most_walls_(most_walls),
-      phase_(medium.g) {
+      phase_(medium.phase) {
   medium.check();
   const std::vector<BodyPlane>& planes = boundary.body().planes;
   cone_ = std::make_shared<EscapeCone>(eta_);
@@ -121,7 +121,7 @@ CameraConnection CameraConnection::with(const ScatteringMedium& medium,
   }
   CameraConnection other = *this;
   other.sigma_t_ = medium.sigma_t_per_mm();
-  other.phase_ = HenyeyGreenstein(medium.g);
+  other.phase_ = medium.phase;
   other.no_mirror_ = -1;
   if (plane && plane->contact == PlaneContact::kOptical) {
     const std::vector<BodyPlane>& planes = boundary_.body().planes;

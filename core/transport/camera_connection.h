@@ -9,7 +9,7 @@
 
 #include "core/base/random_stream.h"
 #include "core/light/diffuse_plane.h"
-#include "core/material/henyey_greenstein.h"
+#include "core/material/phase_function.h"
 #include "core/material/scattering_medium.h"
 #include "core/transport/escape_cone.h"
 #include "core/transport/facet_beams.h"
@@ -128,7 +128,7 @@ class CameraConnection {
   double eta_;
   double sigma_t_;
   int most_walls_;
-  HenyeyGreenstein phase_;
+  PhaseFunction phase_;
   std::vector<Window> windows_;
   int no_mirror_ = -1;  // plane that does not reflect inside
   // For a body of many planes.

@@ -1,6 +1,7 @@
 #include "core/transport/path_blocks.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <stdexcept>
@@ -70,9 +71,10 @@ void share_in_order(PathPeers& peers, std::uint64_t task, int first, int end,
 
 std::uint64_t path_task(const PathWorld& world, const PathOptions& options) {
   std::uint64_t hash = options.seed;
+  const std::array<double, 4> phase = world.medium.phase.numbers();
   for (const double number :
-       {world.medium.sigma_s_per_mm, world.medium.sigma_a_per_mm, world.medium.g,
-        world.medium.eta_int_over_ext, static_cast<double>(options.paths_per_block)}) {
+       {world.medium.sigma_s_per_mm, world.medium.sigma_a_per_mm, phase[0], phase[1], phase[2],
+        phase[3], world.medium.eta_int_over_ext, static_cast<double>(options.paths_per_block)}) {
     // Boost's hash_combine for 64 bits.
     hash ^=
         std::bit_cast<std::uint64_t>(number) + 0x9e3779b97f4a7c15U + (hash << 12U) + (hash >> 4U);

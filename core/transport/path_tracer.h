@@ -12,7 +12,7 @@
 #include "core/light/diffuse_plane.h"
 #include "core/light/entry_source.h"
 #include "core/material/fresnel.h"
-#include "core/material/henyey_greenstein.h"
+#include "core/material/phase_function.h"
 #include "core/material/scattering_medium.h"
 #include "core/material/smooth_boundary.h"
 #include "core/transport/camera_connection.h"
@@ -47,7 +47,7 @@ struct PathWorld {
 // Traces one block of paths, with the same digits wherever and whenever. Weights are such that the
 // scores of one block add up to an estimate of the whole; blocks are independent.
 //
-// A path enters refracted, flies exponential lengths, is scattered after Henyey and Greenstein and
+// A path enters refracted, flies exponential lengths, is scattered and
 // reflected or let out at the surface by a draw with Fresnel's reflectance. Absorption lowers its
 // weight (albedo at each scattering) and ends it by roulette only. Light that leaves a non-convex
 // body may enter it again, and light that meets the plane is reflected diffusely, with its albedo
@@ -63,7 +63,7 @@ class PathTracer {
       : world_(world),
         options_(options),
         sink_(sink),
-        phase_(world.medium.g),
+        phase_(world.medium.phase),
         eta_(world.medium.eta_int_over_ext),
         albedo_(world.medium.albedo()),
         mean_free_path_mm_(1.0 / world.medium.sigma_t_per_mm()) {
@@ -252,7 +252,7 @@ class PathTracer {
   PathWorld world_;
   PathOptions options_;
   Sink& sink_;
-  HenyeyGreenstein phase_;
+  PhaseFunction phase_;
   double eta_;
   double albedo_;
   double mean_free_path_mm_;

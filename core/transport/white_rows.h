@@ -1,4 +1,4 @@
-// The image of one view under one light in a medium of given sigma_s, for any absorption.
+// The image of one view under one light in a medium of given sigma_s', for any absorption.
 #pragma once
 
 #include <cstdint>
@@ -33,13 +33,15 @@ class WhiteRows {
   // The fewest levels that have so many paths.
   static int levels_for(double paths);
 
-  // The view must outlive the object. size_mm: of the body.
+  // sigma_s_per_mm: sigma_s', of the phase function of the worlds to come. The view must outlive
+  // the object. size_mm: of the body.
   WhiteRows(const ScatteringView& view, double sigma_s_per_mm, double size_mm);
 
   double sigma_s_per_mm() const { return sigma_s_per_mm_; }
   int levels() const { return sums_.levels; }
   std::int64_t paths() const { return paths_of(levels()); }
-  // Traces the paths of one more level, in the world with its medium replaced by this one.
+  // Traces the paths of one more level, in the world with the coefficients of its
+  // medium replaced by these.
   void refine(const PathWorld& world, std::uint64_t seed);
 
   const WhiteSums& sums() const { return sums_; }

@@ -15,7 +15,8 @@ TrueSetup deviating_object(const char* kind, const DeviationDraw& draw) {
 TEST(ObjectDeviations, Materials) {
   EXPECT_NEAR(deviating_object("eta off", {0.09, 1, 1}).rig.scene.objects.front().eta_int_over_ext,
               1.40, 1e-12);
-  EXPECT_EQ(deviating_object("phase function", {0.8, 1, 1}).phase_mean_cosine, 0.8);
+  EXPECT_EQ(deviating_object("phase function", {0.8, 1, 1}).rig.scene.objects.front().phase,
+            PhaseFunction(0.8));
   const TrueSetup halves = deviating_object("halves of different material", {50, 1, 1});
   for (const TrueShot& shot : halves.shots) {
     EXPECT_NEAR((*shot.right_half)[1].sigma_s_prime_per_mm, 1.5 * 1.3, 1e-12);

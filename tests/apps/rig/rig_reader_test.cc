@@ -6,6 +6,7 @@
 
 #include "apps/rig/rig.h"
 #include "core/base/input_error.h"
+#include "core/scene/default_uncertainty.h"
 #include "tests/fixtures/apps/small_rig.h"
 
 namespace scattermeter::apps {
@@ -127,6 +128,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "pose:\n",
                 "pose:\n  charuco: {squares: [5, 7], square_mm: 10, marker_mm: 7}\n",
                 {"pose", "either points or charuco"}},
+        Mistake{"GammaBeyondG",
+                "eta: 1.4",
+                "eta: 1.4, phase: {g: 0.5, gamma: 1.7}",
+                {"objects.cube.phase.gamma", "1.5", "1.7"}},
         Mistake{"NotYaml", "camera:", "camera: [", {"YAML"}}),
     [](const auto& mistake) { return mistake.param.name; });
 
@@ -142,6 +147,25 @@ TEST(RigReader, ReadsEverything) {
   EXPECT_EQ(rig.scene.object("cube").eta_int_over_ext, 1.4);
   EXPECT_EQ(rig.pose.points.size(), 8U);
   EXPECT_EQ(rig.truth.materials.at("PE")[2].sigma_a_per_mm, 0.006);
+}
+
+TEST(RigReader, PhaseFunctions) {
+  SmallRig small;
+  const std::string text = small.text();
+  const auto cube = [&](const std::string& phase) {
+    small.write(replaced(text, "eta: 1.4", "eta: 1.4, phase: " + phase));
+    return read_rig(small.rig()).scene.object("cube");
+  };
+  EXPECT_TRUE(read_rig(small.rig()).scene.object("cube").phase.is_isotropic());
+  EXPECT_EQ(read_rig(small.rig()).scene.object("cube").gamma_std, default_uncertainty::kGamma);
+  EXPECT_EQ(cube("{g: 0.8}").phase, PhaseFunction(0.8));
+  EXPECT_EQ(cube("{g: 0.8}").gamma_std, 0.1);
+  EXPECT_EQ(cube("{g: 0.8, g_std: 0}").gamma_std, 0.0);
+  EXPECT_EQ(cube("{g: 0.8, gamma: 1.6, gamma_std: 0.2}").phase,
+            PhaseFunction::with_gamma(0.8, 1.6));
+  EXPECT_EQ(cube("{g: 0.8, gamma: 1.6, gamma_std: 0.2}").gamma_std, 0.2);
+  EXPECT_EQ(cube("{g: 0.9, share: 0.9, other_g: -0.5}").phase,
+            PhaseFunction::mixture(0.9, 0.9, -0.5));
 }
 
 // The mesh is looked for beside the rig, wherever the program runs.

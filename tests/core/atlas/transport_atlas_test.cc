@@ -21,7 +21,7 @@ class AtlasOfTheCube : public ::testing::Test {
   AtlasOfTheCube() { cube_.show(test_support::kCubeMedium); }
   TransportAtlas::LitView& lit(TransportAtlas& atlas, std::size_t light, std::size_t channel) {
     return atlas.lit_view(cube_.scene, *cube_.shots[0].seen, cube_.scene.lights[light], channel,
-                          1.3);
+                          {1.3});
   }
   test_support::DipoleCube cube_{2, 5.0};
 };
@@ -106,7 +106,10 @@ TEST_F(AtlasOfTheCube, GoesOnFromTheStore) {
   EXPECT_EQ(lit(second, 0, 0).node(0, 3).sums().sum, lit(alone, 0, 0).node(0, 3).sums().sum);
   // Nothing of another light, index or place below.
   EXPECT_GT(lit(second, 1, 0).missing_paths(0, 1), 0);
-  EXPECT_GT(second.lit_view(cube_.scene, *cube_.shots[0].seen, cube_.scene.lights[0], 0, 1.31)
+  EXPECT_GT(second.lit_view(cube_.scene, *cube_.shots[0].seen, cube_.scene.lights[0], 0, {1.31})
+                .missing_paths(0, 1),
+            0);
+  EXPECT_GT(second.lit_view(cube_.scene, *cube_.shots[0].seen, cube_.scene.lights[0], 0, {1.3, 0.1})
                 .missing_paths(0, 1),
             0);
   auto* led = cube_.scene.lights[0].led();
@@ -124,7 +127,7 @@ TEST_F(AtlasOfTheCube, NearViewsShareTheirNodes) {
     const Eigen::Vector3d to = cube_.shots[0].seen->camera_center_mm - seen.object->box.center_mm();
     seen.camera_center_mm =
         cube_.shots[0].seen->camera_center_mm + rad * to.norm() * to.unitOrthogonal();
-    return atlas.lit_view(cube_.scene, seen, cube_.scene.lights[0], 0, 1.3);
+    return atlas.lit_view(cube_.scene, seen, cube_.scene.lights[0], 0, {1.3});
   };
   TransportAtlas::LitView& straight = from(0.0);
   EXPECT_EQ(&from(0.9 * TransportAtlas::kNearViews), &straight);

@@ -13,59 +13,14 @@
 #include "core/transport/path_blocks.h"
 #include "tests/fixtures/core/block_mean.h"
 #include "tests/fixtures/core/boxes.h"
+#include "tests/fixtures/core/escape_rings.h"
 #include "tests/fixtures/core/mcml.h"
 
 namespace scattermeter {
 namespace {
 
-// Escapes through the face at z = 0 by distance from the z axis, and through all.
-struct EscapeRings {
-  std::vector<double> edges_mm;
-  std::vector<double> power;
-  double up = 0, rest = 0;
-  explicit EscapeRings(std::vector<double> edges)
-      : edges_mm(std::move(edges)), power(edges_mm.size() + 1, 0.0) {}
-  void escape(const PathScore& s) {
-    if (s.point_mm.z() < -1e-9) {
-      rest += s.weight;
-      return;
-    }
-    up += s.weight;
-    const double r = std::hypot(s.point_mm.x(), s.point_mm.y());
-    power[static_cast<std::size_t>(std::upper_bound(edges_mm.begin(), edges_mm.end(), r) -
-                                   edges_mm.begin())] += s.weight;
-  }
-  void camera(const PathScore&) {}
-};
-
-struct RingMeans {
-  test_support::BlockMean up, rest, absorbed;
-  std::vector<test_support::BlockMean> power;
-};
-
-RingMeans pencil(const Eigen::Vector3d& size_mm, const ScatteringMedium& medium,
-                 const std::vector<double>& edges_mm, int blocks, int paths_per_block) {
-  const Eigen::Vector3d half = 0.5 * size_mm;
-  const RayScene scene(
-      test_support::make_box({-half.x(), -half.y(), -size_mm.z()}, {half.x(), half.y(), 0}));
-  const PathBoundary boundary(scene);
-  const auto source = beam_entry({});
-  PathOptions options;
-  options.paths_per_block = paths_per_block;
-  RingMeans out;
-  out.power.resize(edges_mm.size() + 1);
-  trace_blocks<EscapeRings>(
-      {boundary, medium, *source, nullptr}, options, 0, blocks,
-      [&] { return EscapeRings(edges_mm); },
-      [&](const EscapeRings& s, const PathAudit& audit) {
-        EXPECT_EQ(audit.lost_paths, 0);
-        out.up.add(s.up);
-        out.rest.add(s.rest);
-        out.absorbed.add(audit.absorbed + audit.roulette);
-        for (std::size_t i = 0; i < s.power.size(); ++i) out.power[i].add(s.power[i]);
-      });
-  return out;
-}
+using test_support::pencil;
+using test_support::RingMeans;
 
 // Adding-doubling, 48 points: slab 20 mm, n 1.3, g 0, 2.19 / 0.002: R 0.87699 with 0.01701
 // specular, T 0.02301. The slab is a box 1200 mm wide.
