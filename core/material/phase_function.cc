@@ -19,7 +19,7 @@ PhaseFunction PhaseFunction::with_gamma(double g, double gamma) {
     const double second = 1.0 - gamma * (1.0 - g);
     const double b = second - kSecondOfSquare;
     const double own = (b + std::sqrt(b * b + 4.0 * kSecondOfSquare * g * g)) / (2.0 * g);
-    constexpr double kRounding = 1e-12;
+    constexpr double kRounding = 1e-9;
     if (own < 1.0 && own > g * (1.0 - kRounding)) {
       return {std::fmin(1.0, g / own), std::fmax(g, own), Other::kSquaredCosine, 0.0};
     }
