@@ -129,8 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "pose:\n  charuco: {squares: [5, 7], square_mm: 10, marker_mm: 7}\n",
                 {"pose", "either points or charuco"}},
         Mistake{"GammaBeyondG",
-                "eta: 1.4",
-                "eta: 1.4, phase: {g: 0.5, gamma: 1.7}",
+                "cube.obj, eta: 1.4",
+                "cube.obj, eta: 1.4, phase: {g: 0.5, gamma: 1.7}",
                 {"objects.cube.phase.gamma", "1.5", "1.7"}},
         Mistake{"NotYaml", "camera:", "camera: [", {"YAML"}}),
     [](const auto& mistake) { return mistake.param.name; });
@@ -153,7 +153,7 @@ TEST(RigReader, PhaseFunctions) {
   SmallRig small;
   const std::string text = small.text();
   const auto cube = [&](const std::string& phase) {
-    small.write(replaced(text, "eta: 1.4", "eta: 1.4, phase: " + phase));
+    small.write(replaced(text, "cube.obj, eta: 1.4", "cube.obj, eta: 1.4, phase: " + phase));
     return read_rig(small.rig()).scene.object("cube");
   };
   EXPECT_TRUE(read_rig(small.rig()).scene.object("cube").phase.is_isotropic());
