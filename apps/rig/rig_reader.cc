@@ -57,7 +57,6 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   object.scale_relative_std =
       field.number_or("scale_relative_std", default_uncertainty::kMeshScale, 0.0, 1.0);
   object.edge_std_mm = field.number_or("edge_std_mm", default_uncertainty::kEdge_mm, 0.0, 1000.0);
-  object.gamma_std = default_uncertainty::kGamma;
   if (const auto f = field.find("phase")) read_phase(*f, object);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   return object;
