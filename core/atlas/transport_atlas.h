@@ -26,7 +26,6 @@ namespace scattermeter {
 struct AtlasMedium {
   double eta_int_over_ext = 1;
   PhaseFunction phase = {};
-  bool operator==(const AtlasMedium&) const = default;
 };
 
 // Nodes stand at fixed values of sigma_s', evenly in its logarithm, and are traced when they are

@@ -40,8 +40,9 @@ DenseSystem system_of_paths(const DipoleSystem& dipole, double gamma_std) {
   }
   Eigen::MatrixXd columns(system.l.size(), static_cast<Eigen::Index>(nuisances.size()));
   columns.col(0).setZero();
-  if (!kept.empty())
+  if (!kept.empty()) {
     columns.rightCols(columns.cols() - 1) = system.nuisance_columns(Eigen::all, kept);
+  }
   system.nuisances = std::move(nuisances);
   system.nuisance_columns = std::move(columns);
   return system;

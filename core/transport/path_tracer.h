@@ -47,11 +47,11 @@ struct PathWorld {
 // Traces one block of paths, with the same digits wherever and whenever. Weights are such that the
 // scores of one block add up to an estimate of the whole; blocks are independent.
 //
-// A path enters refracted, flies exponential lengths, is scattered and
-// reflected or let out at the surface by a draw with Fresnel's reflectance. Absorption lowers its
-// weight (albedo at each scattering) and ends it by roulette only. Light that leaves a non-convex
-// body may enter it again, and light that meets the plane is reflected diffusely, with its albedo
-// as a factor; otherwise it is an escape.
+// A path enters refracted, flies exponential lengths, is scattered, and reflected or let out at the
+// surface by a draw with Fresnel's reflectance. Absorption lowers its weight (albedo at each
+// scattering) and ends it by roulette only. Light that leaves a non-convex body may enter it again,
+// and light that meets the plane is reflected diffusely, with its albedo as a factor; otherwise it
+// is an escape.
 //
 // Sink has escape(const PathScore&): power that leaves for good; and camera(const PathScore&): see
 // CameraConnection. With a plane, the camera sees what leaves the body towards it, whether or not

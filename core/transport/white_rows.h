@@ -40,8 +40,8 @@ class WhiteRows {
   double sigma_s_per_mm() const { return sigma_s_per_mm_; }
   int levels() const { return sums_.levels; }
   std::int64_t paths() const { return paths_of(levels()); }
-  // Traces the paths of one more level, in the world with the coefficients of its
-  // medium replaced by these.
+  // Traces the paths of one more level, in the world with its medium's coefficients replaced by
+  // these.
   void refine(const PathWorld& world, std::uint64_t seed);
 
   const WhiteSums& sums() const { return sums_; }

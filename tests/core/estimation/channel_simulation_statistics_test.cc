@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "core/estimation/channel_simulation.h"
-#include "core/light/plane_entry.h"
 #include "core/scene/surroundings.h"
 #include "tests/fixtures/core/simulated_cube.h"
+#include "tests/fixtures/core/traced_image.h"
 
 namespace scattermeter {
 namespace {
@@ -17,23 +17,14 @@ using test_support::SimulatedCube;
 TEST(ChannelSimulationStatistics, BetweenNodesTheLightIsThatOfTheMedium) {
   SimulatedCube c;
   const SeenObject& seen = *c.cube.shots[0].seen;
-  const PathBoundary boundary(*seen.object->rays);
-  const ScatteringView view = scattering_view(*seen.patches, seen.map.patch_of_row);
   const DiffusePlane plane = plane_below(c.cube.scene, *seen.object).in(0);
-  const auto source =
-      led_entry_above(*seen.object->rays, c.cube.scene.lights[0].led()->led, plane, 1.3);
   const Eigen::Index n = static_cast<Eigen::Index>(c.rows[0].rows_used);
   for (const ScatteringPoint& at :
        {ScatteringPoint{std::exp(0.5 * TransportAtlas::kSpacing), 0.02},
         ScatteringPoint{std::exp(-2.4 * TransportAtlas::kSpacing), 0.1}}) {
     const ScatteringMedium medium{at.sigma_s_per_mm, at.sigma_a_per_mm, 0.0, 1.3};
-    const CameraConnection camera =
-        CameraConnection(boundary, seen.camera_center_mm, medium).with(medium, plane);
-    ScatteringSum sum(view, Eigen::MatrixXd(0, view.n_rows));
-    PathOptions options;
-    options.seed = 77;
-    sum.trace({boundary, medium, *source, &camera, plane}, options, 100);
-    const ScatteringImage direct = sum.image();
+    const ScatteringImage direct =
+        test_support::traced_image(seen, c.cube.scene.lights[0].led()->led, medium, plane, 77, 100);
     const ScatteringImage image = c.look(100, at).image;
     double chi2 = 0.0, light = 0.0, expected = 0.0;
     Eigen::Index row = 0;

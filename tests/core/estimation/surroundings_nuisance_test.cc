@@ -8,9 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/estimation/channel_weights.h"
-#include "core/light/plane_entry.h"
-#include "core/transport/scattering_rows.h"
 #include "tests/fixtures/core/dipole_cube.h"
+#include "tests/fixtures/core/traced_image.h"
 
 namespace scattermeter {
 namespace {
@@ -36,16 +35,8 @@ std::array<double, kGroups> means(const SeenObject& seen, const Eigen::VectorXd&
 // l by paths, a mean over the groups' rows.
 std::array<double, kGroups> traced(const SeenObject& seen, const Led& led, const Medium& medium,
                                    const std::optional<DiffusePlane>& plane, int blocks) {
-  const PathBoundary boundary(*seen.object->rays);
-  const ScatteringMedium scattering = scattering_medium(medium);
-  const CameraConnection camera =
-      CameraConnection(boundary, seen.camera_center_mm, scattering).with(scattering, plane);
-  const ScatteringView view = scattering_view(*seen.patches, seen.map.patch_of_row);
-  ScatteringSum sum(view, Eigen::MatrixXd(0, view.n_rows));
-  const auto source = led_entry_above(*seen.object->rays, led, plane.value_or(DiffusePlane{}),
-                                      medium.eta_int_over_ext);
-  sum.trace({boundary, scattering, *source, &camera, plane}, {}, blocks);
-  return means(seen, sum.image().l);
+  return means(
+      seen, test_support::traced_image(seen, led, scattering_medium(medium), plane, 1, blocks).l);
 }
 
 // Change per unit of albedo, relative to the image without the plane, in each group: paths in the

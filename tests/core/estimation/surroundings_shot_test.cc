@@ -8,9 +8,9 @@
 #include "core/diffusion/dipole_curve.h"
 #include "core/estimation/channel_simulation.h"
 #include "core/estimation/transport_pilot.h"
-#include "core/light/plane_entry.h"
 #include "core/light/plane_light.h"
 #include "tests/fixtures/core/cube_estimation.h"
+#include "tests/fixtures/core/traced_image.h"
 
 namespace scattermeter {
 namespace {
@@ -109,17 +109,8 @@ TEST(SurroundingsShot, TransportSimulatesThePlane) {
   DipoleCube cube(1, 5.0);
   cube.show({0.9, 0.02, 1.3});
   const SeenObject& seen = *cube.shots[0].seen;
-  const PathBoundary boundary(*seen.object->rays);
-  const CameraConnection camera =
-      CameraConnection(boundary, seen.camera_center_mm, medium).with(medium, plane);
-  const ScatteringView view = scattering_view(*seen.patches, seen.map.patch_of_row);
-  const auto source =
-      led_entry_above(*seen.object->rays, cube.scene.lights[0].led()->led, plane, 1.3);
-  ScatteringSum sum(view, Eigen::MatrixXd(0, view.n_rows));
-  PathOptions options;
-  options.seed = 77'000'000;
-  sum.trace({boundary, medium, *source, &camera, plane}, options, 40);
-  const ScatteringImage shot = sum.image();
+  const ScatteringImage shot = test_support::traced_image(seen, cube.scene.lights[0].led()->led,
+                                                          medium, plane, 77'000'000, 40);
   const auto chi2_per_row = [&](const ScenePlane& stated) {
     cube.scene.surroundings.plane = stated;
     const MaterialChannel channel = material_channels(cube.scene, cube.shots, "R").front();
