@@ -20,10 +20,16 @@ namespace {
 constexpr double kStatedGammaStd = 0.1;
 
 void read_phase(const YamlField& field, SceneObject& object) {
-  field.only({"g", "g_std", "gamma", "gamma_std", "share", "other_g"});
-  const YamlField g = field.at("g");
   const auto gamma = field.find("gamma");
   const auto share = field.find("share");
+  if (gamma) {
+    field.only({"g", "gamma", "gamma_std"});
+  } else if (share) {
+    field.only({"g", "share", "other_g", "g_std"});
+  } else {
+    field.only({"g", "g_std"});
+  }
+  const YamlField g = field.at("g");
   // By Henyey and Greenstein, gamma is 1 + g.
   const auto std = field.find(gamma ? "gamma_std" : "g_std");
   constexpr double kLeast = -0.4, kMost = 0.99;

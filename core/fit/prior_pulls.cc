@@ -50,7 +50,7 @@ const char* advice(const std::string& group) {
       {"LED calibration", "calibrate the LED again"},
       {"scale", "check the LED's intensity and the camera's responsivity"},
       {"eta", "measure the refractive index, or state a larger eta_std"},
-      {"phase function", "state phase.g, or leave out phase"},
+      {"phase function", "state the phase function of the material, or a larger g_std"},
       {"even light", "switch off other lamps, or list an ambient light"},
       {"surroundings", "state the surroundings, or put the object on a black stand"},
       {"pedestal", "check the black level, and look for stray light and glare in the lens"},

@@ -131,6 +131,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "cube.obj, eta: 1.4",
                 "cube.obj, eta: 1.4, phase: {g: 0.5, gamma: 1.7}",
                 {"objects.cube.phase.gamma", "1.5", "1.7"}},
+        Mistake{"GammaStdWithoutGamma",
+                "cube.obj, eta: 1.4",
+                "cube.obj, eta: 1.4, phase: {g: 0.5, gamma_std: 0.2}",
+                {"objects.cube.phase.gamma_std", "unknown key", "g_std"}},
         Mistake{"NotYaml", "camera:", "camera: [", {"YAML"}}),
     [](const auto& mistake) { return mistake.param.name; });
 
