@@ -60,6 +60,23 @@ Carried carried(const ScatteringImage& here, const ScatteringImage& there) {
           (here.per_sigma_a.array() - factor * there.per_sigma_a.array()) / there.l.array(), 0.0)};
 }
 
+// Adds the light of a node, of some power, carried to the point. rows: those of the image and of
+// the light.
+void add_carried(const WhiteRows::Light& light, double power, const Share& share,
+                 const Carried& to_here,
+                 const std::vector<std::pair<Eigen::Index, Eigen::Index>>& rows,
+                 ScatteringImage& image) {
+  for (const auto& [row, at_view] : rows) {
+    const double l = power * light.l[at_view];
+    const double factor = share.weight * to_here.factor[row];
+    image.l[row] += factor * l;
+    image.per_log_sigma_s[row] += l * (share.weight * to_here.per_log_sigma_s[row] +
+                                       share.per_log_sigma_s * to_here.factor[row]);
+    image.per_sigma_a[row] +=
+        factor * power * light.per_sigma_a[at_view] + share.weight * l * to_here.per_sigma_a[row];
+  }
+}
+
 }  // namespace
 
 ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& channel,
@@ -134,13 +151,17 @@ Eigen::VectorXd ChannelSimulation::light_at_node(int node, double sigma_a_per_mm
 }
 
 ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int blocks,
-                                                const Eigen::SparseMatrix<double>& projection,
+                                                const Projections& projections,
                                                 const Control& control) const {
+  constexpr Eigen::Index kHalf = WhiteRows::kBatches / 2;
   Look out;
   ScatteringImage& image = out.image;
   image.l = image.per_log_sigma_s = image.per_sigma_a = image.variance =
       Eigen::VectorXd::Zero(n_rows());
-  out.covariance = Eigen::MatrixXd::Zero(projection.rows(), projection.rows());
+  ScatteringImage off{image.l, image.l, image.l, {}};  // of the second half
+  for (Eigen::MatrixXd& c : out.by_half) {
+    c = Eigen::MatrixXd::Zero(projections[0].rows(), projections[0].rows());
+  }
   const ScatteringImage here = control(at);
   // By light and view: 1 / blocks, and the sum of the nodes' squares of it.
   std::vector<double> errors(lit_.size(), 0.0), squares(lit_.size(), 0.0);
@@ -150,33 +171,42 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
     for (std::size_t i = 0; i < lit_.size(); ++i) {
       const Lit& v = lit_[i];
       const WhiteRows& node = v.in_atlas->node(share.node, share.levels);
-      const WhiteRows::Light light = node.light(at.sigma_a_per_mm);
-      const Eigen::MatrixXd departures = node.departures(at.sigma_a_per_mm);
-      const Eigen::VectorXd variance = departures.colwise().squaredNorm();
-      Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(departures.rows(), projection.rows());
+      const WhiteRows::Departures departures = node.departures(at.sigma_a_per_mm);
+      add_carried(node.light(at.sigma_a_per_mm), v.power, share, to_here, v.rows, image);
+      add_carried(departures.second_half, v.power, share, to_here, v.rows, off);
       for (const auto& [row, at_view] : v.rows) {
-        const double l = v.power * light.l[at_view];
-        const double factor = share.weight * to_here.factor[row];
-        image.l[row] += factor * l;
-        image.per_log_sigma_s[row] += l * (share.weight * to_here.per_log_sigma_s[row] +
-                                           share.per_log_sigma_s * to_here.factor[row]);
-        image.per_sigma_a[row] += factor * v.power * light.per_sigma_a[at_view] +
-                                  share.weight * l * to_here.per_sigma_a[row];
-        image.variance[row] += factor * factor * v.power * v.power * variance[at_view];
-        for (Eigen::SparseMatrix<double>::InnerIterator it(projection, row); it; ++it) {
-          projected.col(it.row()) += factor * v.power * it.value() * departures.col(at_view);
-        }
+        const double factor = share.weight * to_here.factor[row] * v.power;
+        image.variance[row] += factor * factor * departures.of_batch.col(at_view).squaredNorm();
       }
-      out.covariance += projected.transpose() * projected;
+      for (std::size_t half = 0; half < 2; ++half) {
+        const auto batches =
+            departures.of_batch.middleRows(static_cast<Eigen::Index>(half) * kHalf, kHalf);
+        Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(kHalf, projections[half].rows());
+        for (const auto& [row, at_view] : v.rows) {
+          const double factor = share.weight * to_here.factor[row] * v.power;
+          for (Eigen::SparseMatrix<double>::InnerIterator it(projections[half], row); it; ++it) {
+            projected.col(it.row()) += factor * it.value() * batches.col(at_view);
+          }
+        }
+        out.by_half[half] += 2.0 * projected.transpose() * projected;
+      }
       const double error =
           share.weight * share.weight * kBlockPaths / static_cast<double>(node.paths());
       errors[i] += error;
       squares[i] += error * error;
     }
   }
+  out.covariance = 0.5 * (out.by_half[0] + out.by_half[1]);
+  for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
+    const double sign = half == 0 ? -1.0 : 1.0;
+    out.halves[half] = {image.l + sign * off.l,
+                        image.per_log_sigma_s + sign * off.per_log_sigma_s,
+                        image.per_sigma_a + sign * off.per_sigma_a,
+                        {}};
+  }
   const auto most = std::max_element(errors.begin(), errors.end());
   out.blocks = static_cast<int>(std::lround(1.0 / *most));
-  out.freedom = (WhiteRows::kBatches - 1.0) * *most * *most /
+  out.freedom = (WhiteRows::kBatches - 2.0) * *most * *most /
                 squares[static_cast<std::size_t>(most - errors.begin())];
   return out;
 }

@@ -1,6 +1,7 @@
 // Simulation of the shots of one channel by volume Monte Carlo.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <utility>
@@ -41,14 +42,20 @@ class ChannelSimulation {
   // itself would have the errors of these.
   static constexpr double kBlockPaths = 4096.0;
   struct Look {
-    ScatteringImage image;       // at scale 1, W/mm^2
-    Eigen::MatrixXd covariance;  // of projection * image.l
-    int blocks = 0;              // of the light and view that has fewest; at least those asked for
+    ScatteringImage image;  // at scale 1, W/mm^2
+    PathHalves halves;      // the same from either half of the paths, without variances
+    // Of the mean of projections[half] * halves[half].l, and that of projections[half] * image.l
+    // as the half alone shows it.
+    Eigen::MatrixXd covariance;
+    std::array<Eigen::MatrixXd, 2> by_half;
+    int blocks = 0;  // of the light and view that has fewest; at least those asked for
     // Degrees of freedom of the covariance (Welch 1947, Satterthwaite 1946), of the same.
     double freedom = 0;
   };
-  // projection: any number of rows x n_rows(). Traces what is missing for so many blocks.
-  Look look(const ScatteringPoint& at, int blocks, const Eigen::SparseMatrix<double>& projection,
+  // For either half of the paths: any number of rows x n_rows().
+  using Projections = std::array<Eigen::SparseMatrix<double>, 2>;
+  // Traces what is missing for so many blocks.
+  Look look(const ScatteringPoint& at, int blocks, const Projections& projections,
             const Control& control) const;
   // The light alone, at a node of the atlas, from at least so many blocks there: as image.l.
   Eigen::VectorXd light_at_node(int node, double sigma_a_per_mm, int blocks) const;

@@ -1,6 +1,7 @@
 #include "core/estimation/transport_pilot.h"
 
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "core/diffusion/dipole_curve.h"
@@ -26,6 +27,35 @@ Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector
   const Eigen::Map<const Eigen::VectorXd> area(area_mm2.data(), l.size());
   const Eigen::VectorXd share = l.cwiseMax(0.0).cwiseQuotient(area);
   return share * (noisy_variance.sum() / share.sum());
+}
+
+bool PathPilots::have_learned() const {
+  constexpr double kBlocks = 32.0;
+  return light_[0].blocks() >= kBlocks;
+}
+
+void PathPilots::learn(const ShotParts& parts, const ChannelSimulation::Look& seen,
+                       const std::array<Eigen::MatrixXd, 2>& cells, const ScatteringImage& dipole) {
+  for (std::size_t half = 0; half < 2; ++half) {
+    light_[half].learn(parts, seen.halves[half], cells[half], 0.5 * seen.freedom, dipole,
+                       seen.blocks);
+  }
+}
+
+std::array<TransportRound::Pilot, 2> PathPilots::pilots(const ShotParts& parts,
+                                                        const ScatteringImage& dipole,
+                                                        const std::vector<double>& area_mm2,
+                                                        const Eigen::VectorXd& noisy_variance,
+                                                        double of_block) const {
+  std::array<TransportRound::Pilot, 2> out;
+  for (std::size_t half = 0; half < 2; ++half) {
+    ScatteringImage& image = out[half].image;
+    image = dipole;
+    if (have_learned()) light_[half].correct(parts, image);
+    image.variance = smooth_path_variance(image.l, area_mm2, noisy_variance);
+    out[half].cells = of_block * light_[half].relative_cell_covariance(parts);
+  }
+  return out;
 }
 
 DenseSystem system_of_paths(const DipoleSystem& dipole, double gamma_std) {

@@ -1,13 +1,18 @@
 // What the search by transport takes from the dipole: the shots' rows and a smooth pilot image.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/diffusion/distance_weights.h"
+#include "core/estimation/channel_simulation.h"
 #include "core/estimation/estimation.h"
+#include "core/estimation/transport_round.h"
+#include "core/fit/part_light.h"
 #include "core/fit/scattering_equation.h"
+#include "core/fit/shot_parts.h"
 #include "core/transport/scattering_rows.h"
 
 namespace scattermeter {
@@ -22,6 +27,28 @@ ScatteringImage dipole_pilot(const WeightMatrix& weights, const DistanceKnots& k
 // Precondition: some l is positive.
 Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector<double>& area_mm2,
                                      const Eigen::VectorXd& noisy_variance);
+
+// The pilots of a search: the dipole's image and derivatives, corrected part by part by what either
+// half of the paths shows.
+class PathPilots {
+ public:
+  void forget() { light_ = {}; }
+  // Whether there are enough paths to correct anything by, and for a round to be the last.
+  bool have_learned() const;
+  // dipole: at the look's point. cells: covariances of the light of the cells, by half.
+  void learn(const ShotParts& parts, const ChannelSimulation::Look& seen,
+             const std::array<Eigen::MatrixXd, 2>& cells, const ScatteringImage& dipole);
+  // dipole: at the point of the round. noisy_variance: of the rows, as by paths. of_block: the
+  // covariance of the errors to be expected over that of one block. Precondition: learn() was
+  // called.
+  std::array<TransportRound::Pilot, 2> pilots(const ShotParts& parts, const ScatteringImage& dipole,
+                                              const std::vector<double>& area_mm2,
+                                              const Eigen::VectorXd& noisy_variance,
+                                              double of_block) const;
+
+ private:
+  std::array<PartLight, 2> light_;
+};
 
 // The dipole's system for the search: with the light by way of the plane, which paths simulate, and
 // without the shifts of single shots: with these, the search for faint materials ends with scale

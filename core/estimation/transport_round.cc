@@ -17,7 +17,25 @@ constexpr double kWideningPValue = 1e-2;
 
 ScatteringImage part_of(const ScatteringImage& m, Eigen::Index first, Eigen::Index n) {
   return {m.l.segment(first, n), m.per_log_sigma_s.segment(first, n),
-          m.per_sigma_a.segment(first, n), m.variance.segment(first, n)};
+          m.per_sigma_a.segment(first, n),
+          m.variance.size() > 0 ? m.variance.segment(first, n) : Eigen::VectorXd()};
+}
+
+ScatteringImage mean_of(const ScatteringImage& a, const ScatteringImage& b) {
+  return {0.5 * (a.l + b.l), 0.5 * (a.per_log_sigma_s + b.per_log_sigma_s),
+          0.5 * (a.per_sigma_a + b.per_sigma_a), 0.5 * (a.variance + b.variance)};
+}
+
+// Of `n` rows from the `first` on.
+std::vector<EquationPilot> pilots_of(const ShotParts& parts, double scale,
+                                     const std::array<TransportRound::Pilot, 2>& pilots,
+                                     Eigen::Index first, Eigen::Index n) {
+  std::vector<EquationPilot> out;
+  for (const TransportRound::Pilot& pilot : pilots) {
+    out.push_back({part_of(pilot.image, first, n),
+                   correlated_rows(parts, scale * pilot.image.l, pilot.cells, first, n)});
+  }
+  return out;
 }
 
 // The largest factor of the Monte Carlo variance by which rows may scatter without exceeding `most`
@@ -31,14 +49,14 @@ double most_scatter(double most, const Eigen::VectorXd& light, const Eigen::Vect
 }  // namespace
 
 TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& scale,
-                               const ScatteringPoint& at, const ScatteringImage& pilot,
-                               double expected, const Eigen::MatrixXd& cells)
+                               const ScatteringPoint& at, const std::array<Pilot, 2>& pilots,
+                               double expected)
     : shots_(shots),
       scale_(scale),
       at_(at),
-      pilot_(pilot),
-      joint_(shots.system, scale, pilot, at, expected,
-             correlated_rows(shots.parts, at.scale * pilot.l, cells, 0, pilot.l.size())) {
+      pilot_(mean_of(pilots[0].image, pilots[1].image)),
+      joint_(shots.system, scale,
+             pilots_of(shots.parts, at.scale, pilots, 0, shots.system.l.size()), at, expected) {
   const std::vector<Eigen::Index>& shot_rows = shots.system.shot_rows;
   if (shot_rows.size() < 2) return;
   Eigen::Index first = 0;
@@ -51,17 +69,24 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
     std::vector<Eigen::Index> rows(static_cast<std::size_t>(n));
     std::iota(rows.begin(), rows.end(), single.first);
     single.system = selected(shots.system, rows);
-    single.equation.emplace(
-        single.system, scale, part_of(pilot, single.first, n), at, expected,
-        correlated_rows(shots.parts, at.scale * pilot.l, cells, single.first, n));
+    single.equation.emplace(single.system, scale,
+                            pilots_of(shots.parts, at.scale, pilots, single.first, n), at,
+                            expected);
   }
 }
 
-Eigen::SparseMatrix<double> TransportRound::projection() const {
+bool TransportRound::tests_scale() const {
+  return joint_.scale_form(0).size() > 0 && joint_.scale_form(1).size() > 0;
+}
+
+ChannelSimulation::Projections TransportRound::projections() const {
+  return {projection(0), projection(1)};
+}
+
+Eigen::SparseMatrix<double> TransportRound::projection(std::size_t half) const {
   const Eigen::Index n_cells = shots_.parts.n_cells();
   const Eigen::Index n_estimates = unknowns() * (1 + static_cast<Eigen::Index>(singles_.size()));
-  const Eigen::RowVectorXd& scale = joint_.scale_form();
-  const Eigen::Index before_cells = n_estimates + (scale.size() > 0 ? 1 : 0);
+  const Eigen::Index before_cells = n_estimates + (tests_scale() ? 1 : 0);
   std::vector<Eigen::Triplet<double>> values;
   const auto add = [&](Eigen::Index to, Eigen::Index first, const Eigen::MatrixXd& block) {
     for (Eigen::Index j = 0; j < block.cols(); ++j) {
@@ -70,12 +95,12 @@ Eigen::SparseMatrix<double> TransportRound::projection() const {
       }
     }
   };
-  add(0, 0, joint_.projection());
+  add(0, 0, joint_.projection(half));
   for (std::size_t i = 0; i < singles_.size(); ++i) {
     add(static_cast<Eigen::Index>(i + 1) * unknowns(), singles_[i].first,
-        singles_[i].equation->projection());
+        singles_[i].equation->projection(half));
   }
-  if (scale.size() > 0) add(n_estimates, 0, scale);
+  if (tests_scale()) add(n_estimates, 0, joint_.scale_form(half));
   for (Eigen::Index c = 0; c < n_cells; ++c) {
     for (ShotParts::Sums::InnerIterator it(shots_.parts.cells(), c); it; ++it) {
       values.emplace_back(before_cells + c, it.col(), it.value());
@@ -87,18 +112,15 @@ Eigen::SparseMatrix<double> TransportRound::projection() const {
 }
 
 void TransportRound::take(ChannelSimulation::Look look) {
-  image_ = std::move(look.image);
-  covariance_ = std::move(look.covariance);
-  blocks_ = look.blocks;
-  freedom_ = look.freedom;
-  const Eigen::MatrixXd own = covariance_.topLeftCorner(unknowns(), unknowns());
-  step_ = joint_.step(image_, own, at_);
+  look_ = std::move(look);
+  const Eigen::MatrixXd own = look_.covariance.topLeftCorner(unknowns(), unknowns());
+  step_ = joint_.step(look_.halves, own, at_);
   // Smoothed images, such as renderings, scatter less from row to row than over several rows; both
   // are noise. Offsets of whole parts are not.
   const Eigen::VectorXd rest = residual();
   const Eigen::VectorXd settled = joint_.without_nuisances(rest);
   const Eigen::VectorXd noise = shots_.system.std_l.cwiseAbs2();
-  const Eigen::VectorXd paths = at_.scale * at_.scale * image_.variance;
+  const Eigen::VectorXd paths = at_.scale * at_.scale * image().variance;
   const Eigen::VectorXd weights = joint_.row_variance().cwiseInverse();
   unexplained_ = std::sqrt(std::max(0.0, (settled.cwiseAbs2() - noise - paths).mean()) /
                            shots_.system.l.cwiseAbs2().mean());
@@ -109,23 +131,26 @@ void TransportRound::take(ChannelSimulation::Look look) {
   scatter_ = scatter_within_;
   misfit_ = misfit_of(rest);
   if (misfit_.p_value < kWideningPValue) scatter_ *= std::max(1.0, misfit_.chi2 / misfit_.dof);
-  step_ = joint_.step(image_, own, at_, scatter_);
+  step_ = joint_.step(look_.halves, own, at_, scatter_);
 }
 
 ScatteringEquation::ScaleTest TransportRound::scale_test() const {
-  if (joint_.scale_form().size() == 0) return {};
-  const Eigen::Index row = covariance_.rows() - shots_.parts.n_cells() - 1;
-  return joint_.scale_test(residual(), at_.scale * at_.scale * covariance_(row, row), scatter_);
+  if (!tests_scale()) return {};
+  const Eigen::MatrixXd& covariance = look_.covariance;
+  const Eigen::Index row = covariance.rows() - shots_.parts.n_cells() - 1;
+  return joint_.scale_test({joint_.residual(look_.halves[0], at_, step_.to),
+                            joint_.residual(look_.halves[1], at_, step_.to)},
+                           at_.scale * at_.scale * covariance(row, row), scatter_);
 }
 
-Eigen::MatrixXd TransportRound::cell_covariance() const {
+Eigen::MatrixXd TransportRound::of_cells(const Eigen::MatrixXd& covariance) const {
   const Eigen::Index n = shots_.parts.n_cells();
-  return covariance_.bottomRightCorner(n, n);
+  return covariance.bottomRightCorner(n, n);
 }
 
 // Among the cells of each part, about its own light.
 double TransportRound::scatter_of_cells(const Eigen::VectorXd& rest) const {
-  if (blocks_ < kLeastBlocks) return 1.0;
+  if (blocks() < kLeastBlocks) return 1.0;
   const ShotParts::Sums& about = shots_.parts.about_parts();
   const ShotParts::Sums light = about * shots_.parts.cells();
   const Eigen::VectorXd paths =
@@ -150,9 +175,11 @@ std::vector<ScatteringEquation::Step> TransportRound::steps_of_shots() const {
   std::vector<ScatteringEquation::Step> steps;
   for (std::size_t i = 0; i < singles_.size(); ++i) {
     const Eigen::Index first = static_cast<Eigen::Index>(i + 1) * unknowns();
+    const Eigen::Index n = singles_[i].system.l.size();
     steps.push_back(singles_[i].equation->step(
-        part_of(image_, singles_[i].first, singles_[i].system.l.size()),
-        covariance_.block(first, first, unknowns(), unknowns()), at_, scatter_));
+        {part_of(look_.halves[0], singles_[i].first, n),
+         part_of(look_.halves[1], singles_[i].first, n)},
+        look_.covariance.block(first, first, unknowns(), unknowns()), at_, scatter_));
   }
   return steps;
 }
@@ -170,7 +197,8 @@ ShotAgreement TransportRound::agreement(const std::vector<ScatteringEquation::St
       // Shots under the same light share paths.
       const Eigen::MatrixXd paths =
           at_.scale * at_.scale *
-          covariance_.block((i + 1) * unknowns(), (k + 1) * unknowns(), unknowns(), unknowns());
+          look_.covariance.block((i + 1) * unknowns(), (k + 1) * unknowns(), unknowns(),
+                                 unknowns());
       const Eigen::MatrixXd shared =
           a.common_causes * b.common_causes.transpose() + a.inverse * paths * b.inverse.transpose();
       all.block<2, 2>(2 * i, 2 * k) = shared.topLeftCorner<2, 2>();
@@ -188,13 +216,13 @@ Eigen::MatrixXd TransportRound::covariance_of_parts(const ShotParts::Sums& light
   // Schneider 2007); parts of other shots do not count.
   const double own_parts =
       static_cast<double>(n) / static_cast<double>(shots_.system.shot_rows.size());
-  const double too_large = freedom_ / std::max(1.0, freedom_ - own_parts - 1.0);
+  const double too_large = look_.freedom / std::max(1.0, look_.freedom - own_parts - 1.0);
   return noise + at_.scale * at_.scale * scatter_within_ * too_large *
                      (shots_.parts.parts() * cell_covariance() * shots_.parts.parts().transpose());
 }
 
 LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
-  if (blocks_ < kLeastBlocks) return {};
+  if (blocks() < kLeastBlocks) return {};
   const ShotParts::Sums light = shots_.parts.parts() * shots_.parts.cells();
   const Eigen::Index n = light.rows();
   const Eigen::MatrixXd j = light * ScatteringEquation::jacobian(pilot_, at_, unknowns() == 3);
@@ -212,7 +240,7 @@ LackOfFit TransportRound::misfit_of(const Eigen::VectorXd& rest) const {
 }
 
 ModelJudgement TransportRound::judgement() const {
-  if (blocks_ < kLeastBlocks) return {};
+  if (blocks() < kLeastBlocks) return {};
   const ShotParts::Sums light = shots_.parts.parts() * shots_.parts.cells();
   const Eigen::MatrixXd root = cholesky_lower(covariance_of_parts(light));
   if (!root.allFinite()) return {};

@@ -1,6 +1,7 @@
 // One point of the search for a medium by transport.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -33,31 +34,40 @@ class TransportRound {
   // Shots with fewer rows have no estimate of their own.
   static constexpr Eigen::Index kLeastRows = 20;
 
-  // pilot: smooth and independent of the paths to come. expected: expected variance of the rows, by
-  // Monte Carlo and by other errors of the shots, over the pilot's; cells: the corresponding
-  // covariance of the cells' relative light. Both are used in the weights only.
+  struct Pilot {
+    ScatteringImage image;  // smooth
+    // Covariance of the cells' relative light that corresponds to `expected`.
+    Eigen::MatrixXd cells;
+  };
+  // pilots: each from one half of the paths to come (ScatteringEquation). expected: expected
+  // variance of the rows, by Monte Carlo and by other errors of the shots, over the pilots'; used
+  // in the weights only.
   TransportRound(const TransportShots& shots, const ScalePrior& scale, const ScatteringPoint& at,
-                 const ScatteringImage& pilot, double expected, const Eigen::MatrixXd& cells);
+                 const std::array<Pilot, 2>& pilots, double expected);
   // The equations refer to other members.
   TransportRound(const TransportRound&) = delete;
   TransportRound& operator=(const TransportRound&) = delete;
 
-  // The projection for the joint estimate, for each shot's own, for the scale (if stated), and for
+  // The projections for the joint estimate, for each shot's own, for the scale (if stated), and for
   // the light of the cells.
-  Eigen::SparseMatrix<double> projection() const;
+  ChannelSimulation::Projections projections() const;
   // Takes a look at this point with that projection. Everything below refers to the last one.
   void take(ChannelSimulation::Look look);
 
   const ScatteringPoint& at() const { return at_; }
   const ScatteringEquation& equation() const { return joint_; }
-  const ScatteringImage& image() const { return image_; }
+  const ScatteringImage& image() const { return look_.image; }
+  // The mean of both.
   const ScatteringImage& pilot() const { return pilot_; }
-  int blocks() const { return blocks_; }
-  Eigen::MatrixXd cell_covariance() const;
+  int blocks() const { return look_.blocks; }
+  const ChannelSimulation::Look& look() const { return look_; }
+  Eigen::MatrixXd cell_covariance() const { return of_cells(look_.covariance); }
+  // Of projections() times an image, the light of the cells alone.
+  Eigen::MatrixXd of_cells(const Eigen::MatrixXd& covariance) const;
   // The step to the joint estimate, scatter included.
   const ScatteringEquation::Step& step() const { return step_; }
   // Measured minus predicted l at its end.
-  Eigen::VectorXd residual() const { return joint_.residual(image_, at_, step_.to); }
+  Eigen::VectorXd residual() const { return joint_.residual(image(), at_, step_.to); }
   // Error variance of the shots beyond their noise, over the Monte Carlo variance: within their
   // parts, and in total (a misfit of the parts less probable than 1 in 100 widens it by Birge's
   // ratio). The former is limited: rows may scatter by kMostRowScatter of the image beyond noise
@@ -94,7 +104,9 @@ class TransportRound {
     DenseSystem system;
     std::optional<ScatteringEquation> equation;
   };
-  Eigen::Index unknowns() const { return joint_.projection().rows(); }
+  Eigen::Index unknowns() const { return joint_.projection(0).rows(); }
+  bool tests_scale() const;
+  Eigen::SparseMatrix<double> projection(std::size_t half) const;
   double scatter_of_cells(const Eigen::VectorXd& rest) const;
   // Covariance of the light of the parts by noise, Monte Carlo and scatter within them.
   Eigen::MatrixXd covariance_of_parts(const ShotParts::Sums& light) const;
@@ -106,15 +118,12 @@ class TransportRound {
   ScatteringImage pilot_;
   ScatteringEquation joint_;
   std::vector<Single> singles_;
-  ScatteringImage image_;
-  Eigen::MatrixXd covariance_;  // of projection() * image
+  ChannelSimulation::Look look_;
   double unexplained_ = 0;
   double scatter_within_ = 1;
   double scatter_ = 1;
   LackOfFit misfit_;
   ScatteringEquation::Step step_;
-  int blocks_ = 0;
-  double freedom_ = 0;  // of covariance_
 };
 
 }  // namespace scattermeter

@@ -16,7 +16,6 @@
 #include "core/estimation/transport_round.h"
 #include "core/estimation/transport_start.h"
 #include "core/estimation/transport_verdict.h"
-#include "core/fit/part_light.h"
 #include "core/fit/residual.h"
 #include "core/transport/path_budget.h"
 #include "core/view/row_selection.h"
@@ -28,8 +27,6 @@ constexpr int kFirstBlocks = 8;
 constexpr int kMaxRounds = 30;
 // Rounds after which every further one has more paths.
 constexpr int kPatience = 5;
-// Blocks of paths from which the pilot must have learned before a round may be the last.
-constexpr double kLearnedBlocks = 32.0;
 // Time limits that a search may take which lacks but its last blocks to be judged.
 constexpr double kLongest = 1.5;
 // Relative change of the image by a step beyond which earlier paths do not apply to the new point.
@@ -81,17 +78,20 @@ class TransportSearch {
     for (int i = 0; i < kMaxRounds && budget_.left_s() > 0.0; ++i) {
       stage_.check();
       system_.nuisance_columns.col(0) = phase_.change(system_.weights, at);
-      const bool learned = part_light_.blocks() >= kLearnedBlocks;
+      const bool learned = pilots_.have_learned();
       // During the search, a scale with a prior is taken as exact: that is more stable.
-      TransportRound round({system_, parts_}, learned || has_free_scale() ? scale_ : ScalePrior{},
-                           at, pilot(last.image, at),
-                           last.blocks / kFinalPathBlocks + last.scatter - 1.0,
-                           (1.0 / kFinalPathBlocks + (last.scatter - 1.0) / last.blocks) *
-                               part_light_.relative_cell_covariance(parts_));
+      TransportRound round(
+          {system_, parts_}, learned || has_free_scale() ? scale_ : ScalePrior{}, at,
+          pilots_.pilots(parts_, dipole(at), simulation_.area_mm2(), last.image.variance,
+                         1.0 / kFinalPathBlocks + (last.scatter - 1.0) / last.blocks),
+          last.blocks / kFinalPathBlocks + last.scatter - 1.0);
       trace(round, blocks, learned);
-      if (round.step().change > kFarStep) part_light_.forget();
+      if (round.step().change > kFarStep) pilots_.forget();
       last = {round.image(), round.blocks(), round.scatter()};
-      part_light_.learn(parts_, round.image(), round.cell_covariance(), dipole(at), round.blocks());
+      pilots_.learn(
+          parts_, round.look(),
+          {round.of_cells(round.look().by_half[0]), round.of_cells(round.look().by_half[1])},
+          dipole(at));
       const ScatteringPoint to = round.step().to;
       if (learned && is_close(round.step(), round.blocks())) {
         if (outliers_known || !leave_outliers_out(round)) return report(round, result);
@@ -133,11 +133,11 @@ class TransportSearch {
   bool has_free_scale() const { return !std::isfinite(scale_.relative_std); }
 
   ChannelSimulation::Look look(const ScatteringPoint& at, int blocks,
-                               const Eigen::SparseMatrix<double>& projection) {
+                               const ChannelSimulation::Projections& projections) {
     const double started_s = budget_.elapsed_s();
     const std::int64_t paths = simulation_.missing_paths(at, blocks);
     ChannelSimulation::Look out = simulation_.look(
-        at, blocks, projection, [this](const ScatteringPoint& p) { return dipole(p); });
+        at, blocks, projections, [this](const ScatteringPoint& p) { return dipole(p); });
     budget_.count(paths, budget_.elapsed_s() - started_s);
     return out;
   }
@@ -145,8 +145,8 @@ class TransportSearch {
   // `blocks` of paths at the round's point; where that is close enough to the root (may_be_last),
   // as many as are useful and as time and options allow.
   void trace(TransportRound& round, int blocks, bool may_be_last) {
-    const Eigen::SparseMatrix<double> projection = round.projection();
-    round.take(look(round.at(), blocks, projection));
+    const ChannelSimulation::Projections projections = round.projections();
+    round.take(look(round.at(), blocks, projections));
     while (may_be_last && is_close(round.step(), round.blocks()) &&
            !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
       stage_.check();
@@ -156,7 +156,7 @@ class TransportSearch {
         more = kLeastBlocks;
       }
       if (more == 0) break;
-      round.take(look(round.at(), more, projection));
+      round.take(look(round.at(), more, projections));
     }
   }
 
@@ -166,8 +166,8 @@ class TransportSearch {
   }
 
   Look first_look(const ScatteringPoint& at) {
-    ChannelSimulation::Look seen = look(at, kFirstBlocks, parts_.cells());
-    part_light_.learn(parts_, seen.image, seen.covariance, dipole(at), seen.blocks);
+    ChannelSimulation::Look seen = look(at, kFirstBlocks, {parts_.cells(), parts_.cells()});
+    pilots_.learn(parts_, seen, seen.by_half, dipole(at));
     return {std::move(seen.image), seen.blocks, 1.0};
   }
 
@@ -193,7 +193,7 @@ class TransportSearch {
     phase_.set_rows(rows_);
     parts_ =
         ShotParts(system_.shot_rows, simulation_.center_mm(), simulation_.area_mm2(), system_.l);
-    part_light_.forget();
+    pilots_.forget();
   }
 
   // Whether there were any.
@@ -220,14 +220,6 @@ class TransportSearch {
 
   ScatteringImage dipole(const ScatteringPoint& at) const {
     return dipole_pilot(system_.weights, knots_, at, channel_.eta_int_over_ext);
-  }
-
-  // The dipole's image and derivatives, corrected part by part.
-  ScatteringImage pilot(const ScatteringImage& noisy, const ScatteringPoint& at) const {
-    ScatteringImage out = dipole(at);
-    if (part_light_.blocks() >= kLearnedBlocks) part_light_.correct(parts_, out);
-    out.variance = smooth_path_variance(out.l, simulation_.area_mm2(), noisy.variance);
-    return out;
   }
 
   void report(const TransportRound& round, ChannelResult& result) const {
@@ -284,7 +276,7 @@ class TransportSearch {
   ChannelSimulation simulation_;
   PhaseNuisance phase_;
   ShotParts parts_;
-  PartLight part_light_;
+  PathPilots pilots_;
   PathBudget budget_;
 };
 

@@ -8,9 +8,10 @@
 namespace scattermeter {
 
 void PartLight::learn(const ShotParts& parts, const ScatteringImage& image,
-                      const Eigen::MatrixXd& cell_covariance, const ScatteringImage& dipole,
-                      int blocks) {
+                      const Eigen::MatrixXd& cell_covariance, double freedom,
+                      const ScatteringImage& dipole, double blocks) {
   const double n = blocks;
+  freedom_ = std::max(freedom_, freedom);
   if (blocks_ == 0.0) cell_variance_ = 0.0 * cell_covariance;
   cell_variance_ += n * n * cell_covariance;
   blocks_ += n;
@@ -46,7 +47,8 @@ void PartLight::correct(const ShotParts& parts, ScatteringImage& dipole) const {
 Eigen::MatrixXd PartLight::relative_cell_covariance(const ShotParts& parts) const {
   // Cells of one shot; those of others share few paths.
   constexpr double kCells = 64.0;
-  const double share = blocks_ / (blocks_ + std::min(kCells, static_cast<double>(parts.n_cells())));
+  const double cells = std::min(kCells, static_cast<double>(parts.n_cells()));
+  const double share = freedom_ / (freedom_ + cells);
   Eigen::MatrixXd out = share / blocks_ * cell_variance_;
   out.diagonal() = cell_variance_.diagonal() / blocks_;
   return out;

@@ -16,19 +16,21 @@ namespace scattermeter {
 // the same paths.
 class PartLight {
  public:
-  void forget() { *this = {}; }
   // image: from `blocks` blocks of paths; dipole: for the same medium; cell_covariance: of
-  // parts.cells() * image.l. An image with a dark part is used for the covariance only.
+  // parts.cells() * image.l, with `freedom` degrees of freedom. An image with a dark part is used
+  // for the covariance only.
   void learn(const ShotParts& parts, const ScatteringImage& image,
-             const Eigen::MatrixXd& cell_covariance, const ScatteringImage& dipole, int blocks);
+             const Eigen::MatrixXd& cell_covariance, double freedom, const ScatteringImage& dipole,
+             double blocks);
   double blocks() const { return blocks_; }
 
   // Corrects l and the derivatives of a dipole's image by what was learnt.
   void correct(const ShotParts& parts, ScatteringImage& dipole) const;
 
-  // Covariance of the cells' relative light from one block of paths. A few blocks determine the
-  // correlations of cells less well than their variances; the correlations are shrunk towards zero,
-  // as otherwise some combination of cells would appear free of error. Precondition: blocks() > 0.
+  // Covariance of the cells' relative light from one block of paths. Few degrees of freedom
+  // determine the correlations of cells less well than their variances; the correlations are shrunk
+  // towards zero, as otherwise some combination of cells would appear free of error. Precondition:
+  // blocks() > 0.
   Eigen::MatrixXd relative_cell_covariance(const ShotParts& parts) const;
 
  private:
@@ -36,6 +38,7 @@ class PartLight {
   double learnt_ = 0;
   Eigen::MatrixXd cell_variance_;  // of one block, times the blocks
   double blocks_ = 0;
+  double freedom_ = 0;  // the most so far: later images may be of the same paths
 };
 
 // Errors of `n` rows from the `first` on, with the correlation of their cells' errors. l: of all

@@ -1,6 +1,8 @@
 // The estimating equation for the medium whose simulated image matches the observed one.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -28,26 +30,41 @@ struct CorrelatedErrors {
   Eigen::MatrixXd root = {};                                 // groups x columns
 };
 
+// What the weights of the rows are learned from.
+struct EquationPilot {
+  ScatteringImage image;  // smooth, at the point of the equation
+  // The correlation between rows of errors to be expected; used in the weights only.
+  CorrelatedErrors errors = {};
+};
+
+// By half of the paths, which share none.
+using PathHalves = std::array<ScatteringImage, 2>;
+
 // Z^T W (y - scale * m(point)) = 0, to be solved with noisy m. A least-squares fit would take
-// weights and derivatives from the same noisy paths as m, which would bias it; here Z and W come
-// from a pilot simulation that shares no path with m, so the equation is linear in m and its root
-// unbiased to first order (PHYSICS: an estimating equation). W is the inverse of the full
-// covariance of the rows: their noise, the pilot's Monte Carlo variance, and the priors of the
+// weights and derivatives from the same noisy paths as m, which would bias it, by the more the less
+// of Z the nuisances leave; here the image of one half of the paths is weighed by Z and W learned
+// from the other, so the equation is linear in m and its root unbiased to first order (PHYSICS: an
+// estimating equation; Chernozhukov et al. 2018: cross-fitting). Its deviations are unbiased for
+// the same reason: W favours what its own half's paths happen to know well. W is the inverse of the
+// full covariance of the rows: their noise, the pilot's Monte Carlo variance, and the priors of the
 // nuisances.
 class ScatteringEquation {
  public:
-  // pilot: image at `at`, with the system's rows (l for the shots' real lights: W/mm^2 at scale 1).
-  // monte_carlo: expected variance of the m to come, and of the shots' errors beyond their noise,
-  // relative to the pilot's variance. correlated: the correlation of these errors between rows;
-  // used in the weights only. Precondition: equal numbers of rows (std::invalid_argument).
+  // pilots: images at `at`, with the system's rows (l for the shots' real lights: W/mm^2 at scale
+  // 1), learned from either half of the paths; or one, from paths of its own. monte_carlo: expected
+  // variance of the m to come, and of the shots' errors beyond their noise, relative to the pilot's
+  // variance. Precondition: equal numbers of rows, one or two pilots (std::invalid_argument).
   ScatteringEquation(const DenseSystem& system, const ScalePrior& scale,
-                     const ScatteringImage& pilot, const ScatteringPoint& at,
-                     double monte_carlo = 1.0, CorrelatedErrors correlated = {});
+                     std::vector<EquationPilot> pilots, const ScatteringPoint& at,
+                     double monte_carlo = 1.0);
+  ScatteringEquation(const DenseSystem& system, const ScalePrior& scale,
+                     const ScatteringImage& pilot, const ScatteringPoint& at)
+      : ScatteringEquation(system, scale, {{pilot, {}}}, at) {}
 
-  // Unknowns x rows: Z^T W. Unknowns: log sigma_s, sigma_a, and log scale where it is free. A scale
-  // with a prior is a nuisance, since noisy derivatives leave the sign of an equation of its own
-  // undetermined.
-  const Eigen::MatrixXd& projection() const { return projection_; }
+  // Unknowns x rows: Z^T W for the image of a half (0 or 1). Unknowns: log sigma_s, sigma_a, and
+  // log scale where it is free. A scale with a prior is a nuisance, since noisy derivatives leave
+  // the sign of an equation of its own undetermined.
+  const Eigen::MatrixXd& projection(std::size_t half) const { return of(half).projection; }
 
   struct Step {
     ScatteringPoint to;
@@ -67,15 +84,16 @@ class ScatteringEquation {
     // The same, or where the root has a negative sigma_a, to the most probable point at 0: the
     // other unknowns follow by their covariance with it. Before the step is cut.
     Eigen::VectorXd taken;
-    Eigen::MatrixXd inverse;  // from projection() * l to the move
+    Eigen::MatrixXd inverse;  // from the mean of projection(half) * l(half) to the move
     // Moves caused by one deviation of each common cause: a column for every nuisance, and one for
     // a scale with a prior.
     Eigen::MatrixXd common_causes;
   };
-  // One Newton step from `at`, given m there and the covariance of projection() * m at scale 1. A
-  // step is cut to a change of 0.4 and ends at sigma_a = 0 at the latest. scatter >= 1: the rows'
-  // error variance beyond their noise over their Monte Carlo variance (core/fit/excess_scatter.h).
-  Step step(const ScatteringImage& m, const Eigen::MatrixXd& projected_covariance,
+  // One Newton step from `at`, given m there and the covariance of the mean of projection(half) *
+  // m(half) at scale 1. A step is cut to a change of 0.4 and ends at sigma_a = 0 at the latest.
+  // scatter >= 1: the rows' error variance beyond their noise over their Monte Carlo variance
+  // (core/fit/excess_scatter.h).
+  Step step(const PathHalves& m, const Eigen::MatrixXd& projected_covariance,
             const ScatteringPoint& at, double scatter = 1.0) const;
 
   // Measured minus predicted l at a step's end, m extrapolated linearly from `at`; nuisances
@@ -85,22 +103,24 @@ class ScatteringEquation {
   // The same minus the effect of the nuisances at their most probable values.
   Eigen::VectorXd without_nuisances(const Eigen::VectorXd& residual) const;
   // Variance of noise and Monte Carlo as used in the weights.
-  const Eigen::VectorXd& row_variance() const { return row_variance_; }
+  const Eigen::VectorXd& row_variance() const { return weights_.front().row_variance; }
   // Columns times their standard deviations, the last for a scale with a prior; free ones at a size
   // far beyond what the rows leave undetermined.
-  const Eigen::MatrixXd& nuisances() const { return nuisances_; }
-  // Row vector that estimates the offset of log scale from its stated value from measured minus
-  // predicted l: 1 on scale * pilot.l, 0 on changes by the unknowns, of minimum variance. Empty if
-  // the scale is free or if the unknowns can imitate it.
-  const Eigen::RowVectorXd& scale_form() const { return scale_form_; }
+  const Eigen::MatrixXd& nuisances() const { return weights_.front().nuisances; }
+  // Row vector that estimates, from the image of a half, the offset of log scale from its stated
+  // value from measured minus predicted l: 1 on scale * pilot.l, 0 on changes by the unknowns, of
+  // minimum variance. Empty if the scale is free or if the unknowns can imitate it.
+  const Eigen::RowVectorXd& scale_form(std::size_t half) const { return of(half).scale_form; }
   struct ScaleTest {
     double offset = 0;   // of log scale: best minus stated
     double std = 0;      // of the offset if the stated scale is true, prior included
     double p_value = 1;  // of at least this offset
   };
-  // form_variance: Monte Carlo variance of scale_form() times the predicted l. Nuisances vary
-  // within their priors; under uniform light the test is impossible and p is 1.
-  ScaleTest scale_test(const Eigen::VectorXd& residual, double form_variance, double scatter) const;
+  // residuals: residual() with the image of either half. form_variance: Monte Carlo variance of the
+  // mean of scale_form(half) times the predicted l. Nuisances vary within their priors; under
+  // uniform light the test is impossible and p is 1.
+  ScaleTest scale_test(const std::array<Eigen::VectorXd, 2>& residuals, double form_variance,
+                       double scatter) const;
   // Adds to a step the covariance of an error of log scale by `offset`, of unknown sign.
   void widen_by_scale(double offset, Step& step) const;
   // The most probable log scale if it has a prior; else 0.
@@ -110,21 +130,36 @@ class ScatteringEquation {
                                   bool scale_moves);
 
  private:
-  // Nuisances and correlated errors, as columns: transposed times rows, and times coefficients.
-  Eigen::MatrixXd in_columns(const Eigen::MatrixXd& rows) const;
-  Eigen::VectorXd in_rows(const Eigen::VectorXd& columns) const;
-  Eigen::VectorXd solve_covariance(const Eigen::VectorXd& rows) const;
+  // Learned from one pilot.
+  struct Weights {
+    Weights(const DenseSystem& system, const ScalePrior& scale, EquationPilot pilot,
+            const ScatteringPoint& at, double monte_carlo);
+    // Nuisances and correlated errors, as columns: transposed times rows, and times coefficients.
+    Eigen::MatrixXd in_columns(const Eigen::MatrixXd& rows) const;
+    Eigen::VectorXd in_rows(const Eigen::VectorXd& columns) const;
+    Eigen::VectorXd solve_covariance(const Eigen::VectorXd& rows) const;
+    Eigen::VectorXd row_variance;  // noise and Monte Carlo
+    Eigen::MatrixXd nuisances;     // columns times their standard deviations
+    CorrelatedErrors errors;
+    Eigen::MatrixXd capacitance;  // of Woodbury's identity, inverted
+    Eigen::MatrixXd projection;
+    Eigen::VectorXd relative_size;  // of the image's change with each unknown
+    Eigen::VectorXd per_log_scale;  // scale * image.l
+    Eigen::RowVectorXd scale_form;
+  };
+  // Those for the image of a half.
+  const Weights& of(std::size_t half) const {
+    return weights_.size() == 1 ? weights_.front() : weights_[1 - half];
+  }
+  // The mean of `f(weights, half)` over the halves.
+  template <class F>
+  Eigen::MatrixXd mean(const F& f) const {
+    return 0.5 * (f(of(0), 0) + f(of(1), 1));
+  }
   const DenseSystem& system_;
   ScalePrior scale_;
-  Eigen::VectorXd row_variance_;     // noise and Monte Carlo
   std::vector<std::string> causes_;  // of the nuisances
-  Eigen::MatrixXd nuisances_;        // columns times their standard deviations
-  CorrelatedErrors correlated_;
-  Eigen::MatrixXd capacitance_;  // of Woodbury's identity, inverted
-  Eigen::MatrixXd projection_;
-  Eigen::VectorXd relative_size_;  // of the image's change with each unknown
-  Eigen::VectorXd per_log_scale_;  // scale * pilot.l
-  Eigen::RowVectorXd scale_form_;
+  std::vector<Weights> weights_;
 };
 
 }  // namespace scattermeter

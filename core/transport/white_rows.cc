@@ -97,18 +97,29 @@ WhiteRows::Light WhiteRows::light(double sigma_a_per_mm) const {
           (sums_.sum.transpose() * c.per_sigma_a).cwiseProduct(per_area)};
 }
 
-Eigen::MatrixXd WhiteRows::departures(double sigma_a_per_mm) const {
+WhiteRows::Departures WhiteRows::departures(double sigma_a_per_mm) const {
+  constexpr Eigen::Index kHalf = kBatches / 2;
   const AbsorptionTilts::Combination c = tilts_.at(sigma_a_per_mm, kBatchStep);
   Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(kBatches, view_.n_rows);
+  Eigen::RowVectorXf per_sigma_a = Eigen::RowVectorXf::Zero(view_.n_rows);
   for (std::size_t j = 0; j < sums_.batch.size(); ++j) {
-    sums += static_cast<float>(c.l[static_cast<Eigen::Index>(j) * kBatchStep]) * sums_.batch[j];
+    const Eigen::Index tilt = static_cast<Eigen::Index>(j) * kBatchStep;
+    const Eigen::MatrixXf& batch = sums_.batch[j];
+    sums += static_cast<float>(c.l[tilt]) * batch;
+    per_sigma_a += static_cast<float>(c.per_sigma_a[tilt]) *
+                   (batch.bottomRows(kHalf).colwise().sum() - batch.topRows(kHalf).colwise().sum());
   }
-  const double own_paths = static_cast<double>(paths()) / kBatches;
-  const Eigen::VectorXd size =
-      (std::sqrt(kBatches * (kBatches - 1.0)) * own_paths * view_.area_mm2).cwiseInverse();
-  Eigen::MatrixXd out = sums.cast<double>();
-  out.rowwise() -= Eigen::RowVectorXd(out.colwise().mean());
-  return out * size.asDiagonal();
+  const Eigen::VectorXd per_area = (static_cast<double>(paths()) * view_.area_mm2).cwiseInverse();
+  Departures out{sums.cast<double>(), {}};
+  auto first = out.of_batch.topRows(kHalf), second = out.of_batch.bottomRows(kHalf);
+  const Eigen::RowVectorXd first_mean = first.colwise().mean(),
+                           second_mean = second.colwise().mean();
+  first.rowwise() -= first_mean;
+  second.rowwise() -= second_mean;
+  out.second_half = {(kHalf * (second_mean - first_mean)).transpose().cwiseProduct(per_area),
+                     per_sigma_a.cast<double>().transpose().cwiseProduct(per_area)};
+  out.of_batch *= std::sqrt(kBatches / (kBatches - 2.0)) * per_area.asDiagonal();
+  return out;
 }
 
 }  // namespace scattermeter

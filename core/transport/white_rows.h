@@ -55,8 +55,14 @@ class WhiteRows {
   };
   // Precondition: levels() > 0.
   Light light(double sigma_a_per_mm) const;
-  // D, kBatches x rows: D^T D estimates the covariance of light().l. Precondition: levels() > 0.
-  Eigen::MatrixXd departures(double sigma_a_per_mm) const;
+  struct Departures {
+    // D, kBatches x rows: D^T D estimates the covariance of light().l; those of the first half of
+    // the batches and those of the second each have a mean of 0.
+    Eigen::MatrixXd of_batch;
+    Light second_half;  // light() of the second half of the batches minus that of all
+  };
+  // Precondition: levels() > 0.
+  Departures departures(double sigma_a_per_mm) const;
 
  private:
   // Every second tilt is kept for each batch: errors need to be known to some per cent only.

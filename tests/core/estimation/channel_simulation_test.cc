@@ -35,13 +35,30 @@ TEST(ChannelSimulation, CovarianceOfTheRowsHoldsTheirVariances) {
   SimulatedCube c;
   const ChannelSimulation::Look look = c.look(3);
   EXPECT_GE(look.blocks, 3);
-  EXPECT_GE(look.freedom, WhiteRows::kBatches - 1.0);
+  EXPECT_GE(look.freedom, WhiteRows::kBatches - 2.0);
   const ScatteringImage& image = look.image;
   ASSERT_EQ(image.l.size(), c.simulation->n_rows());
   EXPECT_GT(image.l.minCoeff(), 0.0);
   EXPECT_LT((look.covariance.diagonal() - image.variance).norm(), 1e-9 * image.variance.norm());
   const auto first = static_cast<Eigen::Index>(c.rows[0].rows_used);
   EXPECT_EQ(look.covariance.topRightCorner(first, look.covariance.cols() - first).norm(), 0.0);
+}
+
+// The halves are images themselves, whose mean is the image, and err as their covariances say.
+TEST(ChannelSimulation, HalvesAreIndependentImages) {
+  SimulatedCube c;
+  const ChannelSimulation::Look look = c.look(3);
+  const PathHalves& h = look.halves;
+  EXPECT_LT((0.5 * (h[0].l + h[1].l) - look.image.l).norm(), 1e-12 * look.image.l.norm());
+  EXPECT_LT((0.5 * (h[0].per_sigma_a + h[1].per_sigma_a) - look.image.per_sigma_a).norm(),
+            1e-12 * look.image.per_sigma_a.norm());
+  const Eigen::ArrayXd apart = 0.5 * (h[0].l - h[1].l).array();
+  const double chi2 = (apart.square() / look.image.variance.array()).mean();
+  EXPECT_GT(chi2, 0.3);
+  EXPECT_LT(chi2, 2.5);
+  EXPECT_LT((0.5 * (look.by_half[0] + look.by_half[1]) - look.covariance).norm(),
+            1e-12 * look.covariance.norm());
+  EXPECT_NEAR(look.by_half[0].trace() / look.by_half[1].trace(), 1.0, 0.5);
 }
 
 // Lit by 3 W/sr instead of 1: the same paths, three times the light, nine times the variance.

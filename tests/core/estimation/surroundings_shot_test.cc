@@ -119,9 +119,10 @@ TEST(SurroundingsShot, TransportSimulatesThePlane) {
     TransportAtlas atlas;
     ChannelSimulation simulation(cube.scene, channel, atlas);
     simulation.set_rows(rows);
+    const Eigen::SparseMatrix<double> none(0, simulation.n_rows());
     const ScatteringImage image =
         simulation
-            .look({0.9, 0.02, 1.0}, 40, Eigen::SparseMatrix<double>(0, simulation.n_rows()),
+            .look({0.9, 0.02, 1.0}, 40, {none, none},
                   [&](const ScatteringPoint& at) {
                     return dipole_pilot(system.weights, smooth_knots(cube.lit), at, 1.3);
                   })

@@ -1,5 +1,6 @@
 #include "core/estimation/transport_round.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -27,20 +28,20 @@ class RoundOfTheCube : public ::testing::Test {
     simulation_->set_rows(rows_);
     parts_ =
         ShotParts(system_.shot_rows, simulation_->center_mm(), simulation_->area_mm2(), system_.l);
-    const ChannelSimulation::Look first = look(parts_.cells());
+    const ChannelSimulation::Look first = look({parts_.cells(), parts_.cells()});
     image_ = first.image;
     cell_covariance_ = first.covariance;
     system_.l = image_.l;
-    round_.emplace(TransportShots{system_, parts_}, ScalePrior{0.02}, kRoundPoint, pilot(), 1.0,
-                   Eigen::MatrixXd::Zero(parts_.n_cells(), parts_.n_cells()));
+    round_.emplace(TransportShots{system_, parts_}, ScalePrior{0.02}, kRoundPoint, pilots(), 1.0);
   }
 
-  ChannelSimulation::Look look(const Eigen::SparseMatrix<double>& projection) const {
-    return simulation_->look(kRoundPoint, kRoundBlocks, projection, [&](const ScatteringPoint& at) {
-      return dipole_pilot(system_.weights, smooth_knots(cube_.lit), at, 1.3);
-    });
+  ChannelSimulation::Look look(const ChannelSimulation::Projections& projections) const {
+    return simulation_->look(
+        kRoundPoint, kRoundBlocks, projections, [&](const ScatteringPoint& at) {
+          return dipole_pilot(system_.weights, smooth_knots(cube_.lit), at, 1.3);
+        });
   }
-  ScatteringImage pilot() const {
+  std::array<TransportRound::Pilot, 2> pilots() const {
     ScatteringImage out = dipole_pilot(system_.weights, smooth_knots(cube_.lit), kRoundPoint, 1.3);
     std::vector<double> area_mm2;
     for (const auto& [s, row] : used()) {
@@ -48,7 +49,8 @@ class RoundOfTheCube : public ::testing::Test {
       area_mm2.push_back(seen.patches->area_mm2(seen.map.patch_of_row[row]));
     }
     out.variance = smooth_path_variance(out.l, area_mm2, image_.variance);
-    return out;
+    const TransportRound::Pilot one{out, Eigen::MatrixXd::Zero(parts_.n_cells(), parts_.n_cells())};
+    return {one, one};
   }
   std::vector<std::pair<std::size_t, std::size_t>> used() const {
     std::vector<std::pair<std::size_t, std::size_t>> out;
@@ -59,7 +61,7 @@ class RoundOfTheCube : public ::testing::Test {
     }
     return out;
   }
-  void take() { round_->take(look(round_->projection())); }
+  void take() { round_->take(look(round_->projections())); }
 
   test_support::DipoleCube cube_{2, 4.0};
   MaterialChannel channel_;
@@ -75,17 +77,17 @@ class RoundOfTheCube : public ::testing::Test {
 
 // Rows: of the joint unknowns, of each shot's own, of the scale, of the cells.
 TEST_F(RoundOfTheCube, ProjectionHoldsJointSinglesScaleAndCells) {
-  const Eigen::MatrixXd p = round_->projection();
+  const Eigen::MatrixXd p = round_->projections()[0];
   ASSERT_EQ(round_->shots(), (std::vector<std::size_t>{0, 1}));
   ASSERT_EQ(p.rows(), 2 + 2 * 2 + 1 + parts_.n_cells());
-  EXPECT_EQ(p.topRows(2), round_->equation().projection());
+  EXPECT_EQ(p.topRows(2), round_->equation().projection(0));
   const Eigen::Index first = system_.shot_rows[0];
   EXPECT_EQ(round_->rows_of_shot(0), static_cast<std::size_t>(first));
   EXPECT_GT(p.block(2, 0, 2, first).norm(), 0.0);
   EXPECT_EQ(p.block(2, first, 2, p.cols() - first).norm(), 0.0);
   EXPECT_EQ(p.block(4, 0, 2, first).norm(), 0.0);
   EXPECT_GT(p.block(4, first, 2, p.cols() - first).norm(), 0.0);
-  EXPECT_EQ(p.row(6), round_->equation().scale_form());
+  EXPECT_EQ(p.row(6), round_->equation().scale_form(0));
   EXPECT_EQ(p.bottomRows(parts_.n_cells()), Eigen::MatrixXd(parts_.cells()));
 }
 
@@ -114,8 +116,7 @@ TEST_F(RoundOfTheCube, AnImageThatIsPredictedMovesNothing) {
 TEST_F(RoundOfTheCube, AStepMeetsADepartureAlongTheDerivatives) {
   constexpr double kLogSigmaS = 0.01, kSigmaA = 2e-4;
   system_.l = image_.l + kLogSigmaS * image_.per_log_sigma_s + kSigmaA * image_.per_sigma_a;
-  round_.emplace(TransportShots{system_, parts_}, ScalePrior{}, kRoundPoint, pilot(), 1.0,
-                 Eigen::MatrixXd::Zero(parts_.n_cells(), parts_.n_cells()));
+  round_.emplace(TransportShots{system_, parts_}, ScalePrior{}, kRoundPoint, pilots(), 1.0);
   take();
   ASSERT_EQ(round_->step().move.size(), 2);
   EXPECT_NEAR(round_->step().move[0], kLogSigmaS, 1e-9);

@@ -43,8 +43,8 @@ TEST(PartLight, SetsTheDipoleRight) {
   PartLight light;
   light.correct(parts, pilot);
   EXPECT_EQ(pilot.l, dipole.l);
-  light.learn(parts, truth, none, dipole, 16);
-  light.learn(parts, truth, none, dipole, 48);
+  light.learn(parts, truth, none, 16.0, dipole, 16.0);
+  light.learn(parts, truth, none, 48.0, dipole, 48.0);
   EXPECT_EQ(light.blocks(), 64.0);
   light.correct(parts, pilot);
   const auto far = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -78,11 +78,11 @@ TEST(PartLight, CellsErrTogether) {
     return Eigen::MatrixXd(sum / (static_cast<double>(blocks) * blocks));
   };
   PartLight few;
-  few.learn(parts, truth, from(8), truth, 8);
+  few.learn(parts, truth, from(8), 8.0, truth, 8.0);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(few.relative_cell_covariance(parts));
   EXPECT_GT(modes.eigenvalues().minCoeff(), 1e-5);
   PartLight many;
-  for (int i = 0; i < 40; ++i) many.learn(parts, truth, from(256), truth, 256);
+  many.learn(parts, truth, from(10'240), 10'240.0, truth, 10'240.0);
   EXPECT_LT((many.relative_cell_covariance(parts) - block).norm(), 0.05 * block.norm());
   // Rows of a cell are off together, by as much as their light.
   const CorrelatedErrors alike =
@@ -102,8 +102,13 @@ TEST(PartLight, CellsErrTogether) {
   const Eigen::MatrixXd of_some = some.of_row * some.root;
   const Eigen::MatrixXd among_all = rows.block(3, 3, kLightRows - 5, kLightRows - 5);
   EXPECT_LT((of_some * of_some.transpose() - among_all).norm(), 1e-9 * among_all.norm());
-  many.forget();
-  EXPECT_EQ(many.blocks(), 0.0);
+  // The same paths seen again do not tell more of the correlations.
+  PartLight once, again;
+  const Eigen::MatrixXd same = from(8);
+  once.learn(parts, truth, same, 8.0, truth, 8.0);
+  for (int i = 0; i < 40; ++i) again.learn(parts, truth, same, 8.0, truth, 8.0);
+  const Eigen::MatrixXd known = once.relative_cell_covariance(parts);
+  EXPECT_LT((again.relative_cell_covariance(parts) - known).norm(), 1e-9 * known.norm());
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -36,14 +38,17 @@ DenseSystem system_of(const Eigen::VectorXd& l, double std) {
   return system;
 }
 
+// Both halves of the paths alike.
+PathHalves twice(const ScatteringImage& m) { return {m, m}; }
+
 ScatteringPoint solved(const DenseSystem& system, const ScalePrior& prior, ScatteringPoint at,
                        ScatteringEquation::Step* last = nullptr) {
   for (int i = 0; i < 12; ++i) {
     const ScatteringImage pilot = image_of(at.sigma_s_per_mm * 1.05, at.sigma_a_per_mm);
     const ScatteringEquation equation(system, prior, pilot, at);
-    const Eigen::Index n = equation.projection().rows();
+    const Eigen::Index n = equation.projection(0).rows();
     const ScatteringEquation::Step step = equation.step(
-        image_of(at.sigma_s_per_mm, at.sigma_a_per_mm), Eigen::MatrixXd::Zero(n, n), at);
+        twice(image_of(at.sigma_s_per_mm, at.sigma_a_per_mm)), Eigen::MatrixXd::Zero(n, n), at);
     at = step.to;
     if (last != nullptr) *last = step;
   }
@@ -85,8 +90,8 @@ TEST(ScatteringEquation, DeviationsAreAsStated) {
     }
     const ScatteringEquation equation(system, {0.0}, pilot, at);
     const Eigen::MatrixXd of_paths =
-        paths * paths * equation.projection() * equation.projection().transpose();
-    const ScatteringEquation::Step step = equation.step(m, of_paths, at);
+        paths * paths * equation.projection(0) * equation.projection(0).transpose();
+    const ScatteringEquation::Step step = equation.step(twice(m), of_paths, at);
     const Eigen::Vector2d off(std::log(step.to.sigma_s_per_mm / 2.0),
                               step.to.sigma_a_per_mm - 0.01);
     sum += off / kDraws;
@@ -99,6 +104,52 @@ TEST(ScatteringEquation, DeviationsAreAsStated) {
     EXPECT_NEAR(std::sqrt(square(k, k)) / std, 1.0, 0.052);
     EXPECT_LT(std::abs(sum[k]), 4.0 * std / std::sqrt(kDraws));
   }
+}
+
+// Where the pilots are as noisy as the paths, and come from the same ones, halves that weigh each
+// other leave the root unbiased and the deviations as stated; weights for the image that they come
+// from do not.
+TEST(ScatteringEquation, HalvesWeighEachOther) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  constexpr double kNoise = 1e-3, kPaths = 2e-2, kSlope = 2.0;  // of a half; of d / d log sigma_s
+  constexpr int kDraws = 1500;
+  double crossed_sum = 0.0, square = 0.0, stated = 0.0, own_sum = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    DenseSystem system = system_of(truth.l, kNoise);
+    for (double& l : system.l) l += kNoise * normal(random);
+    PathHalves halves = twice(truth);
+    std::vector<EquationPilot> pilots;
+    for (ScatteringImage& m : halves) {
+      for (Eigen::Index j = 0; j < kEquationRows; ++j) {
+        const double error = kPaths * normal(random);
+        m.l[j] += error;
+        m.per_log_sigma_s[j] += kSlope * error;
+      }
+      pilots.push_back({m, {}});
+      pilots.back().image.l = truth.l;
+      pilots.back().image.variance.setConstant(0.5 * kPaths * kPaths);
+    }
+    const ScatteringEquation crossed(system, {0.0}, pilots, at);
+    Eigen::Matrix2d of_paths = Eigen::Matrix2d::Zero();
+    for (const std::size_t half : {0U, 1U}) {
+      const Eigen::MatrixXd& p = crossed.projection(half);
+      of_paths += 0.25 * kPaths * kPaths * p * p.transpose();
+    }
+    const ScatteringEquation::Step step = crossed.step(halves, of_paths, at);
+    crossed_sum += step.move[0] / kDraws;
+    square += step.move[0] * step.move[0] / kDraws;
+    stated += step.covariance(0, 0) / kDraws;
+    std::swap(pilots[0], pilots[1]);
+    own_sum +=
+        ScatteringEquation(system, {0.0}, pilots, at).step(halves, of_paths, at).move[0] / kDraws;
+  }
+  const double std = std::sqrt(stated);
+  EXPECT_NEAR(std::sqrt(square) / std, 1.0, 0.08);
+  EXPECT_LT(std::abs(crossed_sum), 4.0 * std / std::sqrt(kDraws));
+  EXPECT_GT(std::abs(own_sum), 0.5 * std);
 }
 
 // Where noise takes the root to a negative sigma_a, the step ends at the least squares of sigma_s
@@ -115,7 +166,7 @@ TEST(ScatteringEquation, AtTheBoundOfSigmaATheOthersAreMostProbable) {
     ScatteringImage pilot = m;
     pilot.variance.setZero();
     const ScatteringEquation equation(system, {0.0}, pilot, at);
-    const ScatteringEquation::Step step = equation.step(m, Eigen::MatrixXd::Zero(2, 2), at);
+    const ScatteringEquation::Step step = equation.step(twice(m), Eigen::MatrixXd::Zero(2, 2), at);
     if (at.sigma_a_per_mm + step.move[1] >= 0.0) {
       EXPECT_EQ(step.taken, step.move);
       continue;
@@ -185,17 +236,17 @@ TEST(ScatteringEquation, Pushes) {
       truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kEquationRows, -1.0, 1.0));
   const ScatteringPoint at{2.0, 0.01, 1.0};
   const ScatteringEquation equation(system, {0.02}, truth, at);
-  ASSERT_EQ(equation.projection().rows(), 2);  // a scale with a prior is a nuisance
+  ASSERT_EQ(equation.projection(0).rows(), 2);  // a scale with a prior is a nuisance
   const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(2, 2);
-  const ScatteringEquation::Step nominal = equation.step(truth, none, at);
+  const ScatteringEquation::Step nominal = equation.step(twice(truth), none, at);
   ASSERT_EQ(nominal.common_causes.cols(), 2);
   DenseSystem pushed = system;
   const ScatteringEquation same(pushed, {0.02}, truth, at);
   pushed.l += 0.02 * system.nuisance_columns;
-  EXPECT_LT((same.step(truth, none, at).move - nominal.common_causes.col(0)).norm(),
+  EXPECT_LT((same.step(twice(truth), none, at).move - nominal.common_causes.col(0)).norm(),
             1e-9 * nominal.common_causes.col(0).norm());
   pushed.l = 1.02 * truth.l;
-  EXPECT_LT((same.step(truth, none, at).move - nominal.common_causes.col(1)).norm(),
+  EXPECT_LT((same.step(twice(truth), none, at).move - nominal.common_causes.col(1)).norm(),
             1e-9 * nominal.common_causes.col(1).norm());
   // The image says where in its prior the scale lies, as far as the medium does not answer for it.
   EXPECT_NEAR(same.settled_log_scale(same.residual(truth, at, at)), 0.02, 0.002);
@@ -211,17 +262,20 @@ TEST(ScatteringEquation, CorrelatedErrors) {
   alike << 0.02 * truth.l,
       0.02 * truth.l.cwiseProduct(Eigen::VectorXd::LinSpaced(kEquationRows, -1, 1));
   const auto std_of = [&](const ScatteringEquation& e) {
-    const Eigen::MatrixXd p = e.projection() * alike;
-    return std::sqrt(e.step(truth, p * p.transpose(), at).covariance(1, 1));
+    const Eigen::MatrixXd p = e.projection(0) * alike;
+    return std::sqrt(e.step(twice(truth), p * p.transpose(), at).covariance(1, 1));
   };
   const ScatteringEquation blind(system, {0.0}, truth, at);
   const CorrelatedErrors groups{alike.sparseView(), Eigen::Matrix2d::Identity()};
-  const ScatteringEquation knowing(system, {0.0}, truth, at, 1.0, groups);
+  const ScatteringEquation knowing(system, {0.0}, std::vector<EquationPilot>{{truth, groups}}, at);
   EXPECT_LT(std_of(knowing), 0.3 * std_of(blind));
-  const ScatteringEquation::Step step = knowing.step(truth, Eigen::MatrixXd::Zero(2, 2), at);
+  const ScatteringEquation::Step step = knowing.step(twice(truth), Eigen::MatrixXd::Zero(2, 2), at);
   EXPECT_LT(step.move.norm(), 1e-9);
   const CorrelatedErrors fewer{alike.topRows(3).sparseView(), Eigen::Matrix2d::Identity()};
-  EXPECT_THROW(ScatteringEquation(system, {0.0}, truth, at, 1.0, fewer), std::invalid_argument);
+  EXPECT_THROW(ScatteringEquation(system, {0.0}, std::vector<EquationPilot>{{truth, fewer}}, at),
+               std::invalid_argument);
+  EXPECT_THROW(ScatteringEquation(system, {0.0}, std::vector<EquationPilot>{}, at),
+               std::invalid_argument);
 }
 
 // Scatter beyond the noise is a cause of its own, as correlated as the paths.
@@ -230,13 +284,14 @@ TEST(ScatteringEquation, ScatterWidens) {
   const DenseSystem system = system_of(truth.l, 1e-3);
   const ScatteringPoint at{2.0, 0.01, 1.0};
   const ScatteringEquation equation(system, {0.0}, truth, at);
-  const Eigen::MatrixXd paths = 1e-6 * equation.projection() * equation.projection().transpose();
-  const auto plain = equation.step(truth, paths, at);
-  const auto wide = equation.step(truth, paths, at, 5.0);
-  EXPECT_LT((wide.covariance - plain.covariance -
-             4.0 * equation.step(truth, paths, at).inverse * paths * plain.inverse.transpose())
-                .norm(),
-            1e-12 * wide.covariance.norm());
+  const Eigen::MatrixXd paths = 1e-6 * equation.projection(0) * equation.projection(0).transpose();
+  const auto plain = equation.step(twice(truth), paths, at);
+  const auto wide = equation.step(twice(truth), paths, at, 5.0);
+  EXPECT_LT(
+      (wide.covariance - plain.covariance -
+       4.0 * equation.step(twice(truth), paths, at).inverse * paths * plain.inverse.transpose())
+          .norm(),
+      1e-12 * wide.covariance.norm());
   EXPECT_EQ(wide.causes.size(), plain.causes.size() + 1);
 }
 
@@ -265,14 +320,16 @@ TEST(ScatteringEquation, DoubtsAScale) {
           m.l[j] += kPaths * normal(random);
         }
         const ScatteringEquation equation(system, {prior}, pilot, at);
-        const Eigen::RowVectorXd& form = equation.scale_form();
+        const Eigen::RowVectorXd& form = equation.scale_form(0);
         ASSERT_EQ(form.size(), kEquationRows);
         EXPECT_NEAR(form.dot(pilot.l), 1.0, 1e-9);
         EXPECT_NEAR(form.dot(pilot.per_log_sigma_s), 0.0, 1e-8);
         EXPECT_NEAR(form.dot(pilot.per_sigma_a), 0.0, 1e-6);
-        const ScatteringEquation::Step step = equation.step(m, Eigen::MatrixXd::Zero(2, 2), at);
+        const ScatteringEquation::Step step =
+            equation.step(twice(m), Eigen::MatrixXd::Zero(2, 2), at);
         const ScatteringEquation::ScaleTest test = equation.scale_test(
-            equation.residual(m, at, step.to), kPaths * kPaths * form.squaredNorm(), 1.0);
+            {equation.residual(m, at, step.to), equation.residual(m, at, step.to)},
+            kPaths * kPaths * form.squaredNorm(), 1.0);
         sum += test.offset / kDraws;
         square += (test.offset - off) * (test.offset - off) / kDraws;
         std = test.std;
@@ -291,8 +348,8 @@ TEST(ScatteringEquation, DoubtsAScale) {
   // A free scale leaves nothing to test.
   const ScatteringEquation free(system_of(truth.l, kNoise),
                                 {std::numeric_limits<double>::infinity()}, pilot, at);
-  EXPECT_EQ(free.scale_form().size(), 0);
-  EXPECT_EQ(free.scale_test(truth.l, 0.0, 1.0).p_value, 1.0);
+  EXPECT_EQ(free.scale_form(0).size(), 0);
+  EXPECT_EQ(free.scale_test({truth.l, truth.l}, 0.0, 1.0).p_value, 1.0);
 }
 
 // An offset of the scale widens the step by as much as it would move the estimate.
@@ -301,12 +358,12 @@ TEST(ScatteringEquation, ContradictedScaleWidens) {
   const ScatteringPoint at{2.0, 0.01, 1.0};
   const DenseSystem system = system_of(truth.l, 1e-3);
   const ScatteringEquation equation(system, {0.0}, truth, at);
-  ScatteringEquation::Step step = equation.step(truth, Eigen::MatrixXd::Zero(2, 2), at);
+  ScatteringEquation::Step step = equation.step(twice(truth), Eigen::MatrixXd::Zero(2, 2), at);
   const Eigen::MatrixXd before = step.covariance;
   equation.widen_by_scale(0.05, step);
   const DenseSystem brighter = system_of(1.05 * truth.l, 1e-3);
   const ScatteringEquation other(brighter, {0.0}, truth, at);
-  const Eigen::VectorXd moved = other.step(truth, Eigen::MatrixXd::Zero(2, 2), at).move;
+  const Eigen::VectorXd moved = other.step(twice(truth), Eigen::MatrixXd::Zero(2, 2), at).move;
   for (Eigen::Index k = 0; k < 2; ++k) {
     EXPECT_NEAR(step.covariance(k, k), before(k, k) + moved[k] * moved[k],
                 1e-6 * step.covariance(k, k));

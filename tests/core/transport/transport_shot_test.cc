@@ -123,9 +123,9 @@ TEST(TransportShotStatistics, FindsMcmlsMedia) {
       const ScatteringImage pilot = dipole_rings(at, eta, entered, bins);
       system.std_l = (pilot.l / c.photons).cwiseSqrt();
       const ScatteringEquation equation(system, {0.0}, pilot, at);
-      const HalfSpace::Image image = half_space.image(at, eta, entered, equation.projection(),
+      const HalfSpace::Image image = half_space.image(at, eta, entered, equation.projection(0),
                                                       round < 5 ? 20 : blocks, 1000u + round);
-      step = equation.step(image.m, image.covariance, at);
+      step = equation.step({image.m, image.m}, image.covariance, at);
       at = step.to;
     }
     const double std_s = c.medium.sigma_s_per_mm * std::sqrt(step.covariance(0, 0));

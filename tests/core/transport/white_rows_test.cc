@@ -35,7 +35,7 @@ TEST(WhiteRows, LightIsThatOfAbsorbedPaths) {
     const ScatteringImage direct = s.sum({kSigmaS, sigma_a, 0.0, 1.3}, 9, 300).image();
     const WhiteRows::Light light = white.light(sigma_a);
     const Eigen::VectorXd variance =
-        direct.variance + white.departures(sigma_a).colwise().squaredNorm().transpose();
+        direct.variance + white.departures(sigma_a).of_batch.colwise().squaredNorm().transpose();
     const double chi2 = chi2_per_row(light.l - direct.l, variance);
     EXPECT_GT(chi2, 0.6) << sigma_a;
     EXPECT_LT(chi2, 1.5) << sigma_a;
@@ -50,11 +50,31 @@ TEST(WhiteRows, LightIsThatOfAbsorbedPaths) {
 TEST(WhiteRows, DeparturesAreTheSpreadOverSeeds) {
   const WhiteScene s;
   const WhiteRows a = s.rows(1, 100), b = s.rows(1, 200);
-  const Eigen::VectorXd variance = a.departures(0.01).colwise().squaredNorm().transpose() +
-                                   b.departures(0.01).colwise().squaredNorm().transpose();
+  const Eigen::VectorXd variance = a.departures(0.01).of_batch.colwise().squaredNorm().transpose() +
+                                   b.departures(0.01).of_batch.colwise().squaredNorm().transpose();
   const double chi2 = chi2_per_row(a.light(0.01).l - b.light(0.01).l, variance);
   EXPECT_GT(chi2, 0.6);
   EXPECT_LT(chi2, 1.6);
+}
+
+// The second half departs from all paths as its own spread says, and its derivative by absorption
+// is that of its light.
+TEST(WhiteRows, HalvesAreIndependent) {
+  const WhiteScene s;
+  const WhiteRows white = s.rows(5);
+  const WhiteRows::Departures d = white.departures(0.02);
+  constexpr Eigen::Index kHalf = WhiteRows::kBatches / 2;
+  const double size = d.of_batch.cwiseAbs().maxCoeff();
+  EXPECT_LT(d.of_batch.topRows(kHalf).colwise().sum().cwiseAbs().maxCoeff(), 1e-5 * size);
+  EXPECT_LT(d.of_batch.bottomRows(kHalf).colwise().sum().cwiseAbs().maxCoeff(), 1e-5 * size);
+  const double chi2 = chi2_per_row(d.second_half.l, d.of_batch.colwise().squaredNorm().transpose());
+  EXPECT_GT(chi2, 0.6);
+  EXPECT_LT(chi2, 1.6);
+  constexpr double kStep = 1e-3;
+  const Eigen::VectorXd by_step = (white.departures(0.02 + kStep).second_half.l -
+                                   white.departures(0.02 - kStep).second_half.l) /
+                                  (2.0 * kStep);
+  EXPECT_LT((by_step - d.second_half.per_sigma_a).norm(), 0.1 * by_step.norm());
 }
 
 TEST(WhiteRows, FourLevelsDoubleThePaths) {
@@ -64,8 +84,8 @@ TEST(WhiteRows, FourLevelsDoubleThePaths) {
   EXPECT_EQ(first.paths(), WhiteRows::kFirstPaths);
   EXPECT_EQ(ninth.paths(), 4 * WhiteRows::kFirstPaths);
   EXPECT_EQ(ninth.light(0.02).l, again.light(0.02).l);
-  const double finer = ninth.departures(0.02).squaredNorm();
-  EXPECT_NEAR(first.departures(0.02).squaredNorm() / finer, 4.0, 1.2);
+  const double finer = ninth.departures(0.02).of_batch.squaredNorm();
+  EXPECT_NEAR(first.departures(0.02).of_batch.squaredNorm() / finer, 4.0, 1.2);
   EXPECT_EQ(WhiteRows::levels_for(1.0), 1);
   EXPECT_EQ(WhiteRows::levels_for(WhiteRows::kFirstPaths + 1.0), 2);
   EXPECT_EQ(WhiteRows::paths_of(2) % WhiteRows::kBatches, 0);
