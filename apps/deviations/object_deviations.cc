@@ -57,6 +57,7 @@ std::vector<Deviation> object_deviations() {
        .words = {"phase function", "anisotropy", "scattering"},
        .unit = "g",
        .sizes = {0.3, 0.6, 0.8},
+       .within = 3,
        .needs = {.volume = true},
        .truth = [](TrueSetup& t,
                    const DeviationDraw& d) { t.rig.scene.objects.front().phase = d.size; }},

@@ -174,8 +174,11 @@ std::string estimate_arrays(const py::dict& camera, const py::dict& objects, con
     object.mesh_path = where;
     object.eta_int_over_ext = field<double>(dict, where, "eta");
     object.eta_std = deviation(dict, where, "eta_std", default_uncertainty::kEta);
-    object.phase = dict.contains("g") ? field<double>(dict, where, "g") : 0.0;
-    object.gamma_std = deviation(dict, where, "gamma_std", 0.0);
+    const bool stated = dict.contains("g");
+    object.phase = stated ? field<double>(dict, where, "g") : 0.0;
+    object.gamma_std =
+        deviation(dict, where, "gamma_std",
+                  stated ? default_uncertainty::kStatedGamma : default_uncertainty::kGamma);
     object.position_std_mm =
         deviation(dict, where, "position_std_mm", default_uncertainty::kObjectPosition_mm);
     object.scale_relative_std =

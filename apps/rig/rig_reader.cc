@@ -16,9 +16,6 @@
 namespace scattermeter::apps {
 namespace {
 
-// Of a g from the literature, for another sample of the material.
-constexpr double kStatedGammaStd = 0.1;
-
 void read_phase(const YamlField& field, SceneObject& object) {
   const auto gamma = field.find("gamma");
   const auto share = field.find("share");
@@ -45,7 +42,7 @@ void read_phase(const YamlField& field, SceneObject& object) {
   } else {
     object.phase = g.number(kLeast, kMost);
   }
-  object.gamma_std = std ? std->number(0.0, 2.0) : kStatedGammaStd;
+  object.gamma_std = std ? std->number(0.0, 2.0) : default_uncertainty::kStatedGamma;
 }
 
 SceneObject read_object(const std::string& name, const YamlField& field,
@@ -63,6 +60,7 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   object.scale_relative_std =
       field.number_or("scale_relative_std", default_uncertainty::kMeshScale, 0.0, 1.0);
   object.edge_std_mm = field.number_or("edge_std_mm", default_uncertainty::kEdge_mm, 0.0, 1000.0);
+  object.gamma_std = default_uncertainty::kGamma;
   if (const auto f = field.find("phase")) read_phase(*f, object);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   return object;

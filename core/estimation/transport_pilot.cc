@@ -40,6 +40,7 @@ void PathPilots::learn(const ShotParts& parts, const ChannelSimulation::Look& se
     light_[half].learn(parts, seen.halves[half], cells[half], 0.5 * seen.freedom, dipole,
                        seen.blocks);
   }
+  PartLight::confirm(light_[0], light_[1]);
 }
 
 std::array<TransportRound::Pilot, 2> PathPilots::pilots(const ShotParts& parts,

@@ -33,14 +33,31 @@ void PartLight::learn(const ShotParts& parts, const ScatteringImage& image,
   per_sigma_a_ += share * (a - per_sigma_a_);
 }
 
+void PartLight::confirm(PartLight& a, PartLight& b) {
+  if (a.learnt_ == 0.0 || b.learnt_ == 0.0) return;
+  const auto share = [](const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
+    const Eigen::ArrayXd dx = x - x.mean(), dy = y - y.mean();
+    const double own = 0.5 * (dx.square().sum() + dy.square().sum());
+    return own > 0.0 ? std::max(0.0, (dx * dy).sum() / own) : 0.0;
+  };
+  a.confirmed_s_ = b.confirmed_s_ = share(a.per_log_sigma_s_, b.per_log_sigma_s_);
+  a.confirmed_a_ = b.confirmed_a_ = share(a.per_sigma_a_, b.per_sigma_a_);
+}
+
 void PartLight::correct(const ShotParts& parts, ScatteringImage& dipole) const {
-  for (Eigen::Index j = 0; j < dipole.l.size() && learnt_ > 0.0; ++j) {
+  if (learnt_ == 0.0) return;
+  const auto kept = [](const Eigen::ArrayXd& x, double share) -> Eigen::ArrayXd {
+    return x.mean() + share * (x - x.mean());
+  };
+  const Eigen::ArrayXd s = kept(per_log_sigma_s_, confirmed_s_);
+  const Eigen::ArrayXd a = kept(per_sigma_a_, confirmed_a_);
+  for (Eigen::Index j = 0; j < dipole.l.size(); ++j) {
     const Eigen::Index part = parts.part_of_row(j);
     const double l = dipole.l[j];
     const double ratio = l_[part];
     dipole.l[j] *= ratio;
-    dipole.per_log_sigma_s[j] = ratio * (dipole.per_log_sigma_s[j] + l * per_log_sigma_s_[part]);
-    dipole.per_sigma_a[j] = ratio * (dipole.per_sigma_a[j] + l * per_sigma_a_[part]);
+    dipole.per_log_sigma_s[j] = ratio * (dipole.per_log_sigma_s[j] + l * s[part]);
+    dipole.per_sigma_a[j] = ratio * (dipole.per_sigma_a[j] + l * a[part]);
   }
 }
 

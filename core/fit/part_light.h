@@ -24,6 +24,11 @@ class PartLight {
              double blocks);
   double blocks() const { return blocks_; }
 
+  // Two that have learnt from independent paths: the noise of a part's derivatives, which paths of
+  // other media determine, may exceed the differences between parts, so each keeps only the share
+  // of its parts' departures from their mean that the other confirms.
+  static void confirm(PartLight& a, PartLight& b);
+
   // Corrects l and the derivatives of a dipole's image by what was learnt.
   void correct(const ShotParts& parts, ScatteringImage& dipole) const;
 
@@ -35,6 +40,7 @@ class PartLight {
 
  private:
   Eigen::ArrayXd l_, per_log_sigma_s_, per_sigma_a_;  // ratio; differences
+  double confirmed_s_ = 1, confirmed_a_ = 1;          // shares of these
   double learnt_ = 0;
   Eigen::MatrixXd cell_variance_;  // of one block, times the blocks
   double blocks_ = 0;

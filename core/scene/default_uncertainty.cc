@@ -14,6 +14,7 @@ void take_where_none(Scene& scene) {
   };
   for (SceneObject& object : scene.objects) {
     take(object.eta_std, kEta);
+    take(object.gamma_std, kGamma);
     take(object.position_std_mm, kObjectPosition_mm);
     take(object.scale_relative_std, kMeshScale);
     take(object.edge_std_mm, kEdge_mm);

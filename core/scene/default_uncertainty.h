@@ -7,6 +7,11 @@ namespace scattermeter::default_uncertainty {
 
 // Handbook values of plastics differ by as much between grades and wavelengths.
 inline constexpr double kEta = 0.01;
+// Of gamma, about isotropic scattering: as large as the root mean square of g, for any g from 0 to
+// 0.95 by the function of Henyey and Greenstein.
+inline constexpr double kGamma = 0.55;
+// Of a g from the literature, for another sample of the material.
+inline constexpr double kStatedGamma = 0.1;
 // An object put down at marks, or a mesh aligned by hand, mm.
 inline constexpr double kObjectPosition_mm = 0.1;
 // A machined or printed piece of 20 mm, measured to 0.04 mm.

@@ -6,6 +6,7 @@
 
 #include "apps/rig/rig.h"
 #include "core/base/input_error.h"
+#include "core/scene/default_uncertainty.h"
 #include "tests/fixtures/apps/small_rig.h"
 
 namespace scattermeter::apps {
@@ -160,7 +161,7 @@ TEST(RigReader, PhaseFunctions) {
     return read_rig(small.rig()).scene.object("cube");
   };
   EXPECT_TRUE(read_rig(small.rig()).scene.object("cube").phase.is_isotropic());
-  EXPECT_EQ(read_rig(small.rig()).scene.object("cube").gamma_std, 0.0);
+  EXPECT_EQ(read_rig(small.rig()).scene.object("cube").gamma_std, default_uncertainty::kGamma);
   EXPECT_EQ(cube("{g: 0.8}").phase, PhaseFunction(0.8));
   EXPECT_EQ(cube("{g: 0.8}").gamma_std, 0.1);
   EXPECT_EQ(cube("{g: 0.8, g_std: 0}").gamma_std, 0.0);

@@ -1,7 +1,9 @@
 #include "core/fit/part_light.h"
 
+#include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -54,6 +56,41 @@ TEST(PartLight, SetsTheDipoleRight) {
   EXPECT_LT(far(pilot.per_log_sigma_s, truth.per_log_sigma_s), 0.03);
   EXPECT_LT(far(pilot.per_sigma_a, truth.per_sigma_a), 0.03);
   EXPECT_GT(far(dipole.per_sigma_a, truth.per_sigma_a), 0.3);
+}
+
+// Of noise alone, only the mean of the parts is kept; of what both have seen, all.
+TEST(PartLight, KeepsWhatTheOtherHalfConfirms) {
+  const ScatteringImage truth = image(2.0, 0.4, 30.0);
+  const ShotParts parts = parts_of(truth.l);
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(parts.n_cells(), parts.n_cells());
+  const ScatteringImage dipole = image(1.5, 0.1, 50.0);
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::array<PartLight, 2> light;
+  for (PartLight& half : light) {
+    ScatteringImage noisy = truth;
+    std::vector<double> of_part(static_cast<std::size_t>(parts.n_parts()));
+    for (double& v : of_part) v = normal(random);
+    for (Eigen::Index j = 0; j < kLightRows; ++j) {
+      // What is the same in all parts, and noise.
+      const double by_l = dipole.per_log_sigma_s[j] / dipole.l[j] + 0.2;
+      noisy.per_log_sigma_s[j] =
+          truth.l[j] * (by_l + of_part[static_cast<std::size_t>(parts.part_of_row(j))]);
+    }
+    half.learn(parts, noisy, none, 16.0, dipole, 16.0);
+  }
+  PartLight::confirm(light[0], light[1]);
+  ScatteringImage pilot = dipole;
+  light[0].correct(parts, pilot);
+  const auto off = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    const Eigen::ArrayXd d = (a - b).array() / truth.l.array();
+    return std::sqrt((d - d.mean()).square().mean());
+  };
+  // Parts are off by 1 as learnt.
+  const Eigen::VectorXd expected =
+      pilot.l.cwiseProduct(dipole.per_log_sigma_s.cwiseQuotient(dipole.l));
+  EXPECT_LT(off(pilot.per_log_sigma_s, expected), 0.5);
+  EXPECT_LT((pilot.per_sigma_a - truth.per_sigma_a).norm(), 0.03 * truth.per_sigma_a.norm());
 }
 
 // Covariances of blocks add up to that of one; from few blocks no combination of cells is free of

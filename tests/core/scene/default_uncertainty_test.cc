@@ -20,6 +20,7 @@ TEST(DefaultUncertainty, FillsInWhatIsNotStated) {
   default_uncertainty::take_where_none(scene);
   EXPECT_EQ(scene.objects[0].eta_std, default_uncertainty::kEta);
   EXPECT_EQ(scene.objects[1].eta_std, 0.002);
+  EXPECT_EQ(scene.objects[0].gamma_std, default_uncertainty::kGamma);
   EXPECT_EQ(scene.objects[0].position_std_mm, default_uncertainty::kObjectPosition_mm);
   EXPECT_EQ(scene.objects[0].scale_relative_std, default_uncertainty::kMeshScale);
   EXPECT_EQ(scene.objects[0].edge_std_mm, default_uncertainty::kEdge_mm);
