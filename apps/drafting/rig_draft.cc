@@ -114,7 +114,9 @@ class Writer {
     add("\nobjects:");
     for (const DraftedObject& o : draft_.objects) {
       const std::string marked = mark(fmt::format(
-          "eta of {}, and that {} stands in the world as the piece on the board", o.name, o.mesh));
+          "eta of {}, and that {} stands in the world as the piece on the board, or, by "
+          "`pose: {{from: silhouette, on_plane: true}}`, to about 5 mm",
+          o.name, o.mesh));
       add(fmt::format("  {}: {{mesh: {}, eta: 1.49}}{}", checked_name(o.name, "--body"),
                       quoted(o.mesh), marked));
     }

@@ -7,6 +7,7 @@
 
 #include "apps/instrument/instrument.h"
 #include "apps/instrument/open_objects.h"
+#include "apps/instrument/piece_places.h"
 #include "apps/instrument/rig_inputs.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/digest.h"
@@ -61,6 +62,7 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
   calib::take_points_from_board_shot(rig.scene, rig.decoding, shots_folder, rig.pose);
   const capture::ShotFolder folder =
       capture::match_shots(rig.scene, calibration_files(rig), shots_folder);
+  std::vector<std::string> places = place_pieces(rig, shots_folder, progress);
   const ObjectScenes objects = open_objects(rig);
   Instrument instrument(rig, objects, options, progress);
   watch.lap("geometry");
@@ -79,6 +81,7 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
     if (cache) cache->forget();
     throw;
   }
+  out.notes.insert(out.notes.begin(), places.begin(), places.end());
   out.skipped.shots_not_asked = whole.scene.shots.size() - rig.scene.shots.size();
   if (instrument.pose_of_points() && whole.pose.board_shot.empty()) {
     const std::string points = calib::left_out_points(*instrument.pose_of_points());

@@ -80,9 +80,7 @@ calib::PoseSource read_pose(const YamlField& field) {
   const bool in_each = charuco && pose.board_shot.empty();
   pose.per_shot = in_each;
   if (const auto f = field.find("per_shot")) {
-    const std::string text = f->text();
-    if (text != "true" && text != "false") f->fail("expected true or false");
-    pose.per_shot = text == "true";
+    pose.per_shot = f->boolean();
     if (in_each && !pose.per_shot)
       f->fail("with a board in every shot, each shot has its own pose");
     if (!in_each && pose.per_shot && !pose.refine_by_silhouette) {

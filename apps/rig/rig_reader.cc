@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "apps/rig/rig.h"
 #include "apps/rig/rig_camera_reader.h"
@@ -45,10 +48,36 @@ void read_phase(const YamlField& field, SceneObject& object) {
   object.gamma_std = std ? std->number(0.0, 2.0) : default_uncertainty::kStatedGamma;
 }
 
+// Where the mesh stands, or about where.
+void read_place(const YamlField& field, SceneObject& object) {
+  field.only({"position_mm", "turn_deg", "from", "on_plane"});
+  if (const auto f = field.find("position_mm")) {
+    object.world_from_mesh.translation_mm = f->vector3();
+  }
+  if (const auto f = field.find("turn_deg")) {
+    const Eigen::Vector3d rad = std::numbers::pi / 180.0 * f->vector3();
+    object.world_from_mesh.rotation = Eigen::AngleAxisd(rad.z(), Eigen::Vector3d::UnitZ()) *
+                                      Eigen::AngleAxisd(rad.y(), Eigen::Vector3d::UnitY()) *
+                                      Eigen::AngleAxisd(rad.x(), Eigen::Vector3d::UnitX());
+  }
+  if (const auto f = field.find("from")) {
+    const std::string from = f->text();
+    if (from == "silhouette") {
+      object.to_be_found.emplace();
+    } else if (from != "stated") {
+      f->fail("expected stated or silhouette");
+    }
+  }
+  if (const auto f = field.find("on_plane")) {
+    if (!object.to_be_found) f->fail("is for from: silhouette only");
+    object.to_be_found->is_on_plane = f->boolean();
+  }
+}
+
 SceneObject read_object(const std::string& name, const YamlField& field,
                         const std::string& rig_path) {
   field.only({"mesh", "eta", "eta_std", "position_std_mm", "scale_relative_std", "edge_std_mm",
-              "phase", "patch_size_mm"});
+              "phase", "patch_size_mm", "pose"});
   SceneObject object;
   object.name = name;
   object.line = field.line();
@@ -63,6 +92,11 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   object.gamma_std = default_uncertainty::kGamma;
   if (const auto f = field.find("phase")) read_phase(*f, object);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
+  if (const auto f = field.find("pose")) read_place(*f, object);
+  const auto stated = field.find("position_std_mm");
+  if (object.to_be_found && stated) {
+    stated->fail("a piece that is found by its silhouette has the uncertainty of that");
+  }
   return object;
 }
 
@@ -203,6 +237,10 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   rig.pose = read_pose(top.at("pose"));
   for (const auto& [name, field] : top.at("objects").entries()) {
     rig.scene.objects.push_back(read_object(name, field, path));
+    if (rig.scene.objects.back().to_be_found && rig.pose.refine_by_silhouette) {
+      field.at("pose").at("from").fail(
+          "the outline determines either the piece's position or, by pose.refine, the camera's");
+    }
   }
   const YamlField lights = top.at("lights");
   rig.scene.even_light_share_std =

@@ -190,6 +190,12 @@ double YamlField::positive() const {
   return value;
 }
 
+bool YamlField::boolean() const {
+  const std::string value = text();
+  if (value != "true" && value != "false") fail("expected true or false");
+  return value == "true";
+}
+
 double YamlField::number_or(const std::string& key, double otherwise, double min,
                             double max) const {
   const auto field = find(key);

@@ -42,6 +42,7 @@ class YamlField {
   // Of a key of a map, which may be absent.
   double number_or(const std::string& key, double otherwise, double min, double max) const;
   int integer(int min, int max) const;
+  bool boolean() const;
   std::vector<double> numbers(std::size_t count) const;
   Eigen::Vector3d vector3() const;
 

@@ -34,12 +34,11 @@ std::string shot_key(const Scene& scene, const ShotDecoding& decoding, const Obs
     key.text(shot.stated->files().at(k)).text(digests.of(names[k]));
   }
   add_camera(scene.camera, decoding, digests, key);
-  const Rigid3d& pose = shot.pose.camera_from_world;
-  const auto& q = pose.rotation;
-  key.number(q.w()).number(q.x()).number(q.y()).number(q.z());
-  key.number(pose.translation_mm.x()).number(pose.translation_mm.y());
-  key.number(pose.translation_mm.z());
   const SeenObject& seen = *shot.seen;
+  for (const Rigid3d& pose : {shot.pose.camera_from_world, seen.object->stated->world_from_mesh}) {
+    for (const double v : pose.rotation.coeffs()) key.number(v);
+    for (const double v : pose.translation_mm) key.number(v);
+  }
   for (const double v : seen.shift) key.number(v);
   key.text(digests.of(seen.object->stated->mesh_path));
   key.number(seen.patches->patch_size_mm()).number(seen.object->stated->eta_int_over_ext);

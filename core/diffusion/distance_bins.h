@@ -1,6 +1,7 @@
 // Bins of squared distances with linear weights.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -77,7 +78,9 @@ class OctaveBins {
     const auto mask = static_cast<std::int32_t>((1U << shift_) - 1U);
     for (int k = 0; k < n; ++k) {
       const auto position = std::bit_cast<std::int32_t>(d2_mm2[k] + s0_);
-      at[static_cast<std::size_t>(k)] = (position >> shift_) - static_cast<std::int32_t>(first_);
+      // Whatever lies beyond the longest distance, by rounding, counts there.
+      at[static_cast<std::size_t>(k)] =
+          std::min((position >> shift_) - static_cast<std::int32_t>(first_), n_ - 2);
       to_next[static_cast<std::size_t>(k)] =
           weight[k] * (static_cast<float>(position & mask) * fraction_);
     }

@@ -96,19 +96,23 @@ class SiteSum {
   // The difference of two independent points has the sum of their covariances C = L L^T. The four
   // points d + L v, v the corners of a cube of even parity, have mean d and covariance C.
   void add_clusters() {
-    constexpr float kLeast = 1e-30F;
+    // In a plane that is nearly perpendicular to an axis only rounding is left along it, and a
+    // quotient of rounding errors may be of any size: a pivot below 1e-6 of the whole counts as
+    // zero, and so does what is divided by its root.
     const ClusterLanes c11 = xx_ + covariance_(0, 0);
-    const ClusterLanes l11 = (c11 + kLeast).sqrt();
-    const ClusterLanes l21 = (xy_ + covariance_(0, 1)) / l11;
-    const ClusterLanes l31 = (xz_ + covariance_(0, 2)) / l11;
-    // For a plane parallel to an axis only rounding is left: below 1e-6 it counts as zero, and so
-    // does what is divided by its root.
     const ClusterLanes c22 = yy_ + covariance_(1, 1);
-    const ClusterLanes r22 = (c22 - l21 * l21 - 1e-6F * c22).max(0.0F);
-    const ClusterLanes l22 = r22.sqrt();
-    const ClusterLanes l32 = (yz_ + covariance_(1, 2) - l21 * l31) * l22 / (r22 + kLeast);
     const ClusterLanes c33 = zz_ + covariance_(2, 2);
-    const ClusterLanes l33 = (c33 - l31 * l31 - l32 * l32 - 1e-6F * c33).max(0.0F).sqrt();
+    const ClusterLanes least = 1e-6F * (c11 + c22 + c33);
+    const ClusterLanes none = ClusterLanes::Zero();
+    const ClusterLanes l11 = (c11 > least).select(c11.sqrt(), none);
+    const ClusterLanes l21 = (c11 > least).select((xy_ + covariance_(0, 1)) / l11, none);
+    const ClusterLanes l31 = (c11 > least).select((xz_ + covariance_(0, 2)) / l11, none);
+    const ClusterLanes r22 = c22 - l21 * l21;
+    const ClusterLanes l22 = (r22 > least).select(r22.sqrt(), none);
+    const ClusterLanes l32 =
+        (r22 > least).select((yz_ + covariance_(1, 2) - l21 * l31) / l22, none);
+    const ClusterLanes r33 = c33 - l31 * l31 - l32 * l32;
+    const ClusterLanes l33 = (r33 > least).select(r33.sqrt(), none);
     constexpr float kV1[4] = {1, 1, -1, -1};
     constexpr float kV2[4] = {1, -1, 1, -1};
     constexpr float kV3[4] = {1, -1, -1, 1};

@@ -1,6 +1,7 @@
 #include "core/scene/object_scene.h"
 
 #include <sstream>
+#include <utility>
 
 #include "core/base/input_error.h"
 
@@ -20,7 +21,10 @@ ObjectScene object_scene(const Scene& scene, const SceneObject& object, const Tr
     throw InputError(scene.at(object.line) + ": objects." + object.name + ".mesh",
                      object.mesh_path + ": " + problem);
   }
-  return {&object, std::make_unique<RayScene>(mesh), bounds(mesh)};
+  TriangleMesh moved = mesh;
+  for (Eigen::Vector3d& v : moved.vertices_mm) v = object.world_from_mesh * v;
+  const Box3d box = bounds(moved);
+  return {&object, std::make_unique<RayScene>(std::move(moved)), box};
 }
 
 void require_lights_outside(const Scene& scene, const ObjectScenes& objects) {

@@ -14,6 +14,7 @@
 #include "core/camera/cfa_pattern.h"
 #include "core/camera/cfa_samples.h"
 #include "core/camera/lens_parameters.h"
+#include "core/camera/rigid3d.h"
 #include "core/camera/sensor_noise.h"
 #include "core/light/ambient_light.h"
 #include "core/light/diffuse_plane.h"
@@ -49,9 +50,16 @@ struct SceneCamera {
   double f_number = 8.0;
 };
 
+// How a piece is found in the shots of it (calib/pose/piece_pose.h).
+struct PieceSearch {
+  bool is_on_plane = false;  // it stands as stated, but for x, y and a turn about the world's z
+};
+
 struct SceneObject {
   std::string name;
-  std::string mesh_path;  // of a closed mesh, mm; for messages and for the code that reads it
+  std::string mesh_path;    // of a closed mesh, mm; for messages and for the code that reads it
+  Rigid3d world_from_mesh;  // its position in the world
+  std::optional<PieceSearch> to_be_found;  // that position is only about right
   double eta_int_over_ext = 1.3;
   double eta_std = 0;
   PhaseFunction phase;

@@ -205,6 +205,45 @@ TEST(PairSumsSite, PatchIsTheMeanOfItsPoints) {
   EXPECT_EQ(tested, 8);
 }
 
+// A body that is turned, by however little, shows the same image: faces that are nearly
+// perpendicular to an axis have covariances whose smallest entries are rounding errors.
+TEST(PairSumsSite, ATurnedBodyShowsTheSameImage) {
+  const Dipole dipole({2.0, 0.01, 1.3});
+  const DistanceKnots knots(0.05, 40.0);
+  Eigen::VectorXd r(knots.size());
+  for (int i = 0; i < knots.size(); ++i) {
+    r[i] = dipole.reflectance_per_mm2(knots.knots_mm()[static_cast<std::size_t>(i)]);
+  }
+  const auto image = [&](const Eigen::Quaterniond& turn) {
+    TriangleMesh mesh = test_support::make_cube();
+    const PatchMesh upright(mesh, 0.7);
+    for (Eigen::Vector3d& v : mesh.vertices_mm) v = turn * v;
+    IncidentLight light = half_lit_top(upright, 3.0);
+    for (LitTriangle& t : light.lit) {
+      for (Eigen::Vector3d& v : t.corners_mm) v = turn * v;
+    }
+    const SourceCloud sources(light, turn * Eigen::Vector3d(0, 0, 10));
+    std::vector<ExitSite> sites;
+    for (int k = 0; k < upright.size(); k += 7) {
+      sites.push_back(exit_point(turn * upright.center_mm(k)));
+    }
+    return Eigen::VectorXd(smooth_weights(sites, sources, knots, {}) * r);
+  };
+  const Eigen::VectorXd expected = image(Eigen::Quaterniond::Identity());
+  for (const Eigen::Vector3d& about : std::vector<Eigen::Vector3d>{
+           Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}) {
+    for (const double from : {0.0, 0.5 * std::numbers::pi}) {
+      for (const double by : {1e-8, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
+        const Eigen::Vector3d tilt = Eigen::Vector3d(0.8, 0.5, 0.3).normalized();
+        const Eigen::VectorXd l = image(Eigen::Quaterniond(Eigen::AngleAxisd(by, tilt)) *
+                                        Eigen::Quaterniond(Eigen::AngleAxisd(from, about)));
+        EXPECT_LT((l - expected).norm(), 1e-3 * expected.norm())
+            << about.transpose() << ", " << from << ", " << by;
+      }
+    }
+  }
+}
+
 // The power binned is the power that entered, whatever the distances and the bins.
 TEST(PairSumsSite, ConservesPower) {
   const PatchMesh patches(test_support::make_cube(), 1.0);

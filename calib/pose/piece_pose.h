@@ -1,0 +1,50 @@
+// Where a piece stands, from its outline in shots of a camera whose pose is known.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "calib/pose/silhouette.h"
+#include "core/camera/camera_model.h"
+#include "core/camera/camera_pose.h"
+#include "core/camera/rigid3d.h"
+
+namespace scattermeter::calib {
+
+// Shots from one pose of the camera. Their meshes stand where the piece is stated to.
+struct PieceView {
+  PoseResult camera;
+  std::vector<EdgeShot> shots;
+};
+
+struct PiecePoseOptions {
+  SilhouetteOptions silhouette = {.search = 0.2};
+  // Of all lengths of the mesh: a piece that is larger looks like one that is nearer.
+  double scale_relative_std = 0;
+  // The piece stands on a plane as stated: it is displaced along the world's x and y and turned
+  // about z only, but for `plane_std_mm` in height, at a distance of size_mm for the tilt.
+  bool is_on_plane = false;
+  double plane_std_mm = 0.03;
+  double size_mm = 20;
+};
+
+struct PiecePose {
+  std::string problem;  // why it was not found; "" if it was
+  Rigid3d moved;        // from the stated position to that found, both in the world
+  // Of (displacement of the piece's centre, mm; turn about it, rad), in world axes, from the
+  // position found to the true one.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+// The silhouettes of each view (find_silhouette()) give the piece's pose relative to the camera;
+// with the camera's own pose, its pose in the world. Views are combined by their information, and a
+// plane by that of its height and tilt. center_mm: of the piece as stated, world. A problem is
+// reported where an outline is not found, where views contradict each other, or a piece its plane
+// (p below 1e-6). A body that looks the same after a turn is found in the position next to the
+// stated one. Throws std::invalid_argument without views and for options out of range.
+PiecePose find_piece(const std::vector<PieceView>& views, const CameraIntrinsics& intrinsics,
+                     const Eigen::Vector3d& center_mm, const PiecePoseOptions& options = {});
+
+}  // namespace scattermeter::calib
