@@ -90,6 +90,7 @@ std::vector<std::string> place_pieces(Rig& rig, const std::string& shots_folder,
     const ObjectScene& stated = objects.at(object.name);
     calib::PiecePoseOptions options;
     options.silhouette.line_std_px = rig.pose.edge_std_px;
+    options.silhouette.may_lack_parts = rig.pose.charuco.has_value();
     options.scale_relative_std = object.scale_relative_std;
     options.is_on_plane = object.to_be_found->is_on_plane;
     options.size_mm = stated.size_mm();

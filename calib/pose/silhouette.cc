@@ -87,18 +87,19 @@ Silhouette too_few_pieces() {
 class FineSearch {
  public:
   FineSearch(const std::vector<EdgeShot>& shots, const CameraIntrinsics& intrinsics,
-             const Rigid3d& given, const Rigid3d& start, bool pose_is_near)
+             const Rigid3d& given, const Rigid3d& start, const SilhouetteOptions& options)
       : shots_(shots),
         intrinsics_(intrinsics),
         given_(given),
         pose_(start),
-        pose_is_near_(pose_is_near) {}
+        pose_is_near_(options.pose_is_near),
+        may_lack_parts_(options.pose_is_near || options.may_lack_parts) {}
 
   // From cells of `coarse_px` down to the raw samples; false if there are too few pieces.
   bool run(int coarse_px) {
-    bool found = settle(coarse_px, 2.5, 3.0, 3) || pose_is_near_;
+    bool found = settle(coarse_px, 2.5, 3.0, 3) || may_lack_parts_;
     for (int factor = coarse_px / 2; found && factor >= 2; factor /= 2) {
-      found = settle(factor, 2.0, 4.0, 2) || pose_is_near_;
+      found = settle(factor, 2.0, 4.0, 2) || may_lack_parts_;
     }
     return found && settle(1, 2.0, 5.0, 1) && settle(1, 1.0, 5.0, 1);
   }
@@ -130,7 +131,7 @@ class FineSearch {
   const CameraIntrinsics& intrinsics_;
   const Rigid3d& given_;
   Rigid3d pose_;
-  bool pose_is_near_;
+  bool pose_is_near_, may_lack_parts_;
   std::vector<EdgePoint> points_;
 };
 
@@ -204,7 +205,7 @@ Silhouette find_silhouette(const std::vector<EdgeShot>& shots, const CameraIntri
     start = *turned;
   }
   // (2)
-  FineSearch search(shots, intrinsics, camera_from_world, start, options.pose_is_near);
+  FineSearch search(shots, intrinsics, camera_from_world, start, options);
   if (!search.run(coarse_cell_px(intrinsics.width_px))) return too_few_pieces();
   // (3)
   const Rigid3d& pose = search.pose();

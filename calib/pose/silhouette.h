@@ -18,6 +18,9 @@ struct SilhouetteOptions {
   // Least standard deviation, px, of the errors of mesh, lens and edge profile that are common to a
   // straight edge; replaced by that of the residuals if larger. >= 0.
   double line_std_px = 0.1;
+  // Parts of the shots may be masked (CfaSamples::clipped): a level of step (2) other than the last
+  // may find too few pieces.
+  bool may_lack_parts = false;
   // The pose is correct to a few px, and parts of the shots may be masked (CfaSamples::clipped):
   // the coarse search, step (1), is omitted, and a level of step (2) other than the last may find
   // too few pieces. Pieces more than 8 px and a cell away are not taken for the outline.
