@@ -25,7 +25,8 @@ struct ObjectScene {
 using ObjectScenes = std::map<std::string, ObjectScene>;
 
 // Checks the mesh, moves it to its position in the world (SceneObject::world_from_mesh) and builds
-// the geometry of an object of the scene, which must outlive it. Throws InputError naming line, object, mesh file and fault: open, inside out, in metres.
+// the geometry of an object of the scene, which must outlive it. Throws InputError naming line,
+// object, mesh file and fault: open, inside out, in metres.
 ObjectScene object_scene(const Scene& scene, const SceneObject& object, const TriangleMesh& mesh);
 
 // Throws InputError where a light of a shot is inside the object that it lights.

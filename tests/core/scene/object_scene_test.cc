@@ -1,6 +1,7 @@
 #include "core/scene/object_scene.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,6 +21,19 @@ TEST(ObjectScene, KnowsItsSize) {
   EXPECT_EQ(object.stated, &scene.objects[0]);
   EXPECT_DOUBLE_EQ(object.size_mm(), 20.0);
   EXPECT_DOUBLE_EQ(object.diagonal_mm(), 20.0 * std::sqrt(3.0));
+}
+
+TEST(ObjectScene, StandsWhereItIsStated) {
+  Scene scene = test_support::cube_scene();
+  scene.objects[0].world_from_mesh = {
+      Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * std::numbers::pi, Eigen::Vector3d::UnitX())),
+      {1, 2, 3}};
+  const ObjectScene object = object_scene(scene, scene.objects[0], cube_mesh());
+  // The cube stands on z = 0 in its mesh; its z becomes -y.
+  EXPECT_LT((object.box.min_mm - Eigen::Vector3d(-9, -18, -7)).norm(), 1e-12);
+  EXPECT_LT((object.box.max_mm - Eigen::Vector3d(11, 2, 13)).norm(), 1e-12);
+  EXPECT_FALSE(object.rays->contains({0, 0, -8}));
+  EXPECT_TRUE(object.rays->contains({0, -17, 0}));
 }
 
 TEST(ObjectScene, RefusesAnOpenMesh) {
