@@ -6,8 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "calib/pose/edge_fit.h"
-#include "calib/pose/pose_prior.h"
+#include "calib/pose/silhouette_pose.h"
 #include "core/base/chi_square.h"
 #include "core/base/cross_matrix.h"
 #include "core/base/dense_solve.h"
@@ -82,13 +81,7 @@ Matrix6d in_world(const Rigid3d& camera_from_world, const Eigen::Vector3d& relat
 Seen seen_in(const PieceView& view, const Silhouette& found, const CameraIntrinsics& intrinsics,
              const Eigen::Vector3d& center_mm) {
   const Rigid3d& camera = view.camera.camera_from_world;
-  EdgeFitOptions options;
-  options.free = pose_parameters();
-  options.line_std_px = found.line_std_px;
-  options.piece_std_px = found.piece_std_px;
-  options.prior = loose_pose_prior(edge_parameters(found.points),
-                                   found.camera_from_world.translation_mm.norm());
-  const EdgeFit fit = fit_edges(found.points, intrinsics, found.camera_from_world, options);
+  const EdgeFit fit = fit_alone(found, intrinsics, found.camera_from_world.translation_mm.norm());
   Seen out{inverse(camera) * fit.camera_from_world, {}};
   // The outline moves the piece, an error of the camera's pose takes it along.
   const Matrix6d by_outline = in_world(camera, fit.camera_from_world.rotation * center_mm);

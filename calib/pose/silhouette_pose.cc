@@ -10,13 +10,30 @@
 
 namespace scattermeter::calib {
 
-EdgeFit fit_with_pose(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
-                      const PoseResult& prior) {
-  const Eigen::Index size = edge_parameters(silhouette.points);
+namespace {
+
+// Of a fit of the pose to the silhouette's pieces; the prior is left to the caller.
+EdgeFitOptions options_of(const Silhouette& silhouette) {
   EdgeFitOptions fit;
   fit.free = pose_parameters();
   fit.line_std_px = silhouette.line_std_px;
   fit.piece_std_px = silhouette.piece_std_px;
+  return fit;
+}
+
+}  // namespace
+
+EdgeFit fit_alone(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
+                  double distance_mm) {
+  EdgeFitOptions fit = options_of(silhouette);
+  fit.prior = loose_pose_prior(edge_parameters(silhouette.points), distance_mm);
+  return fit_edges(silhouette.points, intrinsics, silhouette.camera_from_world, fit);
+}
+
+EdgeFit fit_with_pose(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
+                      const PoseResult& prior) {
+  const Eigen::Index size = edge_parameters(silhouette.points);
+  EdgeFitOptions fit = options_of(silhouette);
   fit.prior = Eigen::MatrixXd::Zero(size, size);
   fit.prior.topLeftCorner<6, 6>() = SymmetricSolver(prior.covariance).inverse();
   return fit_edges(silhouette.points, intrinsics, prior.camera_from_world, fit);
@@ -25,15 +42,10 @@ EdgeFit fit_with_pose(const Silhouette& silhouette, const CameraIntrinsics& intr
 PoseResult combine(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
                    const PoseResult& prior) {
   PoseResult out = prior;
-  const Eigen::Index size = edge_parameters(silhouette.points);
-  EdgeFitOptions fit;
-  fit.free = pose_parameters();
-  fit.line_std_px = silhouette.line_std_px;
-  fit.piece_std_px = silhouette.piece_std_px;
   // The silhouette alone, then with the prior: the increase of the sum of squares measures the
   // difference of the two, a chi-square with six degrees of freedom.
-  fit.prior = loose_pose_prior(size, prior.camera_from_world.translation_mm.norm());
-  const EdgeFit alone = fit_edges(silhouette.points, intrinsics, silhouette.camera_from_world, fit);
+  const EdgeFit alone =
+      fit_alone(silhouette, intrinsics, prior.camera_from_world.translation_mm.norm());
   const EdgeFit both = fit_with_pose(silhouette, intrinsics, prior);
   if (!alone.converged || !both.converged) {
     out.status = PoseStatus::kIllConditioned;

@@ -8,6 +8,12 @@
 
 namespace scattermeter::calib {
 
+// Least squares of the silhouette's pieces alone, with the errors that find_silhouette() estimated,
+// from its pose. distance_mm: about that of the body, for the prior that keeps the fit from
+// diverging.
+EdgeFit fit_alone(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
+                  double distance_mm);
+
 // Joint least squares of the silhouette's pieces and the pose `prior`, without the consistency test
 // of combine(); not converged if they fail.
 EdgeFit fit_with_pose(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
