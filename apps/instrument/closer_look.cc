@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "calib/pose/silhouette_check.h"
 
 namespace scattermeter::apps {
@@ -26,6 +28,20 @@ double line_std_px(const Rig& rig, const ObjectScenes& objects, const PoseResult
   return out;
 }
 
+calib::SilhouetteCheck careful_search(const Rig& rig, const ObjectScenes& objects,
+                                      const PoseResult& pose, const capture::FrameSource& frames,
+                                      std::vector<std::size_t> shots) {
+  constexpr std::size_t kMostShots = 4;
+  shots.resize(std::min(shots.size(), kMostShots));
+  calib::SilhouetteCheckOptions options;
+  options.silhouette.line_std_px = line_std_px(rig, objects, pose);
+  for (const SceneObject& object : rig.scene.objects) {
+    options.explanation.scale_relative_std =
+        std::max(options.explanation.scale_relative_std, object.scale_relative_std);
+  }
+  return calib::check_silhouettes(rig.scene, rig.pose, objects, frames, shots, pose, options);
+}
+
 }  // namespace
 
 double edge_cut_px(const CameraIntrinsics& intrinsics, const ObjectScene& object,
@@ -34,27 +50,40 @@ double edge_cut_px(const CameraIntrinsics& intrinsics, const ObjectScene& object
   return kOfCut * object.stated->edge_std_mm * px_per_mm(intrinsics, object, pose);
 }
 
+std::string shift_phrase(const Eigen::Vector2d& shift_px) {
+  return fmt::format("{:.1f} px {} and {:.1f} px {}", std::abs(shift_px.x()),
+                     shift_px.x() < 0 ? "left" : "right", std::abs(shift_px.y()),
+                     shift_px.y() < 0 ? "high" : "low");
+}
+
 bool closer_look_agrees(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
                         const capture::FrameSource& frames, const std::vector<std::size_t>& shots) {
-  constexpr std::size_t kMostShots = 4;
   constexpr double kSmall_px = 0.3;
   constexpr double kSmooth_px = 0.5;
-  std::vector<std::size_t> some = shots;
-  some.resize(std::min(some.size(), kMostShots));
-  calib::SilhouetteCheckOptions options;
-  options.silhouette.line_std_px = line_std_px(rig, objects, pose);
-  for (const SceneObject& object : rig.scene.objects) {
-    options.explanation.scale_relative_std =
-        std::max(options.explanation.scale_relative_std, object.scale_relative_std);
-  }
-  const calib::SilhouetteCheck check =
-      calib::check_silhouettes(rig.scene, rig.pose, objects, frames, some, pose, options);
-  if (check.shots_found < some.size() || check.drifts) return false;
+  const calib::SilhouetteCheck check = careful_search(rig, objects, pose, frames, shots);
+  if (check.shots_found < check.shots.size() || check.drifts) return false;
   return check.diagnosis.agrees ||
          (check.rms_px < kSmooth_px &&
           std::all_of(check.shots.begin(), check.shots.end(), [&](const calib::SilhouetteShot& s) {
             return s.shift_px.norm() < kSmall_px;
           }));
+}
+
+std::string outline_shift(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
+                          const capture::FrameSource& frames,
+                          const std::vector<std::size_t>& shots) {
+  constexpr double kSmall_px = 1.0;
+  constexpr double kStds = 1.5;
+  const calib::SilhouetteCheck check = careful_search(rig, objects, pose, frames, shots);
+  if (check.shots.empty() || check.shots_found < check.shots.size()) return "";
+  Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();
+  double std_px = 0.0;  // the shots have much of it in common
+  for (const calib::SilhouetteShot& s : check.shots) {
+    shift_px += s.shift_px / static_cast<double>(check.shots.size());
+    std_px = std::max(std_px, s.shift_std_px.maxCoeff());
+  }
+  if (shift_px.norm() < std::max(kSmall_px, kStds * std_px)) return "";
+  return fmt::format("{} (± {:.1f} px)", shift_phrase(shift_px), std::max(0.1, std_px));
 }
 
 }  // namespace scattermeter::apps

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "apps/rig/rig.h"
 #include "capture/shots/shot_source.h"
@@ -20,5 +23,15 @@ double edge_cut_px(const CameraIntrinsics& intrinsics, const ObjectScene& object
 // where the rig puts it. The quick look may take the dark side of a body for background.
 bool closer_look_agrees(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
                         const capture::FrameSource& frames, const std::vector<std::size_t>& shots);
+
+// "2.8 px right and 0.1 px high".
+std::string shift_phrase(const Eigen::Vector2d& shift_px);
+
+// By how much the careful search finds the outlines of these shots (of four, if there are more)
+// away from where the rig puts them, as "0.1 px right and 2.0 px low (± 0.1 px)"; "" within 1 px or
+// one and a half standard deviations, or where an outline is not found.
+std::string outline_shift(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
+                          const capture::FrameSource& frames,
+                          const std::vector<std::size_t>& shots);
 
 }  // namespace scattermeter::apps

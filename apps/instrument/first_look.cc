@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/core.h>
+
 namespace scattermeter::apps {
 namespace {
 
@@ -41,6 +43,23 @@ void refuse(const Scene& scene, const std::vector<Finding>& findings, Estimation
       if (!concerns || reasons++ >= kMostReasons) continue;
       estimation.results[i].estimate.reasons.push_back(f.sentence());
     }
+  }
+}
+
+bool is_fitted_and_refused(const ChannelResult& result) {
+  return result.refused() && result.estimate.sigma_s_prime_per_mm.value > 0.0;
+}
+
+void tell_of_outline(const std::string& shift, std::vector<ChannelResult>& results) {
+  if (shift.empty()) return;
+  for (ChannelResult& r : results) {
+    if (!is_fitted_and_refused(r)) continue;
+    std::vector<std::string>& reasons = r.estimate.reasons;
+    reasons.insert(reasons.begin(),
+                   fmt::format("pose or position: the outlines stand {} of where pose and mesh put "
+                               "them; take the pose points again, or place the mesh where the "
+                               "object stands",
+                               shift));
   }
 }
 

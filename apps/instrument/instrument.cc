@@ -155,11 +155,29 @@ Measurement Instrument::forecast(const capture::ShotSource& source,
   return measure(source, watch, true, opened);
 }
 
+std::optional<SharedView> Instrument::view_of(const capture::ShotSource& source) {
+  if (view_) return view_;
+  kept_ = {{}, {}, kept_.atlas};  // without the light of previous views
+  if (!pose_ || rig_.pose.per_shot) return std::nullopt;
+  return see_all(rig_.scene, objects_, lit_,
+                 calib::pose_from_silhouettes(rig_.scene, rig_.pose, objects_, *pose_, source));
+}
+
+FirstLook Instrument::look(const capture::ShotSource& source) {
+  std::vector<std::pair<std::string, double>> timing_s;
+  Stopwatch watch(timing_s);
+  SeenShots seen(rig_, objects_, lit_, source, view_of(source), true, kept_, progress_);
+  FirstLook out = look_first(source, true, seen, watch);
+  out.shots = seen.shots();
+  LightLook light(rig_.scene, lit_, out.shots, seen.kept().weights);
+  for (std::size_t i = 0; i < out.shots.size(); ++i) out.likeness.push_back(light.likeness(i));
+  return out;
+}
+
 // Opens the shots, looks at outlines, frames, lights and pose points meanwhile, and opens the shots
 // again from where the outlines show the objects.
-std::vector<Finding> Instrument::look_first(const capture::ShotSource& source, bool smooth,
-                                            SeenShots& seen, std::vector<std::string>& notes,
-                                            Stopwatch& watch) {
+FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth, SeenShots& seen,
+                                 Stopwatch& watch) {
   OutlineFindings outlines;
   if (view_) {
     OutlineWatch looks(rig_, objects_, *pose_);
@@ -191,8 +209,7 @@ std::vector<Finding> Instrument::look_first(const capture::ShotSource& source, b
       outlines.findings.push_back(std::move(*points));
     }
   }
-  notes = outlines.notes;
-  return in_order(outlines.findings, of_light);
+  return {{}, in_order(outlines.findings, of_light), outlines.notes, {}, outlines.diagnosis};
 }
 
 Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& watch,
@@ -205,29 +222,29 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   for (const auto& [name, object] : objects_) {
     out.patch_size_mm[name] = lit_.patches(name).patch_size_mm();
   }
-  if (!view_) kept_ = {{}, {}, kept_.atlas};  // without the light of previous views
-  std::optional<SharedView> view = view_;
-  if (!view && pose_ && !rig_.pose.per_shot) {
-    view = see_all(rig_.scene, objects_, lit_,
-                   calib::pose_from_silhouettes(rig_.scene, rig_.pose, objects_, *pose_, source));
-  }
   const bool smooth = estimator(options.model).on_smooth_knots;
-  SeenShots seen(rig_, objects_, lit_, source, std::move(view), smooth, kept_, progress_);
-  std::vector<Finding> findings;
+  SeenShots seen(rig_, objects_, lit_, source, view_of(source), smooth, kept_, progress_);
+  FirstLook look;
   if (without_noise) {
     seen.open();
     watch.lap("shots");
   } else {
-    findings = look_first(source, smooth, seen, out.notes, watch);
+    look = look_first(source, smooth, seen, watch);
+    out.notes = look.notes;
   }
   out.brackets = brackets_of(seen.shots());
   const auto fit = [&](const EstimateOptions& how) {
-    return estimate_others(rig_.scene, lit_, seen.shots(), findings, how, seen.kept(), watch,
+    return estimate_others(rig_.scene, lit_, seen.shots(), look.findings, how, seen.kept(), watch,
                            progress_);
   };
   out.results = smooth && !without_noise
                     ? fitted_from_where_seen(rig_.scene, seen, options, fit, watch)
                     : fit(options);
+  const auto* frames = std::get_if<capture::FrameSource>(&source.open);
+  if (view_ && !without_noise && frames != nullptr && look.findings.empty() &&
+      std::any_of(out.results.begin(), out.results.end(), is_fitted_and_refused)) {
+    tell_of_outline(outline_shift(rig_, objects_, *pose_, *frames, source.shot_idxs), out.results);
+  }
   if (atlas_ && !atlas_->problem().empty()) {
     out.notes.push_back("paths of transport are not kept: " + atlas_->problem());
   }

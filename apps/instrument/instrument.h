@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/instrument/atlas_folder.h"
-#include "apps/instrument/finding.h"
+#include "apps/instrument/first_look.h"
 #include "apps/instrument/measure.h"
 #include "apps/rig/rig.h"
 #include "capture/shots/shot_source.h"
@@ -51,12 +51,17 @@ class Instrument {
   // and to this instrument.
   Measurement forecast(const capture::ShotSource& source, std::vector<ObservedShot>& opened);
 
+  // Opens these shots and looks at outlines and light as measure() does before any fit.
+  FirstLook look(const capture::ShotSource& source);
+
   // From the rig's points; empty if it has none.
   const std::optional<PoseResult>& pose_of_points() const { return pose_; }
 
  private:
-  std::vector<Finding> look_first(const capture::ShotSource& source, bool smooth, SeenShots& seen,
-                                  std::vector<std::string>& notes, Stopwatch& watch);
+  // The view that these shots share, if they do.
+  std::optional<SharedView> view_of(const capture::ShotSource& source);
+  FirstLook look_first(const capture::ShotSource& source, bool smooth, SeenShots& seen,
+                       Stopwatch& watch);
   Measurement measure(const capture::ShotSource& source, Stopwatch& watch, bool without_noise,
                       std::vector<ObservedShot>& opened);
 

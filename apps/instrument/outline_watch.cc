@@ -19,9 +19,9 @@ namespace {
 
 using calib::OutlineCause;
 
-// Standard deviation of an object's place on its stand, in each coordinate, as put down by hand
-// against a stop or a drawn line.
-constexpr double kPlaceStd_mm = 0.2;
+// Least standard deviation of an object's position in each coordinate, also of one stated as exact:
+// a quick look is no better.
+constexpr double kLeastPlaceStd_mm = 0.1;
 
 // Below this share of points that lie on one outline it is not judged: the background is bright, or
 // too little of the object is lit.
@@ -35,8 +35,9 @@ constexpr std::size_t kLeastPoints = 30;
 constexpr int kLooksAgain = 2;
 constexpr std::size_t kShotsAgain = 4;  // of each object
 
-// Of an object put down as exactly as that, about each axis: at a distance of its own size.
-double turn_std_rad(const ObjectScene& object) { return kPlaceStd_mm / object.size_mm(); }
+double place_std_mm(const ObjectScene& object) {
+  return std::max(kLeastPlaceStd_mm, object.stated->position_std_mm);
+}
 
 // Share of the points that lie on the contour, wherever it stands.
 double share_alone(const calib::OutlineLook& look, const std::vector<calib::ContourPoint>& contour,
@@ -49,12 +50,6 @@ double share_alone(const calib::OutlineLook& look, const std::vector<calib::Cont
 }
 
 }  // namespace
-
-std::string shift_phrase(const calib::OutlineDiagnosis& d) {
-  return fmt::format("{:.1f} px {} and {:.1f} px {}", std::abs(d.shift_px.x()),
-                     d.shift_px.x() < 0 ? "left" : "right", std::abs(d.shift_px.y()),
-                     d.shift_px.y() < 0 ? "high" : "low");
-}
 
 OutlineWatch::OutlineWatch(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose)
     : rig_(rig), objects_(objects), pose_(pose) {
@@ -96,11 +91,13 @@ calib::OutlineDiagnosis OutlineWatch::explain(const Looks& looks,
     looked_at.push_back(idx);
   }
   calib::OutlineOptions options;
-  options.place_std_mm = kPlaceStd_mm;
   for (const std::string& name : names_) {
     const auto object = objects_.find(name);
     if (object == objects_.end()) continue;
-    options.turn_std_rad = std::max(options.turn_std_rad, turn_std_rad(object->second));
+    const double std_mm = place_std_mm(object->second);
+    options.place_std_mm = std::max(options.place_std_mm, std_mm);
+    // Its orientation is as uncertain at a distance of its own size.
+    options.turn_std_rad = std::max(options.turn_std_rad, std_mm / object->second.size_mm());
     options.scale_relative_std =
         std::max(options.scale_relative_std, object->second.stated->scale_relative_std);
     options.growth_std_px = std::max(
@@ -223,7 +220,7 @@ void OutlineWatch::conclude(const Looks& looks, OutlineFindings& out) const {
         fmt::format("outline {} of where the pose puts it (± {:.1f}), within the stated "
                     "uncertainty: the search "
                     "for where the object stands begins there",
-                    shift_phrase(d), d.shift_std_px));
+                    shift_phrase(d.shift_px), d.shift_std_px));
     return;
   }
   const calib::OutlineExplanation& best = d.explanations.at(1);

@@ -28,9 +28,6 @@ struct OutlineFindings {
   std::vector<std::size_t> looked_at;  // indices of the shots in the scene, as in the diagnosis
 };
 
-// "2.8 px right and 0.1 px high", from the shift of the outlines.
-std::string shift_phrase(const calib::OutlineDiagnosis& diagnosis);
-
 // For a camera that does not move, before a dark background.
 class OutlineWatch {
  public:

@@ -50,17 +50,28 @@ std::vector<ObservedShot> SeenShots::open_and_light(const capture::ShotSource& f
     unread[i].seen = view_->objects.at(unread[i].stated->object);
   }
   std::vector<ObservedShot> shots;
-  std::exception_ptr of_light;
-  tbb::parallel_invoke([&] { shots = open_shots(rig_, from, objects_, lit_, view_, progress_); },
-                       [&] {
-                         try {
-                           add_smooth_weights(rig_.scene, unread, lit_, nullptr, kept_->weights);
-                         } catch (...) {
-                           // An error in a shot is reported first.
-                           of_light = std::current_exception();
-                         }
-                       });
-  if (of_light) std::rethrow_exception(of_light);
+  // Both ends are awaited: an exception would cancel the loops of the other, and half of W would be
+  // kept as if it were whole.
+  std::exception_ptr of_shots, of_light;
+  const auto guarded = [](std::exception_ptr& error, const auto& work) {
+    try {
+      work();
+    } catch (...) {
+      error = std::current_exception();
+    }
+  };
+  tbb::parallel_invoke(
+      [&] {
+        guarded(of_shots,
+                [&] { shots = open_shots(rig_, from, objects_, lit_, view_, progress_); });
+      },
+      [&] {
+        guarded(of_light,
+                [&] { add_smooth_weights(rig_.scene, unread, lit_, nullptr, kept_->weights); });
+      });
+  for (const std::exception_ptr& error : {of_shots, of_light}) {
+    if (error) std::rethrow_exception(error);
+  }
   return shots;
 }
 

@@ -44,5 +44,18 @@ TEST_F(CloserLookTest, AgreesWithAGoodRigOnly) {
                                   off.shot_idxs));
 }
 
+// A millimetre is some five pixels in this frame.
+TEST_F(CloserLookTest, SaysHowFarTheOutlinesAreOff) {
+  const auto said = [&](const capture::ShotSource& s) {
+    return outline_shift(rig_, scenes_, pose_, std::get<capture::FrameSource>(s.open), s.shot_idxs);
+  };
+  EXPECT_EQ(said(shots({0, 0, 0})), "");
+  const std::string right = said(shots({0.7, 0, 0}));
+  const double px = 0.7 * rig_.scene.camera.intrinsics.fx_px /
+                    (pose_.camera_from_world * scenes_.at("cube").box.center_mm()).z();
+  EXPECT_NEAR(std::stod(right), px, 0.5) << right;
+  EXPECT_NE(right.find("px right"), std::string::npos) << right;
+}
+
 }  // namespace
 }  // namespace scattermeter::apps

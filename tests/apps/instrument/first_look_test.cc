@@ -1,5 +1,6 @@
 #include "apps/instrument/first_look.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/fixtures/core/cube_estimation.h"
@@ -35,6 +36,22 @@ TEST(FirstLook, RefusesItsChannels) {
   const std::vector<std::string>& reasons = e.estimation.results.at(0).estimate.reasons;
   ASSERT_EQ(reasons.size(), 2U);
   EXPECT_EQ(reasons[0], "a seen; mend it");
+}
+
+// An outline that is off explains what the fit refused, and nothing else.
+TEST(FirstLook, OutlineIsTheFirstReasonOfWhatWasFitted) {
+  std::vector<ChannelResult> results(3);
+  results[0].estimate.sigma_s_prime_per_mm.value = 1.0;
+  results[0].estimate.reasons = {"misfit"};
+  results[1].estimate.sigma_s_prime_per_mm.value = 1.0;
+  results[2].estimate.reasons = {"dark"};
+  tell_of_outline("", results);
+  EXPECT_EQ(results[0].estimate.reasons.size(), 1U);
+  tell_of_outline("2.0 px low (± 0.1 px)", results);
+  ASSERT_EQ(results[0].estimate.reasons.size(), 2U);
+  EXPECT_THAT(results[0].estimate.reasons[0], testing::HasSubstr("stand 2.0 px low"));
+  EXPECT_TRUE(results[1].estimate.reasons.empty());
+  EXPECT_EQ(results[2].estimate.reasons.size(), 1U);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "apps/instrument/instrument.h"
 #include "capture/files/digest.h"
 #include "capture/shots/shot_cache.h"
+#include "core/base/input_error.h"
 #include "tests/fixtures/apps/lit_shots.h"
 
 namespace scattermeter::apps {
@@ -51,6 +52,24 @@ TEST_F(SeenShotsTest, OpensFromWhereTheObjectIsSeen) {
   EXPECT_NE(shot.observation.channel[1].l, l);
   EXPECT_NE(&shots->kept(), &kept_);
   EXPECT_TRUE(shots->kept().weights.contains({shot.seen.get(), shot.stated->lights.at(0), 0}));
+}
+
+// The light of the view is whole after a shot that could not be read, for the next one.
+TEST_F(SeenShotsTest, AnUnreadableShotLeavesNoHalfLight) {
+  seen(setup_.view)->open();
+  const Weights whole = kept_.weights;
+  for (int round = 0; round < 5; ++round) {
+    kept_.weights.clear();
+    capture::ShotSource broken = source();
+    broken.open = capture::FrameSource([](std::size_t, std::size_t) -> capture::RawFrame {
+      throw InputError("a.dng", "is cut off");
+    });
+    SeenShots shots(setup_.rig, setup_.scenes, *setup_.lit, broken, setup_.view, true, kept_,
+                    nullptr);
+    EXPECT_THROW(shots.open(), InputError);
+    ASSERT_EQ(kept_.weights.size(), whole.size());
+    for (const auto& [key, weights] : whole) EXPECT_EQ(kept_.weights.at(key), weights);
+  }
 }
 
 TEST_F(SeenShotsTest, ForgetsAndKeepsNothingFromThenOn) {
