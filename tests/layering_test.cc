@@ -26,7 +26,8 @@ const std::vector<std::string> kFolders = {
     "core/scene",     "core/atlas",      "core/estimation", "capture/files",   "capture/raw",
     "capture/sensor", "capture/shots",   "calib/board",     "calib/pose",      "calib/lens",
     "calib/led",      "calib/radiance",  "apps/rig",        "apps/instrument", "apps/results",
-    "apps/drafting",  "apps/simulation", "apps/checking",   "apps/planning",   "apps/report",
+    "apps/drafting",  "apps/simulation", "apps/checking",   "apps/planning",   "apps/watching",
+    "apps/report",
     "apps/export",    "apps/commands",   "apps/deviations", "apps/bench",      "apps/program",
 };
 // Arrows that the order allows and the purpose of the folders forbids.

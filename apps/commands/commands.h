@@ -53,6 +53,7 @@ void add_init_command(CLI::App& app, CommandContext& context);
 void add_print_command(CLI::App& app, CommandContext& context);
 void add_measure_command(CLI::App& app, CommandContext& context);
 void add_check_command(CLI::App& app, CommandContext& context);
+void add_watch_command(CLI::App& app, CommandContext& context);
 void add_compare_command(CLI::App& app, CommandContext& context);
 void add_calibrate_camera(CLI::App& calibrate, CommandContext& context);
 void add_calibrate_led(CLI::App& calibrate, CommandContext& context);

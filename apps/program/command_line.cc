@@ -62,6 +62,7 @@ int run_command_line(const std::vector<std::string>& arguments, std::ostream& ou
   add_print_command(app, context);
   add_measure_command(app, context);
   add_check_command(app, context);
+  add_watch_command(app, context);
   CLI::App* calibrate = app.add_subcommand(
       "calibrate", "Make the calibrations that a rig refers to from their shots (raws).");
   calibrate->require_subcommand(1);

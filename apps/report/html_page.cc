@@ -171,11 +171,15 @@ Html html_details(const std::string& summary, const Html& inner) {
           "</details>\n"};
 }
 
-std::string html_document(const std::string& title, const Html& body) {
+std::string html_document(const std::string& title, const Html& body, int reload_s) {
+  const std::string reload = reload_s == 0 ? ""
+                                           : "<meta http-equiv=\"refresh\" content=\"" +
+                                                 std::to_string(reload_s) + "\">\n";
   return std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
          "data:; "
-         "style-src 'unsafe-inline'\">\n"
+         "style-src 'unsafe-inline'\">\n" +
+         reload +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
          html_text(title).markup + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n" +
          body.markup + "</body>\n</html>\n";

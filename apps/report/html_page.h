@@ -51,7 +51,8 @@ Html html_figures(const std::vector<Html>& figures);
 Html html_details(const std::string& summary, const Html& inner);
 
 // The complete document: UTF-8, responsive, light or dark as the reader prefers. Its
-// Content-Security-Policy forbids all requests and scripts.
-std::string html_document(const std::string& title, const Html& body);
+// Content-Security-Policy forbids all requests and scripts. reload_s: after which it is loaded
+// again; 0: never.
+std::string html_document(const std::string& title, const Html& body, int reload_s = 0);
 
 }  // namespace scattermeter::apps

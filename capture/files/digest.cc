@@ -72,4 +72,9 @@ std::string FileDigests::of(const std::string& path) {
   return known_[path] = std::move(digest);
 }
 
+void FileDigests::forget(const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  known_.erase(path);
+}
+
 }  // namespace scattermeter::capture

@@ -40,6 +40,8 @@ std::string sha256_of_file(const std::string& path);
 class FileDigests {
  public:
   std::string of(const std::string& path);
+  // The file is to be read again.
+  void forget(const std::string& path);
 
  private:
   std::mutex mutex_;

@@ -1,0 +1,116 @@
+// The shots of a rig while they are taken, one after the other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/instrument/instrument.h"
+#include "apps/rig/rig.h"
+#include "apps/watching/shot_verdict.h"
+#include "capture/files/digest.h"
+#include "capture/raw/raw_frame.h"
+#include "capture/shots/shot_cache.h"
+#include "capture/shots/shot_source.h"
+#include "core/mesh/ray_scene.h"
+#include "core/scene/object_scene.h"
+#include "core/view/camera_view.h"
+#include "core/view/sample_map.h"
+
+namespace scattermeter::apps {
+
+// A file that the rig lists: one exposure of a shot, or the shot of the board.
+struct AwaitedFile {
+  std::string rig_name;
+  std::size_t shot_idx = kBoard;  // into the rig's shots
+  std::size_t exposure_idx = 0;
+  std::string taken_from;  // the file that was accepted for it; "": still to be taken
+  static constexpr std::size_t kBoard = static_cast<std::size_t>(-1);
+};
+
+// What became of an arrived file.
+struct TakenShot {
+  std::string file;      // that arrived
+  std::string rig_name;  // for which it was taken
+  ShotVerdict verdict;
+  std::string png;              // a picture of it, by ShotPainter; empty: none
+  bool completes_shot = false;  // the last exposure of its bracket, so that it was looked at
+};
+
+// Draws a small picture of a shot, as the bytes of a file.
+using ShotPainter = std::function<std::string(const capture::RawFrame&, const CameraView&,
+                                              const RayScene&, const SampleMap&)>;
+
+// What the shots so far say of a material, and what one more would add.
+struct RunningAnswer {
+  std::vector<ChannelResult> channels;  // by the dipole
+  std::string next;                     // the next shot of this material; "": none
+  // With the next shot: relative standard deviations of sigma_s' and sigma_a, by channel as above;
+  // empty where that cannot be forecast.
+  std::vector<std::array<double, 2>> with_next;
+};
+
+class WatchedShots {
+ public:
+  // out_folder: accepted shots are linked or copied to its folder `shots` under the names that the
+  // rig gives them, and their decoded samples are kept in `cache`, as by `measure`. The rig must
+  // outlive it. paint may be empty. Throws InputError for a rig that cannot be opened.
+  WatchedShots(const Rig& rig, const std::string& out_folder, ShotPainter paint);
+
+  const std::vector<AwaitedFile>& files() const { return files_; }
+  std::string shots_folder() const { return shots_folder_; }
+  std::size_t still_awaited() const;
+  // "led1.dng: cube of PP, lit by led1"; "" when nothing is awaited.
+  std::string next() const;
+
+  // Takes the file for the shot of its name or, if the rig does not name it, for the next one that
+  // is awaited; where the image shows the lights of another awaited shot of the same object, for
+  // that one. A shot that was rejected is awaited again. Returns nothing for a file that the rig
+  // lists for its calibrations. Throws InputError for one that cannot be read as a shot, and where
+  // nothing is awaited.
+  std::optional<TakenShot> take(const std::string& path);
+  // The file is gone or has other contents: what it was accepted for is awaited again. Returns the
+  // rig's name of that; "" if there is none.
+  std::string release(const std::string& path);
+  void rename(const std::string& from, const std::string& to);
+
+  // Of the shot of that name; nothing for the board's.
+  std::optional<std::string> material_of(const std::string& rig_name) const;
+  // Of the material of the shot, by all its accepted shots. Throws InputError as measure() does.
+  RunningAnswer answer(const std::string& rig_name);
+
+ private:
+  std::size_t slot_for(const std::string& name) const;
+  TakenShot take_as(std::size_t slot, const std::string& path);
+  void take_board(TakenShot& taken);
+  void look_at(std::size_t slot, TakenShot& taken);
+  void place_piece(const SceneShot& shot);
+  Instrument& instrument();
+  std::string path_of(const std::string& rig_name) const;
+  bool is_complete(std::size_t shot_idx) const;
+  std::vector<std::string> taken_from(std::size_t shot_idx) const;  // its exposures in order
+  capture::ShotSource source_of(const std::vector<std::size_t>& shot_idxs);
+  std::optional<std::size_t> other_slot(std::size_t slot, const std::vector<std::string>& lights);
+  std::vector<std::array<double, 2>> forecast(const std::string& material,
+                                              const std::vector<ChannelResult>& channels,
+                                              const std::vector<std::size_t>& shot_idxs) const;
+
+  const Rig& stated_;
+  Rig rig_;  // with pieces where they were found
+  std::string shots_folder_;
+  ShotPainter paint_;
+  std::vector<AwaitedFile> files_;
+  capture::FileDigests digests_;
+  capture::ShotCache cache_;
+  std::map<std::string, double> off_px_;      // of accepted shots, by rig name
+  std::optional<CameraPlacement> seen_from_;  // the last shot
+  ObjectScenes objects_;
+  std::unique_ptr<Instrument> instrument_;
+};
+
+}  // namespace scattermeter::apps
