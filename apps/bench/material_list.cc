@@ -3,10 +3,12 @@
 #include <array>
 #include <charconv>
 #include <fstream>
+#include <string_view>
 
 #include <fmt/core.h>
 
 #include "core/base/input_error.h"
+#include "core/material/published_media.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -89,13 +91,20 @@ std::vector<ListedMaterial> read_materials(const std::string& path) {
 }
 
 const std::vector<ListedMaterial>& well_known_materials() {
-  static const std::vector<ListedMaterial> list = {
-      {"marble", 'R', {2.19, 0.0021, 1.5}},   {"marble", 'G', {2.62, 0.0041, 1.5}},
-      {"marble", 'B', {3.00, 0.0071, 1.5}},   {"skimmilk", 'R', {0.70, 0.0014, 1.3}},
-      {"skimmilk", 'G', {1.22, 0.0025, 1.3}}, {"skimmilk", 'B', {1.90, 0.0142, 1.3}},
-      {"skin1", 'R', {0.74, 0.032, 1.3}},     {"skin1", 'G', {0.88, 0.17, 1.3}},
-      {"skin1", 'B', {1.01, 0.48, 1.3}},      {"ketchup", 'R', {0.18, 0.061, 1.3}},
-      {"ketchup", 'G', {0.07, 0.97, 1.3}},    {"ketchup", 'B', {0.03, 1.45, 1.3}}};
+  static const std::vector<ListedMaterial> list = [] {
+    std::vector<ListedMaterial> out;
+    for (const std::string_view name : {"marble", "skimmilk", "skin1", "ketchup"}) {
+      for (const PublishedMaterial& m : published_materials()) {
+        if (m.name != name) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+          out.push_back({std::string(name), "RGB" [c], {
+                           m.sigma_s_prime_per_mm[c], m.sigma_a_per_mm[c], m.eta_int_over_ext
+                         }});
+        }
+      }
+    }
+    return out;
+  }();
   return list;
 }
 

@@ -20,9 +20,8 @@ struct ListedMaterial {
 // value that is not a number or out of range (eta in 0.5 .. 4, sigma_s' > 0, sigma_a > 0).
 std::vector<ListedMaterial> read_materials(const std::string& path);
 
-// Four materials over the range of the instrument: marble, skim milk, skin 1, ketchup. Jensen,
-// Marschner, Levoy and Hanrahan, "A practical model for subsurface light transport" (2001),
-// figure 5.
+// Four materials over the range of the instrument: marble, skim milk, skin 1, ketchup
+// (core/material/published_media.h).
 const std::vector<ListedMaterial>& well_known_materials();
 
 }  // namespace scattermeter::apps

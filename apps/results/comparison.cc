@@ -91,21 +91,27 @@ bool have_same_rig(const ReadResult& first, const ReadResult& second) {
   return !first.rig_sha256.empty() && first.rig_sha256 == second.rig_sha256;
 }
 
+MaterialComparison compare(const ReadResult& first, const ReadResult& second,
+                           const std::string& ours, const std::string& theirs, bool share_rig) {
+  MaterialComparison m{ours, theirs, {}, 1.0};
+  for (const char channel : {'R', 'G', 'B'}) {
+    const ReadChannel* a = measured(first, ours, channel);
+    const ReadChannel* b = measured(second, theirs, channel);
+    if (a == nullptr || b == nullptr) continue;
+    m.channels.push_back(compare(*a, *b, share_rig));
+    m.p_value = std::min(m.p_value, m.channels.back().p_value);
+  }
+  m.p_value = std::min(1.0, m.p_value * static_cast<double>(m.channels.size()));
+  if (m.channels.empty()) m.p_value = 1.0;
+  return m;
+}
+
 std::vector<MaterialComparison> compare(
     const ReadResult& first, const ReadResult& second,
     const std::vector<std::pair<std::string, std::string>>& pairs, bool share_rig) {
   std::vector<MaterialComparison> out;
   for (const auto& [ours, theirs] : pairs) {
-    MaterialComparison& m = out.emplace_back(MaterialComparison{ours, theirs, {}, 1.0});
-    for (const char channel : {'R', 'G', 'B'}) {
-      const ReadChannel* a = measured(first, ours, channel);
-      const ReadChannel* b = measured(second, theirs, channel);
-      if (a == nullptr || b == nullptr) continue;
-      m.channels.push_back(compare(*a, *b, share_rig));
-      m.p_value = std::min(m.p_value, m.channels.back().p_value);
-    }
-    m.p_value = std::min(1.0, m.p_value * static_cast<double>(m.channels.size()));
-    if (m.channels.empty()) m.p_value = 1.0;
+    out.push_back(compare(first, second, ours, theirs, share_rig));
   }
   if (std::any_of(out.begin(), out.end(), [](const auto& m) { return !m.channels.empty(); })) {
     return out;

@@ -47,6 +47,11 @@ std::vector<std::pair<std::string, std::string>> pairs_of(const ReadResult& firs
 // Whether both results state the same rig file, by its digest.
 bool have_same_rig(const ReadResult& first, const ReadResult& second);
 
+// A material of each. Its channels are empty where none is measured in both.
+MaterialComparison compare(const ReadResult& first, const ReadResult& second,
+                           const std::string& ours, const std::string& theirs, bool share_rig);
+
+// The same for pairs of materials. Throws InputError where no channel is measured in both files.
 std::vector<MaterialComparison> compare(
     const ReadResult& first, const ReadResult& second,
     const std::vector<std::pair<std::string, std::string>>& pairs, bool share_rig);

@@ -32,6 +32,19 @@ TEST_F(CompareCommand, StatusTellsWhetherMaterialsDiffer) {
   EXPECT_THAT(other.out, HasSubstr("PP and POM: different"));
 }
 
+TEST_F(CompareCommand, FindsKnownMaterials) {
+  const Answer published = run({"compare", first_, "--library", "--material", "PP"});
+  EXPECT_THAT(published.out, HasSubstr("like PP"));
+  EXPECT_THAT(published.out, HasSubstr("Jensen et al. 2001"));
+  write_file(folder_ / "b.json", slurp(first_));
+  const Answer own = run({"compare", first_, "--library", folder_.path()});
+  EXPECT_EQ(own.status, 0) << own.err;
+  EXPECT_THAT(own.out, HasSubstr("POM: may be POM"));
+  EXPECT_EQ(run({"compare", first_, first_, "--library"}).status, 2);
+  EXPECT_THAT(run({"compare", first_, "--library", folder_ / "none"}).err, HasSubstr("none"));
+  EXPECT_THAT(run({"compare", first_}).err, HasSubstr("needs a second result, or --library"));
+}
+
 TEST_F(CompareCommand, BadInputIsNamed) {
   EXPECT_EQ(run({"compare", first_}).status, 2);
   const Answer none = run({"compare", first_, first_, "--material", "PPP"});
