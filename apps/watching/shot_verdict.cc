@@ -27,56 +27,6 @@ std::string time_text(double seconds) {
                        : fmt::format("{:.2g} s", seconds);
 }
 
-void judge_exposure(const ObservedShot& shot, double range_counts, ShotVerdict& out) {
-  double clipped = 0.0, brightest_counts = 0.0, least_snr = std::numeric_limits<double>::infinity();
-  std::size_t brightest = 0, darkest = 0, clipping = 0;
-  for (std::size_t c = 0; c < kRgb; ++c) {
-    const ChannelObservation& o = shot.observation.channel[c];
-    const double share =
-        static_cast<double>(o.samples_clipped) / std::max(1.0, static_cast<double>(o.samples));
-    if (share > clipped) {
-      clipped = share;
-      clipping = c;
-    }
-    if (o.brightest_counts > brightest_counts) {
-      brightest_counts = o.brightest_counts;
-      brightest = c;
-    }
-    if (share < 1.0 && o.brightest_snr < least_snr) {
-      least_snr = o.brightest_snr;
-      darkest = c;
-    }
-  }
-  const bool is_bracket = shot.exposures.size() > 1;
-  if (clipped > kMostClipped) {
-    // How far it clips is not seen; where much of it does, it is by more than a factor of two.
-    const double factor = clipped > 0.3 ? 0.25 : 0.5;
-    out.problems.push_back(fmt::format("overexposed: {:.0f} % of {}'s samples are clipped; {}",
-                                       std::ceil(100.0 * clipped), kRgbName[clipping],
-                                       is_bracket
-                                           ? "add a shorter exposure to the bracket"
-                                           : "take it at " + time_text(factor * shot.exposure_s)));
-    return;
-  }
-  const double share = brightest_counts / range_counts;
-  const double longer = kAimedShare / std::max(share, 1e-4);
-  if (least_snr < kLeastSnr) {
-    out.problems.push_back(fmt::format(
-        "too dark: {}'s brightest patch is {:.0f} times its noise; check that the LED was on{}",
-        kRgbName[darkest], least_snr,
-        is_bracket || longer < 1.5
-            ? ""
-            : ", or take it at " + time_text(std::min(longer, 100.0) * shot.exposure_s)));
-    return;
-  }
-  std::string remark = fmt::format("brightest patch at {:.0f} % of the range ({})", 100.0 * share,
-                                   kRgbName[brightest]);
-  if (share < kPaleShare && !is_bracket) {
-    remark += "; less noise at " + time_text(longer * shot.exposure_s);
-  }
-  out.remarks.push_back(remark);
-}
-
 void judge_sharpness(const ObservedShot& shot, double fx_px, ShotVerdict& out) {
   if (shot.edge_blur_mm < 0.0 || is_round(shot.seen->object->mesh())) return;
   const double mm_per_px =
@@ -112,11 +62,61 @@ double outline_off_px(const FirstLook& look) {
   return look.outline ? look.outline->shift_px.norm() : 0.0;
 }
 
-ShotVerdict judge(const LookedAtShot& shot) {
+ShotVerdict judge_exposure(const ObservedShot& shot, double range_counts) {
   ShotVerdict out;
+  double clipped = 0.0, brightest_counts = 0.0, least_snr = std::numeric_limits<double>::infinity();
+  std::size_t brightest = 0, darkest = 0, clipping = 0;
+  for (std::size_t c = 0; c < kRgb; ++c) {
+    const ChannelObservation& o = shot.observation.channel[c];
+    const double share =
+        static_cast<double>(o.samples_clipped) / std::max(1.0, static_cast<double>(o.samples));
+    if (share > clipped) {
+      clipped = share;
+      clipping = c;
+    }
+    if (o.brightest_counts > brightest_counts) {
+      brightest_counts = o.brightest_counts;
+      brightest = c;
+    }
+    if (share < 1.0 && o.brightest_snr < least_snr) {
+      least_snr = o.brightest_snr;
+      darkest = c;
+    }
+  }
+  const bool is_bracket = shot.exposures.size() > 1;
+  if (clipped > kMostClipped) {
+    // How far it clips is not seen; where much of it does, it is by more than a factor of two.
+    const double factor = clipped > 0.3 ? 0.25 : 0.5;
+    out.problems.push_back(fmt::format("overexposed: {:.0f} % of {}'s samples are clipped; {}",
+                                       std::ceil(100.0 * clipped), kRgbName[clipping],
+                                       is_bracket
+                                           ? "add a shorter exposure to the bracket"
+                                           : "take it at " + time_text(factor * shot.exposure_s)));
+    return out;
+  }
+  const double share = brightest_counts / range_counts;
+  const double longer = kAimedShare / std::max(share, 1e-4);
+  if (least_snr < kLeastSnr) {
+    out.problems.push_back(fmt::format(
+        "too dark: {}'s brightest patch is {:.0f} times its noise; check that the LED was on{}",
+        kRgbName[darkest], least_snr,
+        is_bracket || longer < 1.5
+            ? ""
+            : ", or take it at " + time_text(std::min(longer, 100.0) * shot.exposure_s)));
+    return out;
+  }
+  std::string remark = fmt::format("brightest patch at {:.0f} % of the range ({})", 100.0 * share,
+                                   kRgbName[brightest]);
+  if (share < kPaleShare && !is_bracket) {
+    remark += "; less noise at " + time_text(longer * shot.exposure_s);
+  }
+  out.remarks.push_back(remark);
+  return out;
+}
+
+ShotVerdict judge(const LookedAtShot& shot) {
   const ObservedShot& opened = shot.look.shots.front();
-  judge_exposure(opened, shot.range_counts, out);
-  // What is too bright or too dark shows nothing else.
+  ShotVerdict out = judge_exposure(opened, shot.range_counts);
   if (!out.is_accepted()) return out;
   judge_outline(shot, out);
   for (const Finding& f : shot.look.findings) {

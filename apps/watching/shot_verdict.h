@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/instrument/first_look.h"
-#include "core/camera/camera_model.h"
+#include "core/scene/observed_shot.h"
 
 namespace scattermeter::apps {
 
@@ -32,6 +32,10 @@ struct LookedAtShot {
 // How far the outline is off, px; 0 where it is not looked at.
 double outline_off_px(const FirstLook& look);
 
+// Exposure alone, which does not depend on where exactly the object stands.
+ShotVerdict judge_exposure(const ObservedShot& shot, double range_counts);
+
+// What is too bright or too dark shows nothing else, and is judged by that alone.
 ShotVerdict judge(const LookedAtShot& shot);
 
 }  // namespace scattermeter::apps

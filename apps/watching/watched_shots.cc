@@ -123,18 +123,18 @@ capture::ShotSource WatchedShots::source_of(const std::vector<std::size_t>& shot
   return source;
 }
 
+SceneObject& WatchedShots::object_of(Rig& rig, const SceneShot& shot) {
+  return *std::find_if(rig.scene.objects.begin(), rig.scene.objects.end(),
+                       [&](const SceneObject& o) { return o.name == shot.object; });
+}
+
 // Where the first shot of a piece shows it, which later shots are compared with.
 void WatchedShots::place_piece(const SceneShot& shot) {
-  const auto of_name = [&](Rig& rig) {
-    return std::find_if(rig.scene.objects.begin(), rig.scene.objects.end(),
-                        [&](const SceneObject& o) { return o.name == shot.object; });
-  };
-  if (!of_name(rig_)->to_be_found) return;
   Rig one = rig_;
   one.scene.shots = {shot};
   place_pieces(one, shots_folder_);
-  *of_name(rig_) = *of_name(one);
-  of_name(rig_)->to_be_found.reset();
+  object_of(rig_, shot) = object_of(one, shot);
+  object_of(rig_, shot).to_be_found.reset();
   instrument_.reset();
   objects_ = open_objects(rig_);
 }
@@ -150,12 +150,19 @@ void WatchedShots::take_board(TakenShot& taken) {
 void WatchedShots::look_at(std::size_t slot, TakenShot& taken) {
   const std::size_t idx = files_[slot].shot_idx;
   const SceneShot& shot = rig_.scene.shots[idx];
-  place_piece(shot);
-  const FirstLook look = instrument().look(source_of({idx}));
   const capture::RawFrame frame =
       capture::open_shot(rig_.scene, rig_.decoding, taken_from(idx).front());
-  LookedAtShot at{look, frame.white_counts, rig_.scene.camera.intrinsics.fx_px, "", 0.0};
-  at.range_counts -= *std::max_element(frame.black_counts.begin(), frame.black_counts.end());
+  const double range_counts =
+      frame.white_counts - *std::max_element(frame.black_counts.begin(), frame.black_counts.end());
+  if (object_of(rig_, shot).to_be_found) {
+    // Where it is stated to stand is near enough to see whether it can be found.
+    const FirstLook there = instrument().look(source_of({idx}));
+    taken.verdict = judge_exposure(there.shots.front(), range_counts);
+    if (!taken.verdict.is_accepted()) return;
+    place_piece(shot);
+  }
+  const FirstLook look = instrument().look(source_of({idx}));
+  LookedAtShot at{look, range_counts, rig_.scene.camera.intrinsics.fx_px, "", 0.0};
   for (const AwaitedFile& f : files_) {
     if (f.shot_idx == AwaitedFile::kBoard || !off_px_.contains(f.rig_name) ||
         rig_.scene.shots[f.shot_idx].object != shot.object || f.shot_idx == idx) {

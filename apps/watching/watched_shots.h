@@ -89,6 +89,7 @@ class WatchedShots {
   TakenShot take_as(std::size_t slot, const std::string& path);
   void take_board(TakenShot& taken);
   void look_at(std::size_t slot, TakenShot& taken);
+  static SceneObject& object_of(Rig& rig, const SceneShot& shot);
   void place_piece(const SceneShot& shot);
   Instrument& instrument();
   std::string path_of(const std::string& rig_name) const;
