@@ -27,8 +27,8 @@ const std::vector<std::string> kFolders = {
     "capture/sensor", "capture/shots",   "calib/board",     "calib/pose",      "calib/lens",
     "calib/led",      "calib/radiance",  "apps/rig",        "apps/instrument", "apps/results",
     "apps/drafting",  "apps/simulation", "apps/checking",   "apps/planning",   "apps/watching",
-    "apps/report",
-    "apps/export",    "apps/commands",   "apps/deviations", "apps/bench",      "apps/program",
+    "apps/report",    "apps/export",     "apps/commands",   "apps/deviations", "apps/bench",
+    "apps/program",
 };
 // Arrows that the order allows and the purpose of the folders forbids.
 const std::vector<std::pair<std::string, std::string>> kNever = {

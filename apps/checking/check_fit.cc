@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "apps/checking/edge_rows.h"
+#include "apps/checking/transport_departures.h"
 #include "capture/shots/shot_samples.h"
 #include "core/base/progress.h"
 #include "core/base/stopwatch.h"
@@ -37,19 +38,19 @@ std::vector<MaterialChannel> useful_channels(const Rig& rig,
   return channels;
 }
 
-// Transport is searched for this long in a channel: its errors need only be small compared with the
-// limits of the checks.
-constexpr double kTransport_s = 12.0;
+// Transport is searched for as long as by `measure`, so that both judge by the same evidence.
+constexpr double kTransport_s = 20.0;
 
-// l as predicted by the model that measures, on the rows of the dipole's system; NaN where it was
-// not used.
-Eigen::VectorXd predicted_by(const ChannelResult& result, const DipoleSystem& of_dipole) {
+// A column of the rows of the model that measures, on the rows of the dipole's system; NaN where it
+// was not used.
+Eigen::VectorXd on_rows_of(const DipoleSystem& of_dipole, const ChannelResult& result,
+                           std::vector<float> ShotRows::*column) {
   std::vector<double> out;
   for (std::size_t s = 0; s < of_dipole.rows->size(); ++s) {
     const ChannelObservation& o = (*of_dipole.rows)[s];
     for (std::size_t j = 0; j < o.l.size(); ++j) {
       if (o.state[j] != RowState::kUsed) continue;
-      out.push_back(s < result.rows.size() ? static_cast<double>(result.rows[s].predicted[j])
+      out.push_back(s < result.rows.size() ? static_cast<double>((result.rows[s].*column)[j])
                                            : std::numeric_limits<double>::quiet_NaN());
     }
   }
@@ -97,12 +98,14 @@ void add_departures(const Scene& stated, const Scene& scene, const DipoleSystem&
   const DipoleCurve curve =
       dipole_curve(of_dipole.knots, std::log(sigma_t), e.sigma_a_per_mm.value / sigma_t,
                    channel.eta_int_over_ext);
-  const DenseSystem all = of_dipole.system();
+  DenseSystem all = of_dipole.system();
   const bool by_transport = result.model == "transport";
   const Eigen::VectorXd predicted = by_transport
-                                        ? predicted_by(result, of_dipole)
+                                        ? on_rows_of(of_dipole, result, &ShotRows::predicted)
                                         : Eigen::VectorXd(all.weights * (e.scale.value * curve.r));
   if (predicted.size() != all.l.size()) return;
+  // That of its paths, too.
+  if (by_transport) all.std_l = on_rows_of(of_dipole, result, &ShotRows::std);
   std::vector<Eigen::Index> known;
   for (Eigen::Index j = 0; j < all.l.size(); ++j) {
     if (std::isfinite(predicted[j])) known.push_back(j);
@@ -124,10 +127,30 @@ void add_departures(const Scene& stated, const Scene& scene, const DipoleSystem&
   model.scale_relative_std = scale_prior(scene).relative_std;
   fitted.departures = shot_departures(system, model);
   fitted.nuisances = system.nuisances;
+  if (by_transport) {
+    take_evidence(stated, result, system.nuisances, channel.shots, *fitted.departures);
+  }
   std::vector<const SceneShot*> shots;
   for (const ObservedShot* shot : channel.shots) shots.push_back(shot->stated);
   fitted.causes = image_causes(stated, shots, system, model);
   fitted.edge_excess = edge_excess(channel.shots, of_dipole, kept, system, model);
+}
+
+// Whether transport explains the shots, though they may not determine its coefficients: what it
+// leaves of them is then far less than what the dipole leaves.
+bool shows_more_than_dipole(const ChannelResult& by_transport) {
+  constexpr double kLess = 0.5;
+  if (by_transport.rows.empty()) return false;
+  return !by_transport.refused() ||
+         by_transport.estimate.reduced_chi2 < kLess * by_transport.dipole->reduced_chi2;
+}
+
+// Whether the shots contradict a quantity of the rig: the dipole explains them with another value.
+// Where it does not, the quantity is bent by the model's own error.
+bool is_contradicted(const Estimate& e) {
+  constexpr double kExplained = 3.0;
+  return contradiction(e.pulls, kMostPull, kLeastPullImage) != nullptr &&
+         e.reduced_chi2 < kExplained;
 }
 
 // The result of transport where the dipole does not hold, in the channel of its material with the
@@ -151,8 +174,7 @@ std::vector<bool> judged_channels(Estimation& e,
     ChannelResult& result = e.results[i];
     if (!systems[i] || !result.estimate.converged) continue;
     result.why_transport = why_transport(result, systems[i]->image_in_std);
-    judged[i] = result.why_transport.empty() ||
-                contradiction(result.estimate.pulls, kMostPull, kLeastPullImage) != nullptr ||
+    judged[i] = result.why_transport.empty() || is_contradicted(result.estimate) ||
                 std::any_of(e.channels[i].shots.begin(), e.channels[i].shots.end(),
                             [&](const ObservedShot* shot) { return explained.contains(shot); });
     if (judged[i]) continue;
@@ -169,7 +191,7 @@ std::vector<bool> judged_channels(Estimation& e,
     search_by_transport(e.scene, e.channels[i], *systems[i], *e.kept.atlas, e.options, stage,
                         result);
     judged[i] = true;
-    if (!result.refused() && !result.rows.empty()) e.results[i] = std::move(result);
+    if (shows_more_than_dipole(result)) e.results[i] = std::move(result);
     stage.step();
   }
   return judged;
