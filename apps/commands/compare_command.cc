@@ -6,7 +6,6 @@
 
 #include "apps/commands/commands.h"
 #include "apps/report/comparison_table.h"
-#include "apps/report/library_table.h"
 #include "apps/results/comparison.h"
 #include "apps/results/material_library.h"
 

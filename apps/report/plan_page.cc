@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "apps/planning/plan_assumptions.h"
+#include "apps/report/budget_details.h"
 #include "apps/report/html_page.h"
 #include "apps/report/led_map_plot.h"
 #include "apps/report/page_plots.h"
@@ -97,39 +98,6 @@ Html exposure_table(const Plan& plan) {
   return html_table(table);
 }
 
-Html planned_budget(const std::vector<const PlannedChannel*>& channels) {
-  HtmlTable table;
-  table.header = {"channel",
-                  "cause",
-                  "sigma_s'",
-                  "sigma_a",
-                  "share of sigma_a's variance",
-                  "sigma_a if this were known exactly"};
-  for (const PlannedChannel* c : channels) {
-    const Estimate& e = c->result.estimate;
-    const std::vector<KnownCause> known = known_causes(e);
-    for (const BudgetLine& line : e.budget) {
-      const double all = e.sigma_a_per_mm.std;
-      const double share =
-          std::clamp(line.std_sigma_a_per_mm * line.std_sigma_a_per_mm / (all * all), 0.0, 1.0);
-      const auto without = std::find_if(known.begin(), known.end(),
-                                        [&](const KnownCause& k) { return k.cause == line.cause; });
-      table.rows.push_back(
-          {text_cell(std::string(1, c->result.channel)),
-           text_cell(line.cause),
-           number_cell(percent_text(line.std_sigma_s_prime_per_mm / e.sigma_s_prime_per_mm.value)),
-           number_cell(percent_text(line.std_sigma_a_per_mm / e.sigma_a_per_mm.value)),
-           {Html{fmt::format("<meter min=\"0\" max=\"1\" value=\"{:.4f}\">{:.0f} %</meter>",
-                             std::isfinite(share) ? share : 0.0, 100.0 * share)},
-            false, ""},
-           number_cell(without == known.end()
-                           ? "–"
-                           : percent_text(without->sigma_a_std_per_mm / e.sigma_a_per_mm.value))});
-    }
-  }
-  return table.rows.empty() ? Html{} : html_table(table);
-}
-
 // Causes known exactly and additional shots, the most helpful first.
 Html gain_table(const SuggestedShots& o, const std::vector<const PlannedChannel*>& channels) {
   std::vector<std::pair<double, std::string>> list;
@@ -184,14 +152,14 @@ Html plan_section(const Plan& plan, const std::vector<const PlannedChannel*>& ch
       out += plot_figures(plots);
     }
   }
-  if (const Html table = planned_budget(channels); !table.markup.empty()) {
+  Html budgets;
+  for (const PlannedChannel* c : channels) {
+    budgets += budget_details(c->result.channel, c->result.estimate);
+  }
+  if (!budgets.markup.empty()) {
     out += html_element("h3", html_text("Where the uncertainty will come from"));
-    out += html_element(
-        "p",
-        html_text("One standard deviation for each cause, relative to the coefficient. Shares of "
-                  "correlated causes need not add up to one."),
-        "dim");
-    out += html_details(fmt::format("budget of {}", material), table);
+    out += html_element("p", html_text(kBudgetLegend), "dim");
+    out += budgets;
   }
   return out;
 }

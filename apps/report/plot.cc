@@ -33,15 +33,30 @@ std::string gnuplot_quoted(const std::string& text) {
   return out + "'";
 }
 
+// A round step of which the range holds at most five.
+double tic_step(double range) {
+  const double decade = std::pow(10.0, std::floor(std::log10(range / 5.0)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (range <= 5.0 * step * decade) return step * decade;
+  }
+  return 10.0 * decade;
+}
+
 std::string axis(const char* name, const PlotAxis& a, bool reversed) {
   const auto end = [](const std::optional<double>& v) { return v ? fmt::format("{}", *v) : "*"; };
   const auto ends = reversed && a.min && a.max ? std::pair(end(a.max), end(a.min))
                                                : std::pair(end(a.min), end(a.max));
+  // gnuplot's own steps leave no room between long labels.
+  std::string steps;
+  if (!a.log && a.min && a.max && *a.max > *a.min) {
+    steps = fmt::format("set {}tics {:g}\n", name, tic_step(*a.max - *a.min));
+  }
   // gnuplot applies `reverse` only if it chooses at least one end of the range itself.
-  return fmt::format("set {0}label {1} noenhanced\n{2}set {0}range [{3}:{4}]{5}\n", name,
+  return fmt::format("{6}set {0}label {1} noenhanced\n{2}set {0}range [{3}:{4}]{5}\n", name,
                      gnuplot_quoted(a.label),
                      a.log ? fmt::format("set logscale {0}\nset format {0} '%g'\n", name) : "",
-                     ends.first, ends.second, reversed && !(a.min && a.max) ? " reverse" : "");
+                     ends.first, ends.second, reversed && !(a.min && a.max) ? " reverse" : "",
+                     steps);
 }
 
 bool can_stand(const PlotAxis& a, double value) {

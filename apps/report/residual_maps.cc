@@ -29,6 +29,20 @@ Picture row_picture(const SampleMap& map, int width_px, const ColourOfRow& colou
   return out;
 }
 
+// Colours are few enough for a palette, which halves the size of a page, and finer than the noise.
+constexpr double kGreySteps = 100.0;
+constexpr double kDifferenceSteps = 50.0;  // to each side
+
+double in_steps(double value, double steps) { return std::round(value * steps) / steps; }
+
+double brightest_of(const ShotRows& rows) {
+  double out = 0.0;
+  for (std::size_t j = 0; j < rows.observed.size(); ++j) {
+    if (rows.state[j] == RowState::kUsed) out = std::max<double>(out, rows.observed[j]);
+  }
+  return out;
+}
+
 // A round number of percent that most of the differences do not exceed.
 double round_up(double percent) {
   for (const double step : {0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0}) {
@@ -39,43 +53,49 @@ double round_up(double percent) {
 
 }  // namespace
 
-ResidualMap residual_map(const ShotRows& rows, int width_px) {
-  double brightest = 0.0;
-  double squares = 0.0;
-  double light = 0.0;
+double difference_scale_percent(const ShotRows& rows) {
   std::vector<double> differences;
+  for (std::size_t j = 0; j < rows.observed.size(); ++j) {
+    if (rows.state[j] == RowState::kUsed) {
+      differences.push_back(std::abs(static_cast<double>(rows.observed[j] - rows.predicted[j])));
+    }
+  }
+  const double brightest = brightest_of(rows);
+  if (differences.empty() || !(brightest > 0.0)) return 0.0;
+  const auto at = static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(differences.size() - 1));
+  std::nth_element(differences.begin(), differences.begin() + at, differences.end());
+  return round_up(100.0 * differences[static_cast<std::size_t>(at)] / brightest);
+}
+
+ResidualMap residual_map(const ShotRows& rows, int width_px, double full_scale_percent) {
+  const double brightest = brightest_of(rows);
+  double squares = 0.0, light = 0.0;
   for (std::size_t j = 0; j < rows.observed.size(); ++j) {
     if (rows.state[j] != RowState::kUsed) continue;
     const double o = rows.observed[j];
     const double d = o - static_cast<double>(rows.predicted[j]);
-    brightest = std::max(brightest, o);
     squares += d * d;
     light += o * o;
-    differences.push_back(std::abs(d));
   }
-  double scale = 0.0;
-  if (!differences.empty() && brightest > 0.0) {
-    const auto at = static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(differences.size() - 1));
-    std::nth_element(differences.begin(), differences.begin() + at, differences.end());
-    scale = round_up(100.0 * differences[static_cast<std::size_t>(at)] / brightest);
-  }
-  const double unit = scale > 0.0 ? 0.01 * scale * brightest : 1.0;
+  const double unit = full_scale_percent > 0.0 ? 0.01 * full_scale_percent * brightest : 1.0;
   const auto used = [&](std::size_t j) { return rows.state[j] == RowState::kUsed; };
+  const auto grey = [&](float value) {
+    return grey_colour(in_steps(static_cast<double>(value) / brightest, kGreySteps));
+  };
   const Picture observed = row_picture(*rows.map, width_px, [&](std::size_t j) {
     if (rows.state[j] == RowState::kClipped) return kClipped;
-    if (!used(j)) return kLeftOut;
-    return grey_colour(static_cast<double>(rows.observed[j]) / brightest);
+    return used(j) ? grey(rows.observed[j]) : kLeftOut;
   });
   const Picture model = row_picture(*rows.map, width_px, [&](std::size_t j) {
-    return used(j) ? grey_colour(static_cast<double>(rows.predicted[j]) / brightest) : kUnused;
+    return used(j) ? grey(rows.predicted[j]) : kUnused;
   });
   const Picture difference = row_picture(*rows.map, width_px, [&](std::size_t j) {
-    return used(j)
-               ? difference_colour(static_cast<double>(rows.observed[j] - rows.predicted[j]) / unit)
-               : kUnused;
+    if (!used(j)) return kUnused;
+    return difference_colour(in_steps(
+        static_cast<double>(rows.observed[j] - rows.predicted[j]) / unit, kDifferenceSteps));
   });
   return {side_by_side({observed, model, difference}, 4),
-          light > 0.0 ? std::sqrt(squares / light) : 0.0, scale};
+          light > 0.0 ? std::sqrt(squares / light) : 0.0};
 }
 
 }  // namespace scattermeter::apps

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "apps/report/budget_details.h"
 #include "apps/report/html_page.h"
 #include "apps/report/page_plots.h"
 #include "apps/report/residual_maps.h"
@@ -104,30 +105,6 @@ Html reasons(const Measurement& m) {
   return list.markup.empty() ? Html{} : html_element("ul", list);
 }
 
-// The share of each cause in the variance.
-Html budget(const std::vector<const ChannelResult*>& channels) {
-  HtmlTable table;
-  table.header = {"channel", "cause", "sigma_s' [1/mm]", "share", "sigma_a [1/mm]", "share"};
-  const auto share = [](double std, double whole) {
-    const double part = whole > 0.0 ? std::clamp(std * std / (whole * whole), 0.0, 1.0) : 0.0;
-    return Html{fmt::format("<meter min=\"0\" max=\"1\" value=\"{:.4f}\">{:.0f} %</meter>",
-                            std::isfinite(part) ? part : 0.0, 100.0 * part)};
-  };
-  for (const ChannelResult* r : channels) {
-    const Estimate& e = r->estimate;
-    for (const BudgetLine& line : e.budget) {
-      table.rows.push_back(
-          {text_cell(std::string(1, r->channel)),
-           text_cell(line.cause),
-           number_cell(fmt::format("{:.2g}", line.std_sigma_s_prime_per_mm)),
-           {share(line.std_sigma_s_prime_per_mm, e.sigma_s_prime_per_mm.std), false, ""},
-           number_cell(fmt::format("{:.2g}", line.std_sigma_a_per_mm)),
-           {share(line.std_sigma_a_per_mm, e.sigma_a_per_mm.std), false, ""}});
-    }
-  }
-  return table.rows.empty() ? Html{} : html_table(table);
-}
-
 Html single_shots(const std::vector<const ChannelResult*>& channels) {
   HtmlTable table;
   table.header = {"shot", "channel", "sigma_s' [1/mm]", "sigma_a [1/mm]", "verdict"};
@@ -148,7 +125,7 @@ std::string left_out(const ChannelResult& r) {
   return fmt::format("{}: {}", r.channel, patches_text(r.patches_by_state, r.patches_partly_seen));
 }
 
-Html maps(const std::vector<const ChannelResult*>& channels) {
+Html maps(const std::vector<const ChannelResult*>& channels, double full_scale_percent) {
   std::vector<const ShotRows*> all;
   std::vector<char> names;
   std::size_t more = 0;
@@ -161,11 +138,9 @@ Html maps(const std::vector<const ChannelResult*>& channels) {
   }
   std::vector<Html> figures(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    const ResidualMap map = residual_map(*all[i], kMapWidth_px);
-    const std::string caption = fmt::format(
-        "{} {}: observed, model, difference (blue to red: ±{:g} % of the brightest "
-        "place); rms {:.2g} %",
-        all[i]->file, names[i], map.full_scale_percent, 100.0 * map.rms_relative);
+    const ResidualMap map = residual_map(*all[i], kMapWidth_px, full_scale_percent);
+    const std::string caption = fmt::format("{} {}: observed, model, difference; rms {:.2g} %",
+                                            all[i]->file, names[i], 100.0 * map.rms_relative);
     figures[i] =
         html_figure(data_address("image/png", png_bytes(map.picture)), caption, html_text(caption));
   });
@@ -176,7 +151,8 @@ Html maps(const std::vector<const ChannelResult*>& channels) {
   return out;
 }
 
-Html material_section(const std::vector<const ChannelResult*>& channels) {
+Html material_section(const std::vector<const ChannelResult*>& channels,
+                      double full_scale_percent) {
   Html out = html_element("h2", html_text(channels.front()->material));
   std::vector<PagePlot> plots;
   for (const ChannelResult* r : channels) {
@@ -186,14 +162,12 @@ Html material_section(const std::vector<const ChannelResult*>& channels) {
     for (PagePlot& plot : ellipse_plots(*r)) plots.push_back(std::move(plot));
   }
   if (!plots.empty()) out += plot_figures(plots);
-  if (const Html table = budget(channels); !table.markup.empty()) {
+  Html budgets;
+  for (const ChannelResult* r : channels) budgets += budget_details(r->channel, r->estimate);
+  if (!budgets.markup.empty()) {
     out += html_element("h3", html_text("Where the uncertainty comes from"));
-    out += html_element(
-        "p",
-        html_text("One standard deviation for each cause, and its share of the variance. Shares of "
-                  "correlated causes need not add up to one."),
-        "dim");
-    out += table;
+    out += html_element("p", html_text(kBudgetLegend), "dim");
+    out += budgets;
   }
   if (const Html table = single_shots(channels); !table.markup.empty()) {
     out += html_element("h3", html_text("Single shots"));
@@ -215,7 +189,12 @@ Html material_section(const std::vector<const ChannelResult*>& channels) {
   for (const ChannelResult* r : channels) {
     out += html_element("p", html_text(left_out(*r)), "dim");
   }
-  out += maps(channels);
+  out += html_element("p",
+                      html_text(fmt::format("Differences on all maps of this page: blue to red, "
+                                            "±{:g} % of the brightest place of the shot.",
+                                            full_scale_percent)),
+                      "dim");
+  out += maps(channels, full_scale_percent);
   return out;
 }
 
@@ -250,13 +229,19 @@ std::string result_page(const Measurement& m, const std::string& command_line) {
       html_text("In the observations, areas at silhouettes and creases, which are not used, are "
                 "dark, clipped areas red, and other excluded areas orange."),
       "dim");
+  double full_scale_percent = 0.0;
+  for (const ChannelResult& r : m.results) {
+    for (const ShotRows& rows : r.rows) {
+      full_scale_percent = std::max(full_scale_percent, difference_scale_percent(rows));
+    }
+  }
   for (std::size_t i = 0; i < m.results.size();) {
     std::vector<const ChannelResult*> channels;
     const std::string& material = m.results[i].material;
     for (; i < m.results.size() && m.results[i].material == material; ++i) {
       channels.push_back(&m.results[i]);
     }
-    body += material_section(channels);
+    body += material_section(channels, full_scale_percent);
   }
   HtmlTable inputs;
   inputs.header = {"file", "sha256"};

@@ -38,8 +38,10 @@ PlotSeries ellipse(const Estimate& e, char channel) {
     const double t = 2.0 * std::numbers::pi * i / kSteps;
     const double u = radius * std::cos(t);
     const double v = radius * std::sin(t);
-    out.x.push_back(e.sigma_s_prime_per_mm.value + e.sigma_s_prime_per_mm.std * u);
-    out.y.push_back(e.sigma_a_per_mm.value + e.sigma_a_per_mm.std * (e.correlation * u + rest * v));
+    // Neither coefficient is negative.
+    out.x.push_back(std::max(0.0, e.sigma_s_prime_per_mm.value + e.sigma_s_prime_per_mm.std * u));
+    out.y.push_back(std::max(
+        0.0, e.sigma_a_per_mm.value + e.sigma_a_per_mm.std * (e.correlation * u + rest * v)));
   }
   return out;
 }
@@ -115,8 +117,12 @@ std::vector<PagePlot> ellipse_plots(const ChannelResult& r) {
   out.plot.series = {ellipse(e, r.channel), center};
   if (!singles.x.empty()) out.plot.series.push_back(singles);
   out.plot.title = fmt::format("{} {}: sigma_s' and sigma_a", r.material, r.channel);
-  out.plot.x = {"sigma_s' [1/mm]", false, s.value - kShown * s.std, s.value + kShown * s.std};
-  out.plot.y = {"sigma_a [1/mm]", false, a.value - kShown * a.std, a.value + kShown * a.std};
+  const auto range = [](const char* label, const Quantity& q) {
+    return PlotAxis{label, false, std::max(0.0, q.value - kShown * q.std),
+                    q.value + kShown * q.std};
+  };
+  out.plot.x = range("sigma_s' [1/mm]", s);
+  out.plot.y = range("sigma_a [1/mm]", a);
   out.caption = fmt::format(
       "{} {}: 95 % region of the estimate (correlation {:.2f}); open: estimates from single shots, "
       "{} of {} within this plot.",

@@ -24,14 +24,14 @@ ShotRows six_samples() {
 }
 
 TEST(ResidualMaps, NumbersByHand) {
-  const ResidualMap map = residual_map(six_samples(), 3);
+  const ResidualMap map = residual_map(six_samples(), 3, 1.0);
   EXPECT_NEAR(map.rms_relative, std::sqrt(5.0 / 10625.0), 1e-9);
   // Most of the differences are at most 1 of the 100 counts of the brightest row in use.
-  EXPECT_EQ(map.full_scale_percent, 1.0);
+  EXPECT_EQ(difference_scale_percent(six_samples()), 1.0);
 }
 
 TEST(ResidualMaps, ThreePicturesByHand) {
-  const Picture p = residual_map(six_samples(), 3).picture;
+  const Picture p = residual_map(six_samples(), 3, 1.0).picture;
   EXPECT_EQ(p.width_px, 3 * 3 + 2 * 4);
   EXPECT_EQ(p.height_px, 2);
   const PictureColour behind = {28, 30, 34};
@@ -57,9 +57,9 @@ TEST(ResidualMaps, ThreePicturesByHand) {
 TEST(ResidualMaps, NoRowInUse) {
   ShotRows rows = six_samples();
   rows.state.assign(4, RowState::kNoise);
-  const ResidualMap map = residual_map(rows, 3);
+  const ResidualMap map = residual_map(rows, 3, 0.0);
   EXPECT_EQ(map.rms_relative, 0.0);
-  EXPECT_EQ(map.full_scale_percent, 0.0);
+  EXPECT_EQ(difference_scale_percent(rows), 0.0);
   EXPECT_EQ(map.picture.at(14, 0), (PictureColour{120, 120, 120}));
 }
 
@@ -71,9 +71,16 @@ TEST(ResidualMaps, IsMadeSmaller) {
   map->row_of_sample.assign(800, 0);
   ShotRows rows = six_samples();
   rows.map = map;
-  const Picture p = residual_map(rows, 25).picture;
+  const Picture p = residual_map(rows, 25, 1.0).picture;
   EXPECT_EQ(p.width_px, 3 * 20 + 2 * 4);
   EXPECT_EQ(p.height_px, 10);
+}
+
+// As on a page: another shot of larger differences sets the scale.
+TEST(ResidualMaps, AScaleForAll) {
+  const Picture p = residual_map(six_samples(), 3, 4.0).picture;
+  EXPECT_EQ(p.at(14, 0), difference_colour(0.26));  // a quarter, in steps of a fiftieth
+  EXPECT_EQ(p.at(15, 0), difference_colour(-0.5));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <png.h>
 
 namespace scattermeter::capture {
 namespace {
@@ -40,7 +41,7 @@ TEST(Png, HeaderNamesSizeAndFormat) {
   EXPECT_EQ(big_endian(png, 16), 3U);
   EXPECT_EQ(big_endian(png, 20), 2U);
   EXPECT_EQ(png[24], 8);  // bits a channel
-  EXPECT_EQ(png[25], 2);  // RGB
+  EXPECT_EQ(png[25], 3);  // indices into a palette
 }
 
 // Whole chunks with right checksums from the signature to IEND and nothing behind it.
@@ -68,6 +69,32 @@ TEST(Png, SamePixelsSameBytesAndOthersNot) {
   EXPECT_EQ(png_of_rgb(3, 2, other), png_of_rgb(3, 2, kSixPixels));
   other[10] = 77;
   EXPECT_NE(png_of_rgb(3, 2, other), png_of_rgb(3, 2, kSixPixels));
+}
+
+std::vector<std::uint8_t> read_back(const std::vector<std::uint8_t>& png) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  EXPECT_NE(png_image_begin_read_from_memory(&image, png.data(), png.size()), 0);
+  image.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> rgb(PNG_IMAGE_SIZE(image));
+  EXPECT_NE(png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr), 0);
+  return rgb;
+}
+
+// With a palette up to 256 colours, and without one beyond.
+TEST(Png, ShowsThePixels) {
+  for (const int colours : {2, 256, 257, 1000}) {
+    std::vector<std::uint8_t> rgb;
+    for (int i = 0; i < 1000; ++i) {
+      const int c = i % colours;
+      for (const int v : {c % 256, c / 256, 255 - c % 256}) {
+        rgb.push_back(static_cast<std::uint8_t>(v));
+      }
+    }
+    const std::vector<std::uint8_t> png = png_of_rgb(40, 25, rgb);
+    EXPECT_EQ(png[25], colours <= 256 ? 3 : 2) << colours;
+    EXPECT_EQ(read_back(png), rgb) << colours;
+  }
 }
 
 TEST(Png, RefusesAnotherNumberOfValues) {
