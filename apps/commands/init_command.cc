@@ -47,6 +47,7 @@ DraftedObject object_of(const std::string& body, const fs::path& folder,
 
 RigDraft draft_of(const InitArguments& a, std::vector<NewFile>& files) {
   RigDraft draft;
+  if (!a.is_example) draft.listing = list_shots(a.shots);
   draft.material = a.material;
   draft.is_example = a.is_example;
   if (!a.board.empty()) draft.board = drafted_board(a.board);
@@ -54,7 +55,7 @@ RigDraft draft_of(const InitArguments& a, std::vector<NewFile>& files) {
   for (const std::string& body : a.bodies) {
     draft.objects.push_back(object_of(body, fs::path(a.out).parent_path(), files));
   }
-  draft.listing = a.is_example ? example_listing(draft.leds) : list_shots(a.shots);
+  if (a.is_example) draft.listing = example_listing(draft.leds);
   return draft;
 }
 

@@ -30,11 +30,11 @@ double line_std_px(const Rig& rig, const ObjectScenes& objects, const PoseResult
 
 calib::SilhouetteCheck careful_search(const Rig& rig, const ObjectScenes& objects,
                                       const PoseResult& pose, const capture::FrameSource& frames,
-                                      std::vector<std::size_t> shots) {
+                                      std::vector<std::size_t> shots, double line_std_px) {
   constexpr std::size_t kMostShots = 4;
   shots.resize(std::min(shots.size(), kMostShots));
   calib::SilhouetteCheckOptions options;
-  options.silhouette.line_std_px = line_std_px(rig, objects, pose);
+  options.silhouette.line_std_px = line_std_px;
   for (const SceneObject& object : rig.scene.objects) {
     options.explanation.scale_relative_std =
         std::max(options.explanation.scale_relative_std, object.scale_relative_std);
@@ -60,7 +60,8 @@ bool closer_look_agrees(const Rig& rig, const ObjectScenes& objects, const PoseR
                         const capture::FrameSource& frames, const std::vector<std::size_t>& shots) {
   constexpr double kSmall_px = 0.3;
   constexpr double kSmooth_px = 0.5;
-  const calib::SilhouetteCheck check = careful_search(rig, objects, pose, frames, shots);
+  const calib::SilhouetteCheck check =
+      careful_search(rig, objects, pose, frames, shots, line_std_px(rig, objects, pose));
   if (check.shots_found < check.shots.size() || check.drifts) return false;
   return check.diagnosis.agrees ||
          (check.rms_px < kSmooth_px &&
@@ -74,7 +75,9 @@ std::string outline_shift(const Rig& rig, const ObjectScenes& objects, const Pos
                           const std::vector<std::size_t>& shots) {
   constexpr double kSmall_px = 1.0;
   constexpr double kStds = 1.5;
-  const calib::SilhouetteCheck check = careful_search(rig, objects, pose, frames, shots);
+  // An error of the mesh's size shifts no outline as a whole.
+  const calib::SilhouetteCheck check =
+      careful_search(rig, objects, pose, frames, shots, rig.pose.edge_std_px);
   if (check.shots.empty() || check.shots_found < check.shots.size()) return "";
   Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();
   double std_px = 0.0;  // the shots have much of it in common

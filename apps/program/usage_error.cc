@@ -18,6 +18,12 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
+std::string listed(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
+}
+
 const CLI::App* command_of(const CLI::App& app, const std::string& word) {
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->get_name() == word) return command;
@@ -80,14 +86,34 @@ UsageReading read_usage(const CLI::App& app, const std::vector<std::string>& wor
       out.commands.push_back(named);
       continue;
     }
-    std::string known;
     const std::vector<std::string> names = command_names(command);
-    for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-    out.fault =
-        words[i] + " is no command" + did_you_mean(words[i], names) + " (there are: " + known + ")";
+    out.fault = words[i] + " is no command" + did_you_mean(words[i], names) +
+                " (there are: " + listed(names) + ")";
     return out;
   }
+  if (const CLI::App& last = *out.commands.back(); last.get_require_subcommand_min() > 0) {
+    out.fault = "name what to " + (out.commands.size() > 1 ? last.get_name() : std::string("do")) +
+                ": " + listed(command_names(last));
+  }
   return out;
+}
+
+// "--threads: Value 0 not in range 0.000000 to 17976..." of CLI::Range; no limit where it is a
+// number's largest.
+std::string with_range(const std::string& message) {
+  static const std::regex pattern(R"((.*): Value (.*) not in range (.*) to (.*))");
+  std::smatch match;
+  if (!std::regex_match(message, match, pattern)) return message;
+  const double low = std::stod(match[3]), high = std::stod(match[4]);
+  std::ostringstream out;
+  out << match[1] << ": expected a ";
+  if (high < 1e300) {
+    out << "number from " << low << " to " << high;
+  } else {
+    out << "positive number";
+  }
+  out << ", got " << match[2];
+  return out.str();
 }
 
 // "--model: dipol not in {auto,dipole}" of CLI::IsMember, with the value that was probably meant.
@@ -98,9 +124,7 @@ std::string with_suggestion(const std::string& message) {
   std::vector<std::string> values;
   std::istringstream list(match[3]);
   for (std::string value; std::getline(list, value, ',');) values.push_back(value);
-  std::string known;
-  for (const std::string& value : values) known += (known.empty() ? "" : ", ") + value;
-  return match[1].str() + ": expected one of " + known + ", got " + match[2].str() +
+  return match[1].str() + ": expected one of " + listed(values) + ", got " + match[2].str() +
          did_you_mean(match[2].str(), values);
 }
 
@@ -113,7 +137,8 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error,
   for (const CLI::App* named : reading.commands) {
     command += (command.empty() ? "" : " ") + named->get_name();
   }
-  std::string what = reading.fault.empty() ? with_suggestion(error.what()) : reading.fault;
+  std::string what =
+      reading.fault.empty() ? with_range(with_suggestion(error.what())) : reading.fault;
   return "scattermeter: " + what + "\nRun `" + command + " --help` for its options.\n";
 }
 

@@ -73,7 +73,7 @@ void require_name(const YamlField& field, const std::vector<std::string>& names,
                   const std::string& what) {
   const std::string name = field.text();
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
-  field.fail(what + did_you_mean(name, names));
+  field.fail(what, did_you_mean(name, names));
 }
 
 void require_mm(const YamlField& field, double length_mm, double shortest_mm) {

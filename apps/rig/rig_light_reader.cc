@@ -162,7 +162,7 @@ SceneLight read_light(const std::string& name, const YamlField& field, const std
     const bool is_last = &reader == std::end(kLightReaders) - 1;
     known += (known.empty() ? "" : is_last ? " or " : ", ") + std::string(reader.type);
   }
-  type.fail("expected " + known + did_you_mean(text, names));
+  type.fail("expected " + known, did_you_mean(text, names));
 }
 
 }  // namespace scattermeter::apps

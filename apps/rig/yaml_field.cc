@@ -87,9 +87,9 @@ YamlField YamlField::load(const std::string& file) {
   }
 }
 
-void YamlField::fail(const std::string& what) const {
+void YamlField::fail(const std::string& what, const std::string& advice) const {
   throw InputError(file_ + ":" + std::to_string(line()),
-                   (path_.empty() ? "" : path_ + ": ") + what + ", got " + shown(node_));
+                   (path_.empty() ? "" : path_ + ": ") + what + ", got " + shown(node_) + advice);
 }
 
 void YamlField::only(std::initializer_list<const char*> keys) const {

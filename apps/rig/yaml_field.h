@@ -46,7 +46,8 @@ class YamlField {
   std::vector<double> numbers(std::size_t count) const;
   Eigen::Vector3d vector3() const;
 
-  [[noreturn]] void fail(const std::string& what) const;  // appends "got <value>"
+  // Appends "got <value>", then the advice.
+  [[noreturn]] void fail(const std::string& what, const std::string& advice = {}) const;
 
  private:
   YAML::Node node_;

@@ -61,8 +61,8 @@ std::string board_problem(const CharucoBoard& board) {
   } else if (!positive(board.square_mm)) {
     out << "square_mm must be positive and finite, got " << board.square_mm;
   } else if (!positive(board.marker_mm) || board.marker_mm >= board.square_mm) {
-    out << "marker_mm must be positive and smaller than square_mm (" << board.square_mm << "), got "
-        << board.marker_mm;
+    out << "marker_mm (" << board.marker_mm << ") must be positive and smaller than square_mm ("
+        << board.square_mm << ")";
   } else if (dictionary == nullptr) {
     out << "unknown dictionary \"" << board.dictionary << "\", expected one like DICT_4X4_50";
   } else if (markers > dictionary->bytesList.rows) {

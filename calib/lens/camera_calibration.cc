@@ -91,10 +91,12 @@ void fill_residuals(const ViewSelection& used, const CameraBundle& bundle, Camer
 bool too_few_views(const ViewSelection& used, std::size_t n_given, CameraCalibration* out) {
   if (used.views.size() >= kMinViews || !used.fault.empty()) return false;
   refuse(out, CameraCalibrationStatus::kTooFewViews,
-         std::to_string(used.views.size()) + " of " + std::to_string(n_given) +
-             " views can be used, at least " + std::to_string(kMinViews) +
-             " are needed (better ten): check the board's kind, squares and dictionary, and the "
-             "shots");
+         (n_given == 0 ? "the board is found in no shot, and at least "
+                       : std::to_string(used.views.size()) + " of " + std::to_string(n_given) +
+                             " views can be used, and at least ") +
+             std::to_string(kMinViews) +
+             " views are needed (better ten): check the board's kind, squares and dictionary, and "
+             "the shots");
   return true;
 }
 

@@ -44,7 +44,10 @@ std::vector<PointPair> board_corners(const CharucoBoard& board, const capture::R
   const GreyPicture grey = grey_picture(frame);
   std::vector<PointPair> corners = find_charuco_corners(
       board, grey.grey, grey.width_px, grey.height_px, grey.px_scale, grey.px_offset);
-  if (corners.empty()) throw InputError(path, "pose.charuco: the board is not seen in this shot");
+  if (corners.empty())
+    throw InputError(path,
+                     "pose.charuco: the board is not seen in this shot: see that it is "
+                     "whole and sharp, and that dictionary and squares are its own");
   return corners;
 }
 
@@ -55,8 +58,13 @@ PoseResult pose_from_board(const Scene& scene, const PoseSource& source,
   const std::vector<PointPair> corners = board_corners(*source.charuco, frame, path);
   PoseResult pose = estimate_pose(scene.camera.intrinsics, corners, source.options);
   if (pose.status != PoseStatus::kOk) {
+    const CharucoBoard& board = *source.charuco;
     throw InputError(
-        path, fmt::format("pose.charuco: {} corners found: {}", corners.size(), pose.message));
+        path,
+        fmt::format("pose.charuco: {} of {} corners of the board are found, and do not "
+                    "determine the pose: {}; see that the board is large and sharp in the "
+                    "picture, and that squares (not inner corners) and dictionary are its own",
+                    corners.size(), (board.squares_x - 1) * (board.squares_y - 1), pose.message));
   }
   return pose;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -56,8 +57,9 @@ PatchMesh::PatchMesh(const TriangleMesh& mesh, double size_mm, std::size_t max_p
         patches_.push_back(t.vertex);
         facet_idx_.push_back(f);
         if (patches_.size() > max_patches) {
-          throw std::length_error("more than " + std::to_string(max_patches) + " patches of " +
-                                  std::to_string(size_mm) + " mm are needed");
+          std::ostringstream what;
+          what << "more than " << max_patches << " patches of " << size_mm << " mm are needed";
+          throw std::length_error(what.str());
         }
         continue;
       }

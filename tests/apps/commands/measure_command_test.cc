@@ -67,7 +67,7 @@ TEST_F(BadInput, JpegAmongTheRaws) {
 TEST_F(BadInput, NamesThatWereMeant) {
   change("object: cube, material: POM", "object: cbue, material: POM");
   expect_refused(
-      {rig_.rig(), "shots[0].object: no such object in objects; did you mean cube?", "got cbue"});
+      {rig_.rig(), "shots[0].object: no such object in objects, got cbue;", "did you mean cube?"});
   change("cbue", "cube");
   change("lights: [led1]", "lights: [lde1]");
   expect_refused({"shots[0].lights[0]: no such light in lights; did you mean led1?"});

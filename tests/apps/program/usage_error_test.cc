@@ -40,8 +40,12 @@ TEST(UsageError, SuggestsWhatWasMeant) {
   EXPECT_THAT(told({"export", "x", "--out", "y", "--format", "pbrtt"}),
               HasSubstr("did you mean pbrt?"));
   EXPECT_THAT(told({"measure", "x"}), HasSubstr("--rig is required\nRun `scattermeter measure "));
-  EXPECT_THAT(told({}), HasSubstr("A subcommand is required"));
-  EXPECT_THAT(told({"--threads", "0", "measure", "x", "--rig", "y"}), HasSubstr("--threads"));
+  EXPECT_THAT(told({}), HasSubstr("name what to do: "));
+  EXPECT_THAT(told({"--threads", "0", "measure", "x", "--rig", "y"}),
+              HasSubstr("--threads: expected a positive number, got 0"));
+  EXPECT_THAT(told({"measure", "x", "--rig", "y", "--channels", "g"}),
+              HasSubstr("did you mean G?"));
+  EXPECT_THAT(told({"calibrate"}), HasSubstr("name what to calibrate: camera, led, radiance"));
   // Negative numbers and what follows an option are no options.
   EXPECT_THAT(told({"export", "x", "--out", "--modle", "--g", "-2", "--format", "csv"}),
               HasSubstr("--g"));
