@@ -72,6 +72,9 @@ YamlField YamlField::load(const std::string& file) {
   if (!in) throw MissingFile(file, "the rig file cannot be opened");
   std::stringstream text;
   text << in.rdbuf();
+  if (text.str().find('\0') != std::string::npos) {
+    throw InputError(file, "is not a text file; a rig is a YAML file, as `init` begins one");
+  }
   try {
     YAML::Node node = YAML::Load(text.str());
     if (!node.IsMap()) throw InputError(file, "is not a rig: expected a YAML map at the top");

@@ -65,7 +65,7 @@ class Checker {
       face(words);
     } else if (std::find(kKeywords.begin(), kKeywords.end(), words[0]) == kKeywords.end()) {
       refuse(quoted(words[0]) + " is not a keyword of an OBJ file" +
-             (line_number_ == 1 ? "; a mesh of another kind is to be exported as OBJ" : ""));
+             (path_.ends_with(".obj") ? "" : "; a mesh of another kind is to be exported as OBJ"));
     }
   }
 

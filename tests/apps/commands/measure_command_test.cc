@@ -70,7 +70,7 @@ TEST_F(BadInput, NamesThatWereMeant) {
       {rig_.rig(), "shots[0].object: no such object in objects, got cbue;", "did you mean cube?"});
   change("cbue", "cube");
   change("lights: [led1]", "lights: [lde1]");
-  expect_refused({"shots[0].lights[0]: no such light in lights; did you mean led1?"});
+  expect_refused({"shots[0].lights[0]: no such light in lights, got lde1; did you mean led1?"});
   change("[lde1]", "[led1]");
   const Answer r = rig_.measure({"--material", "PQM"});
   EXPECT_THAT(r.err, HasSubstr("no shot is of material PQM; did you mean POM? (there are: POM)"));

@@ -128,7 +128,8 @@ TEST(ShotPose, FrameWithoutTheBoardIsRefusedByName) {
   EXPECT_EQ(refused_pose([&] {
               pose_from_board(scene_of(board_camera()), board_source(), frame, "grey.dng");
             }),
-            "grey.dng: pose.charuco: the board is not seen in this shot");
+            "grey.dng: pose.charuco: the board is not seen in this shot: see that it is whole and "
+            "sharp, and that dictionary and squares are its own");
 }
 
 TEST(ShotPose, MissingBoardShotIsNamedWithTheLine) {

@@ -10,9 +10,10 @@ namespace {
 
 const std::string kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-std::string refusal(const std::string& text, std::size_t max_triangles = 100) {
+std::string refusal(const std::string& text, std::size_t max_triangles = 100,
+                    const std::string& path = "a.obj") {
   try {
-    check_obj_syntax("a.obj", text, max_triangles);
+    check_obj_syntax(path, text, max_triangles);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -83,6 +84,9 @@ TEST(ObjSyntax, FacesMayNameLaterVertices) {
 
 TEST(ObjSyntax, RefusesUnknownKeywordsAndContinuedLines) {
   EXPECT_EQ(refusal("Dear diary,\n"), "a.obj:1: 'Dear' is not a keyword of an OBJ file");
+  EXPECT_EQ(refusal("solid cube\n", 100, "a.stl"),
+            "a.stl:1: 'solid' is not a keyword of an OBJ file; a mesh of another kind is to be "
+            "exported as OBJ");
   EXPECT_EQ(refusal("V 0 0 0\n"), "a.obj:1: 'V' is not a keyword of an OBJ file");
   EXPECT_EQ(refusal(std::string("\0a\xff\n", 4)), "a.obj:1: '?a?' is not a keyword of an OBJ file");
   EXPECT_EQ(refusal("f 1 2 \\\n3\n"),

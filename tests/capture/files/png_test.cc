@@ -40,7 +40,7 @@ TEST(Png, HeaderNamesSizeAndFormat) {
   EXPECT_EQ(std::string(png.begin() + 12, png.begin() + 16), "IHDR");
   EXPECT_EQ(big_endian(png, 16), 3U);
   EXPECT_EQ(big_endian(png, 20), 2U);
-  EXPECT_EQ(png[24], 8);  // bits a channel
+  EXPECT_EQ(png[24], 4);  // bits an index, for six colours
   EXPECT_EQ(png[25], 3);  // indices into a palette
 }
 
