@@ -32,6 +32,14 @@ std::string free_path(const fs::path& path) {
   return path.string();
 }
 
+// rig.schema.json as it stands beside the program, installed or built; "": it does not.
+std::string schema_path() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path path = program.parent_path().parent_path() / "share/scattermeter/rig.schema.json";
+  return !error && fs::exists(path, error) ? path.string() : "";
+}
+
 // The object of --body, and its mesh if it is to be written.
 DraftedObject object_of(const std::string& body, const fs::path& folder,
                         std::vector<NewFile>& files) {
@@ -50,6 +58,7 @@ RigDraft draft_of(const InitArguments& a, std::vector<NewFile>& files) {
   if (!a.is_example) draft.listing = list_shots(a.shots);
   draft.material = a.material;
   draft.is_example = a.is_example;
+  draft.schema_path = schema_path();
   if (!a.board.empty()) draft.board = drafted_board(a.board);
   for (const std::string& led : a.leds) draft.leds.push_back(drafted_led(led));
   for (const std::string& body : a.bodies) {

@@ -56,7 +56,10 @@ class Writer {
         board_in_world_mm_(board_beside(board_, draft.objects[0].box)) {}
 
   DraftedRig write() {
-    out_.yaml =
+    if (!draft_.schema_path.empty()) {
+      out_.yaml = "# yaml-language-server: $schema=" + draft_.schema_path + "\n";
+    }
+    out_.yaml +=
         "# Lines marked MEASURE hold placeholders: replace them by what your rig is, then run\n"
         "# `scattermeter check`. Every key is in apps/RIG.md; lengths are mm, world z is up.\n"
         "scattermeter_rig: 1\n";

@@ -40,6 +40,7 @@ struct RigDraft {
   std::optional<calib::CharucoBoard> board;  // absent: kUsualBoard, a placeholder
   // A rig that can be simulated at once: with a responsivity and a truth.
   bool is_example = false;
+  std::string schema_path;  // of rig.schema.json, which editors read; "": not named
 };
 
 // The listing of an example: a D80, one shot under each LED.

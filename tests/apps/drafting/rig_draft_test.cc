@@ -36,6 +36,15 @@ TEST(RigDraft, GivesShotsToLedsAndPiecesInTurn) {
   EXPECT_THAT(yaml, HasSubstr("{file: 'd.nef', object: pyramid" + shot + "[right]}"));
 }
 
+TEST(RigDraft, NamesItsSchemaForEditors) {
+  RigDraft draft = two_pieces();
+  EXPECT_THAT(drafted_rig(draft).yaml, Not(HasSubstr("$schema")));
+  draft.schema_path = "/usr/share/scattermeter/rig.schema.json";
+  EXPECT_THAT(drafted_rig(draft).yaml,
+              ::testing::StartsWith("# yaml-language-server: "
+                                    "$schema=/usr/share/scattermeter/rig.schema.json\n"));
+}
+
 // As `print` draws it.
 TEST(RigDraft, TheBoardLiesInFrontOfThePiece) {
   EXPECT_THAT(
