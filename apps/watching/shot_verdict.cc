@@ -7,16 +7,15 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "apps/checking/checked_rig.h"
 #include "core/camera/cfa_samples.h"
 #include "core/mesh/creases.h"
 
 namespace scattermeter::apps {
 namespace {
 
-constexpr double kMostClipped = 0.01;  // of the samples on the object
-constexpr double kLeastSnr = 30.0;     // of the brightest patch
-constexpr double kAimedShare = 0.75;   // of the range, for the brightest patch
-constexpr double kPaleShare = 0.25;    // below, a longer exposure is suggested
+constexpr double kAimedShare = 0.75;  // of the range, for the brightest patch
+constexpr double kPaleShare = 0.25;   // below, a longer exposure is suggested
 constexpr double kMostBlur_px = 2.0;
 constexpr double kSharp_px = 0.2;
 // The listed lights leave this much more of the image than the others do.
@@ -83,8 +82,9 @@ ShotVerdict judge_exposure(const ObservedShot& shot, double range_counts) {
       darkest = c;
     }
   }
+  const CheckOptions limits;  // as `check` has them
   const bool is_bracket = shot.exposures.size() > 1;
-  if (clipped > kMostClipped) {
+  if (100.0 * clipped > limits.max_clipped_percent) {
     // How far it clips is not seen; where much of it does, it is by more than a factor of two.
     const double factor = clipped > 0.3 ? 0.25 : 0.5;
     out.problems.push_back(fmt::format("overexposed: {:.0f} % of {}'s samples are clipped; {}",
@@ -96,7 +96,7 @@ ShotVerdict judge_exposure(const ObservedShot& shot, double range_counts) {
   }
   const double share = brightest_counts / range_counts;
   const double longer = kAimedShare / std::max(share, 1e-4);
-  if (least_snr < kLeastSnr) {
+  if (least_snr < limits.min_brightest_snr) {
     out.problems.push_back(fmt::format(
         "too dark: {}'s brightest patch is {:.0f} times its noise; check that the LED was on{}",
         kRgbName[darkest], least_snr,

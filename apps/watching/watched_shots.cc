@@ -9,12 +9,10 @@
 
 #include "apps/instrument/open_objects.h"
 #include "apps/instrument/piece_places.h"
-#include "apps/planning/plan.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/file_kind.h"
 #include "capture/shots/raw_shot.h"
 #include "core/base/input_error.h"
-#include "core/camera/channel_index.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -150,18 +148,23 @@ void WatchedShots::take_board(TakenShot& taken) {
 void WatchedShots::look_at(std::size_t slot, TakenShot& taken) {
   const std::size_t idx = files_[slot].shot_idx;
   const SceneShot& shot = rig_.scene.shots[idx];
-  const capture::RawFrame frame =
-      capture::open_shot(rig_.scene, rig_.decoding, taken_from(idx).front());
+  // Every look is at frames that are decoded once.
+  capture::ShotSource source = source_of({idx});
+  const std::vector<capture::RawFrame> frames =
+      capture::frames_of(shot, idx, std::get<capture::FrameSource>(source.open));
+  source.open =
+      capture::FrameSource([&frames](std::size_t, std::size_t k) { return frames.at(k); });
+  const capture::RawFrame& frame = frames.front();
   const double range_counts =
       frame.white_counts - *std::max_element(frame.black_counts.begin(), frame.black_counts.end());
   if (object_of(rig_, shot).to_be_found) {
     // Where it is stated to stand is near enough to see whether it can be found.
-    const FirstLook there = instrument().look(source_of({idx}));
+    const FirstLook there = instrument().look(source);
     taken.verdict = judge_exposure(there.shots.front(), range_counts);
     if (!taken.verdict.is_accepted()) return;
     place_piece(shot);
   }
-  const FirstLook look = instrument().look(source_of({idx}));
+  const FirstLook look = instrument().look(source);
   LookedAtShot at{look, range_counts, rig_.scene.camera.intrinsics.fx_px, "", 0.0};
   for (const AwaitedFile& f : files_) {
     if (f.shot_idx == AwaitedFile::kBoard || !off_px_.contains(f.rig_name) ||
@@ -172,12 +175,11 @@ void WatchedShots::look_at(std::size_t slot, TakenShot& taken) {
     at.earlier_off_px = off_px_.at(f.rig_name);
   }
   taken.verdict = judge(at);
-  const Rigid3d world_from_camera = inverse(look.shots.front().pose.camera_from_world);
-  seen_from_ = {world_from_camera * Eigen::Vector3d::Zero(),
-                world_from_camera * Eigen::Vector3d::UnitZ(),
+  const ObservedShot& opened = look.shots.front();
+  const Rigid3d world_from_camera = inverse(opened.pose.camera_from_world);
+  seen_from_ = {world_from_camera.translation_mm, world_from_camera * Eigen::Vector3d::UnitZ(),
                 world_from_camera.rotation * -Eigen::Vector3d::UnitY()};
   if (paint_) {
-    const ObservedShot& opened = look.shots.front();
     taken.png = paint_(frame, {rig_.scene.camera.intrinsics, opened.pose.camera_from_world},
                        *opened.seen->object->rays, opened.seen->map);
   }
@@ -289,30 +291,9 @@ RunningAnswer WatchedShots::answer(const std::string& rig_name) {
   out.next = rig_.scene.shots[*next].file;
   accepted.push_back(*next);
   std::sort(accepted.begin(), accepted.end());
-  out.with_next = forecast(material, out.channels, accepted);
-  return out;
-}
-
-std::vector<std::array<double, 2>> WatchedShots::forecast(
-    const std::string& material, const std::vector<ChannelResult>& channels,
-    const std::vector<std::size_t>& shot_idxs) const {
-  Rig rig = rig_;
-  std::array<Medium, kRgb>& media = rig.truth.materials[material];
-  for (const ChannelResult& c : channels) {
-    if (c.refused() || !(c.estimate.sigma_a_per_mm.value > 0.0)) return {};
-    media.at(channel_index(c.channel)) = {c.estimate.sigma_s_prime_per_mm.value,
-                                          c.estimate.sigma_a_per_mm.value, 1.0};
-  }
-  rig.scene.shots.clear();
-  for (const std::size_t i : shot_idxs) rig.scene.shots.push_back(rig_.scene.shots[i]);
-  rig.truth.pose = seen_from_;
-  PlanOptions options;
-  options.suggested_shots = false;
-  std::vector<std::array<double, 2>> out;
-  for (const PlannedChannel& c : plan(rig, objects_, options).channels) {
-    out.push_back({relative_range(c, &Estimate::sigma_s_prime_per_mm).high,
-                   relative_range(c, &Estimate::sigma_a_per_mm).high});
-  }
+  Rig seen = rig_;
+  seen.truth.pose = seen_from_;
+  out.with_next = forecast(std::move(seen), objects_, material, out.channels, accepted);
   return out;
 }
 

@@ -1,7 +1,6 @@
 // The shots of a rig while they are taken, one after the other.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -12,6 +11,7 @@
 
 #include "apps/instrument/instrument.h"
 #include "apps/rig/rig.h"
+#include "apps/watching/running_answer.h"
 #include "apps/watching/shot_verdict.h"
 #include "capture/files/digest.h"
 #include "capture/raw/raw_frame.h"
@@ -45,15 +45,6 @@ struct TakenShot {
 // Draws a small picture of a shot, as the bytes of a file.
 using ShotPainter = std::function<std::string(const capture::RawFrame&, const CameraView&,
                                               const RayScene&, const SampleMap&)>;
-
-// What the shots so far say of a material, and what one more would add.
-struct RunningAnswer {
-  std::vector<ChannelResult> channels;  // by the dipole
-  std::string next;                     // the next shot of this material; "": none
-  // With the next shot: relative standard deviations of sigma_s' and sigma_a, by channel as above;
-  // empty where that cannot be forecast.
-  std::vector<std::array<double, 2>> with_next;
-};
 
 class WatchedShots {
  public:
@@ -97,9 +88,6 @@ class WatchedShots {
   std::vector<std::string> taken_from(std::size_t shot_idx) const;  // its exposures in order
   capture::ShotSource source_of(const std::vector<std::size_t>& shot_idxs);
   std::optional<std::size_t> other_slot(std::size_t slot, const std::vector<std::string>& lights);
-  std::vector<std::array<double, 2>> forecast(const std::string& material,
-                                              const std::vector<ChannelResult>& channels,
-                                              const std::vector<std::size_t>& shot_idxs) const;
 
   const Rig& stated_;
   Rig rig_;  // with pieces where they were found
