@@ -25,6 +25,10 @@
 
 namespace scattermeter::apps {
 
+// Draws a small picture of a shot, as the bytes of a file.
+using ShotPainter = std::function<std::string(const capture::RawFrame&, const CameraView&,
+                                              const RayScene&, const SampleMap&)>;
+
 struct CheckOptions {
   double max_pose_rms_px = 1.0;
   double max_pose_outlier_percent = 25.0;
@@ -47,10 +51,7 @@ struct CheckOptions {
   double max_led_power_percent = 2.0;      // of an LED, from its calibration shots
   double max_dark_counts = 2.0;            // of a dark frame, above the file's black
   double least_stds = 5.0;  // standard deviations below which a departure from the model passes
-  // Draws a small picture of a shot, as the bytes of a file, for a page; empty: none is drawn.
-  std::function<std::string(const capture::RawFrame&, const CameraView&, const RayScene&,
-                            const SampleMap&)>
-      draw_shot;
+  ShotPainter draw_shot;    // for a page; empty: none is drawn
   Progress* progress = nullptr;
 };
 

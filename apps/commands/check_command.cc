@@ -33,11 +33,7 @@ void add_check_command(CLI::App& app, CommandContext& context) {
     CheckOptions check_options;
     check_options.progress = context.progress;
     if (!options->out.empty()) {
-      check_options.draw_shot = [](const capture::RawFrame& frame, const CameraView& view,
-                                   const RayScene& rays, const SampleMap& map) {
-        constexpr int kWidth_px = 420;
-        return shot_picture(frame, view, rays, map, kWidth_px);
-      };
+      check_options.draw_shot = shot_thumbnail;
     }
     Rig rig = read_rig(options->rig);
     calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);

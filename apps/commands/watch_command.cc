@@ -28,15 +28,7 @@ struct WatchArguments {
 class Watching {
  public:
   Watching(const WatchArguments& a, const Rig& rig, CommandContext& context)
-      : a_(a),
-        context_(context),
-        folder_(a.folder),
-        shots_(rig, a.out,
-               [](const capture::RawFrame& frame, const CameraView& view, const RayScene& rays,
-                  const SampleMap& map) {
-                 constexpr int kWidth_px = 420;
-                 return shot_picture(frame, view, rays, map, kWidth_px);
-               }) {
+      : a_(a), context_(context), folder_(a.folder), shots_(rig, a.out, shot_thumbnail) {
     state_.title = fmt::format("{}, rig {}; this page reloads itself", a.folder, rig.path);
   }
 

@@ -39,4 +39,10 @@ std::string shot_picture(const capture::RawFrame& frame, const CameraView& view,
   return {png.begin(), png.end()};
 }
 
+std::string shot_thumbnail(const capture::RawFrame& frame, const CameraView& view,
+                           const RayScene& scene, const SampleMap& map) {
+  constexpr int kWidth_px = 420;
+  return shot_picture(frame, view, scene, map, kWidth_px);
+}
+
 }  // namespace scattermeter::apps

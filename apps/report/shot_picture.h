@@ -20,4 +20,8 @@ inline constexpr Rgb8 kClippedColour = {213, 0, 50};
 std::string shot_picture(const capture::RawFrame& frame, const CameraView& view,
                          const RayScene& scene, const SampleMap& map, int width_px);
 
+// The same at the width of a figure on a page.
+std::string shot_thumbnail(const capture::RawFrame& frame, const CameraView& view,
+                           const RayScene& scene, const SampleMap& map);
+
 }  // namespace scattermeter::apps

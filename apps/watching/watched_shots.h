@@ -2,25 +2,21 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/checking/checked_rig.h"
 #include "apps/instrument/instrument.h"
 #include "apps/rig/rig.h"
 #include "apps/watching/running_answer.h"
 #include "apps/watching/shot_verdict.h"
 #include "capture/files/digest.h"
-#include "capture/raw/raw_frame.h"
 #include "capture/shots/shot_cache.h"
 #include "capture/shots/shot_source.h"
-#include "core/mesh/ray_scene.h"
 #include "core/scene/object_scene.h"
-#include "core/view/camera_view.h"
-#include "core/view/sample_map.h"
 
 namespace scattermeter::apps {
 
@@ -41,10 +37,6 @@ struct TakenShot {
   std::string png;              // a picture of it, by ShotPainter; empty: none
   bool completes_shot = false;  // the last exposure of its bracket, so that it was looked at
 };
-
-// Draws a small picture of a shot, as the bytes of a file.
-using ShotPainter = std::function<std::string(const capture::RawFrame&, const CameraView&,
-                                              const RayScene&, const SampleMap&)>;
 
 class WatchedShots {
  public:
