@@ -17,7 +17,8 @@ endfunction()
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/there)
 run(${WORK}/there/bin/scattermeter --version)
 expect("${out}" "scattermeter ${VERSION}\nbuilt with .*Embree 3.*LibRaw 0.*")
-foreach(file share/man/man1/scattermeter.1.gz share/bash-completion/completions/scattermeter
+foreach(file share/man/man1/scattermeter.1.gz share/man/man1/scattermeter-bench.1.gz
+             share/bash-completion/completions/scattermeter
              share/scattermeter/rig.schema.json share/scattermeter/result.schema.json
              share/doc/scattermeter/copyright
              include/scattermeter/core/material/dipole.h

@@ -33,7 +33,8 @@ run(dpkg-deb --field ${program} Depends)
 expect("${out}" "libceres.*libembree3-3.*libraw20.*gnuplot-nox [|] gnuplot|gnuplot-nox [|] gnuplot.*libembree3-3")
 expect("${out}" "libopencv-imgcodecs[0-9]+")
 run(dpkg-deb --contents ${program})
-foreach(file usr/bin/scattermeter usr/share/man/man1/scattermeter.1.gz usr/share/doc/scattermeter/copyright
+foreach(file usr/bin/scattermeter usr/share/man/man1/scattermeter.1.gz usr/share/man/man1/scattermeter-bench.1.gz
+             usr/share/doc/scattermeter/copyright
              usr/share/doc/scattermeter/changelog.gz)
   expect("${out}" "\\./${file}")
 endforeach()

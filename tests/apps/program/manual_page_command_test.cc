@@ -42,7 +42,9 @@ const std::vector<Words> kCommands = {
 TEST(ManualPageCommand, HoldsEveryOptionOfEveryCommand) {
   const Answer answer = run({"manual-page"});
   EXPECT_EQ(answer.status, 0) << answer.err;
-  const std::string man = std::regex_replace(answer.out, std::regex(R"(\\-)"), "-");
+  const Answer of_bench = run({"manual-page", "--bench"});
+  EXPECT_EQ(of_bench.status, 0) << of_bench.err;
+  const std::string man = std::regex_replace(answer.out + of_bench.out, std::regex(R"(\\-)"), "-");
   std::size_t met = 0;
   for (const Words& command : kCommands) {
     for (const std::string& option : options_in_help(command)) {
@@ -54,6 +56,11 @@ TEST(ManualPageCommand, HoldsEveryOptionOfEveryCommand) {
   EXPECT_GT(met, 40U);
   EXPECT_THAT(man, HasSubstr(".TH SCATTERMETER 1"));
   EXPECT_THAT(man, HasSubstr(".SS \"scattermeter calibrate led"));
+  EXPECT_THAT(answer.out, ::testing::Not(HasSubstr("bench deviations")));
+  EXPECT_THAT(of_bench.out, HasSubstr(".SS \"scattermeter bench deviations"));
+  for (const char* section : {"EXIT STATUS", "EXAMPLES", "FILES", "SEE ALSO"}) {
+    EXPECT_THAT(answer.out, HasSubstr(std::string("\n.SH ") + section + "\n"));
+  }
   // No line of text that roff takes for a request.
   EXPECT_FALSE(std::regex_search(man, std::regex("\n\\.(?!TH|SH|SS|TP|B|br)")));
   // It is no command for users.
