@@ -32,7 +32,7 @@ scattermeter_package(development libscattermeter-dev)
 if(SCATTERMETER_PYTHON)
   scattermeter_package(python python3-scattermeter)
 endif()
-install(FILES README.md CHANGELOG.md apps/RIG.md
+install(FILES README.md ACCURACY.md CHANGELOG.md apps/RIG.md
         DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/scattermeter COMPONENT program)
 
 set(CPACK_GENERATOR DEB)

@@ -194,12 +194,25 @@ TEST(Layering, FoldersHoldWhatTheyShould) {
 }
 
 TEST(Layering, TopLevelHoldsWhatItShould) {
-  const std::set<std::string> known = {
-      "CMakeLists.txt", "CMakePresets.json", "README.md",   "CHANGELOG.md", "CONTRIBUTING.md",
-      "LICENSE",        ".clang-format",     ".clang-tidy", ".gitignore",   ".ci",
-      ".git",           "capture",           "calib",       "core",         "apps",
-      "tests",          "samples",           "build",
-  };
+  const std::set<std::string> known = {"CMakeLists.txt",
+                                       "CMakePresets.json",
+                                       "README.md",
+                                       "ACCURACY.md",
+                                       "CHANGELOG.md",
+                                       "CONTRIBUTING.md",
+                                       "LICENSE",
+                                       ".clang-format",
+                                       ".clang-tidy",
+                                       ".gitignore",
+                                       ".ci",
+                                       ".git",
+                                       "capture",
+                                       "calib",
+                                       "core",
+                                       "apps",
+                                       "tests",
+                                       "samples",
+                                       "build"};
   for (const auto& entry : fs::directory_iterator(kRoot)) {
     EXPECT_TRUE(known.contains(entry.path().filename().string())) << entry.path();
   }

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""pages_test.py SOURCE: samples/first_measurement says what the program says.
+"""pages_test.py SOURCE: the documents say what the program says.
 
-Every message that the page quotes stands in the sources, every reason for a refusal in the sources
-stands on the page, its tables are those of the CSV files, and its links lead somewhere.
+Every message that samples/first_measurement quotes stands in the sources, every reason for a refusal
+in the sources stands on that page, and its tables are those of the CSV files. The links of all
+documents lead somewhere, and the README names every command.
 """
 import re
 import subprocess
@@ -70,10 +71,19 @@ class Page(unittest.TestCase):
         subprocess.run([sys.executable, FOLDER / "figures" / "tables", "--check"], check=True)
 
     def test_links_lead_somewhere(self):
-        links = re.findall(r"\]\(([^)#]+)\)", PAGE)
-        self.assertGreater(len(links), 3)
-        for link in links:
-            self.assertTrue((FOLDER / link).exists(), link)
+        pages = [page for page in SOURCE.rglob("*.md") if "build" not in page.relative_to(SOURCE).parts]
+        self.assertGreater(len(pages), 6)
+        for page in pages:
+            for link in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+                self.assertTrue((page.parent / link).exists(), f"{page}: {link}")
+
+    def test_the_readme_names_every_command(self):
+        program = (SOURCE / "apps" / "program" / "command_line.cc").read_text(encoding="utf-8")
+        readme = (SOURCE / "README.md").read_text(encoding="utf-8")
+        commands = set(re.findall(r"add_([a-z]+)_command\(", program)) | {"calibrate"}
+        self.assertGreater(len(commands), 10)
+        for command in commands:
+            self.assertIn(command, readme)
 
 
 if __name__ == "__main__":
