@@ -52,6 +52,7 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   add_transport_bench(*bench, context, common);
   add_shots_bench(*bench, context, common);
   add_deviations_bench(*bench, context, common);
+  add_silicones_bench(*bench, context, common);
   add_sums_bench(*bench, context, common);
 }
 

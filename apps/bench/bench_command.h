@@ -56,6 +56,8 @@ void add_materials_bench(CLI::App& bench, CommandContext& context,
 void add_shots_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_deviations_bench(CLI::App& bench, CommandContext& context,
                           const SharedBenchOptions& common);
+void add_silicones_bench(CLI::App& bench, CommandContext& context,
+                         const SharedBenchOptions& common);
 void add_sums_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 
 }  // namespace scattermeter::apps

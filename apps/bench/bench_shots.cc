@@ -10,13 +10,13 @@
 
 #include <fmt/core.h>
 
-#include "apps/bench/growth_exponent.h"
 #include "apps/instrument/instrument.h"
 #include "apps/report/csv.h"
 #include "apps/report/text_table.h"
 #include "apps/simulation/bodies_rig.h"
 #include "apps/simulation/plastics_rig.h"
 #include "apps/simulation/virtual_shots.h"
+#include "core/base/growth_exponent.h"
 #include "core/camera/channel_index.h"
 
 namespace scattermeter::apps {

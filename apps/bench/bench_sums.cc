@@ -13,7 +13,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "apps/bench/growth_exponent.h"
+#include "core/base/growth_exponent.h"
 #include "core/base/median.h"
 #include "core/material/fresnel.h"
 #include "core/sums/dipole_pairs.h"

@@ -1,9 +1,13 @@
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <ostream>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "apps/commands/commands.h"
+#include "apps/commands/questions.h"
 #include "apps/drafting/drafted_body.h"
 #include "apps/drafting/rig_draft.h"
 #include "apps/rig/rig.h"
@@ -18,7 +22,7 @@ namespace fs = std::filesystem;
 struct InitArguments {
   std::string shots, out = "rig.yaml", board, material = "material";
   std::vector<std::string> bodies = {"cube:20"}, leds = {"led1", "led2"};
-  bool is_example = false;
+  bool is_example = false, asks_nothing = false;
 };
 
 struct NewFile {
@@ -68,6 +72,36 @@ RigDraft draft_of(const InitArguments& a, std::vector<NewFile>& files) {
   return draft;
 }
 
+// Asks for what the command line leaves open.
+void ask_for_the_rest(const CLI::App& command, std::ostream& out, InitArguments& a) {
+  Questions questions(std::cin, out);
+  const auto given = [&](const char* option) { return command.count(option) > 0; };
+  if (!given("--body")) {
+    a.bodies = questions.ask(
+        "Which piece? A body with sizes in mm (cube:20, box:30x20x10, slab:40x40x10, "
+        "pyramid:20x20x15, cylinder:20x20x30, sphere:20), or a mesh file",
+        a.bodies, [](const std::string& word) { drafted_body(word); });
+  }
+  if (!given("--material")) {
+    a.material = fmt::format("{}", fmt::join(questions.ask("Of which material?", {a.material},
+                                                           [](const std::string&) {}),
+                                             " "));
+  }
+  if (!given("--led")) {
+    a.leds = questions.ask(
+        "Which LEDs? Their names, each with its position in mm if you know it "
+        "(left:-60,-80,120)",
+        a.leds, [](const std::string& word) { drafted_led(word); });
+  }
+  if (!given("--board")) {
+    const auto board =
+        questions.ask("Which ChArUco board? Squares, mm of a square and of a marker", {kUsualBoard},
+                      [](const std::string& word) { drafted_board(word); });
+    // What is only taken for granted stays a placeholder.
+    if (board[0] != kUsualBoard) a.board = board[0];
+  }
+}
+
 template <class Named>
 void require_distinct(const std::vector<Named>& all, const char* option) {
   std::set<std::string> names;
@@ -76,12 +110,15 @@ void require_distinct(const std::vector<Named>& all, const char* option) {
   }
 }
 
-int run_init(const InitArguments& a, CommandContext& context) {
+int run_init(InitArguments a, const CLI::App& command, CommandContext& context) {
   if (a.shots.empty() != a.is_example) {
     throw InputError("init", "needs the folder of the shots, or --example without one");
   }
   capture::require_output_file(a.out);
   free_path(a.out);
+  if (!a.is_example && !a.asks_nothing && !context.quiet && at_a_terminal()) {
+    ask_for_the_rest(command, context.out, a);
+  }
   std::vector<NewFile> files;
   const RigDraft draft = draft_of(a, files);
   require_distinct(draft.objects, "--body");
@@ -116,7 +153,8 @@ void add_init_command(CLI::App& app, CommandContext& context) {
       "Begin a rig file from the raw shots of a folder.\n"
       "Camera, size and the list of shots are read from the raws, their exposures stand beside "
       "them; meshes of simple bodies are written. What no file tells is a placeholder, marked "
-      "MEASURE and listed at the end. Existing files are not replaced.");
+      "MEASURE and listed at the end. Existing files are not replaced. On a terminal, what the "
+      "options leave open is asked for.");
   command->add_option("SHOTS", a->shots, "folder of the raw files");
   command->add_option("--out", a->out, "rig file to write; meshes go to its folder")
       ->capture_default_str();
@@ -135,7 +173,10 @@ void add_init_command(CLI::App& app, CommandContext& context) {
   command->add_option("--material", a->material, "name of the material")->capture_default_str();
   command->add_flag("--example", a->is_example,
                     "no shots: a rig with a truth, to be simulated, measured and changed");
-  run_if_named(*command, context, [a, &context] { return run_init(*a, context); });
+  command->add_flag("--no-questions", a->asks_nothing,
+                    "ask nothing: defaults and placeholders for what the options leave open");
+  run_if_named(*command, context,
+               [a, command, &context] { return run_init(*a, *command, context); });
 }
 
 }  // namespace scattermeter::apps

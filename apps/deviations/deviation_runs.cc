@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/deviations/true_shots.h"
 #include "apps/deviations/unit_pictures.h"
@@ -114,33 +115,18 @@ std::array<Estimate, 3> measured(const Rig& stated, const TriangleMesh& mesh,
 
 std::array<DeviationResult, 3> run_one(const DeviationRun& run, const DeviationOptions& options,
                                        UnitPictures& pictures) {
-  const Deviation& kind = *run.kind;
-  const DeviationDraw draw{kind.sizes[run.size_idx], run.seed % 2 == 0 ? 1.0 : -1.0, run.seed / 2};
-  Rig stated = stated_rig(run, options.image_width_px);
-  TrueSetup setup = true_setup(stated, run.body);
-  if (kind.truth) kind.truth(setup, draw);
-  if (setup.marks_by_true_camera) take_marks(stated, setup.rig);
-  ExpectedShots expected = expected_shots(setup, stated, run.volume, pictures);
-  if (kind.frames) kind.frames(expected.frames, draw);
-  const std::vector<capture::RawFrame> frames = exposed_frames(expected, setup, stated, run.seed);
-  // The noise of the rendering is known to the user as if it were the sensor's.
-  double& gain_e_per_count = stated.scene.camera.sensor.noise.gain_e_per_count;
-  gain_e_per_count /= 1.0 + gain_e_per_count * expected.rendering_counts2_per_count;
-  if (kind.stated) kind.stated(stated, draw);
-  std::vector<std::pair<std::string, double>> timing_s;
-  Stopwatch watch(timing_s);
-  const std::array<Estimate, 3> estimates =
-      measured(stated, stated_mesh(run.body), frames, run.volume, options);
-  watch.total();
+  const Rig stated = stated_rig(run, options.image_width_px);
+  const MeasuredSetup measured =
+      measure_deviating(stated, true_setup(stated, stated_mesh(run.body)), run, options, pictures);
   std::array<DeviationResult, 3> results;
   for (std::size_t c = 0; c < 3; ++c) {
-    const TrueCoefficients truth = truth_of(setup, c);
+    const TrueCoefficients truth = truth_of(measured.setup, c);
     results[c] = {run,
                   c,
                   truth,
-                  estimates[c],
-                  judge_answer(estimates[c], truth, kind.words),
-                  timing_s.back().second};
+                  measured.estimates[c],
+                  judge_answer(measured.estimates[c], truth, run.kind->words),
+                  measured.seconds};
   }
   return results;
 }
@@ -174,18 +160,40 @@ Rig stated_rig(const DeviationRun& run, int image_width_px) {
   return rig;
 }
 
-TrueSetup true_setup(const Rig& stated, const std::string& body) {
+TrueSetup true_setup(const Rig& stated, const TriangleMesh& mesh) {
   TrueSetup setup;
   setup.rig = stated;
-  setup.mesh = stated_mesh(body);
+  setup.mesh = mesh;
   for (const SceneShot& shot : stated.scene.shots) {
     TrueShot& true_shot = setup.shots.emplace_back();
-    for (std::size_t c = 0; c < 3; ++c) true_shot.media[c] = deviation_media()[c].medium;
+    true_shot.media = stated.truth.materials.at(shot.material);
     for (const std::string& name : shot.lights) {
       true_shot.lights.push_back(stated.scene.light(name));
     }
   }
   return setup;
+}
+
+MeasuredSetup measure_deviating(Rig stated, TrueSetup setup, const DeviationRun& run,
+                                const DeviationOptions& options, UnitPictures& pictures) {
+  const Deviation& kind = *run.kind;
+  const DeviationDraw draw{kind.sizes[run.size_idx], run.seed % 2 == 0 ? 1.0 : -1.0, run.seed / 2};
+  const TriangleMesh mesh = setup.mesh;
+  if (kind.truth) kind.truth(setup, draw);
+  if (setup.marks_by_true_camera) take_marks(stated, setup.rig);
+  ExpectedShots expected = expected_shots(setup, stated, run.volume, pictures);
+  if (kind.frames) kind.frames(expected.frames, draw);
+  const std::vector<capture::RawFrame> frames = exposed_frames(expected, setup, stated, run.seed);
+  // The noise of the rendering is known to the user as if it were the sensor's.
+  double& gain_e_per_count = stated.scene.camera.sensor.noise.gain_e_per_count;
+  gain_e_per_count /= 1.0 + gain_e_per_count * expected.rendering_counts2_per_count;
+  if (kind.stated) kind.stated(stated, draw);
+  std::vector<std::pair<std::string, double>> timing_s;
+  Stopwatch watch(timing_s);
+  MeasuredSetup out{std::move(setup), measured(stated, mesh, frames, run.volume, options)};
+  watch.total();
+  out.seconds = timing_s.back().second;
+  return out;
 }
 
 std::vector<DeviationRun> planned_runs(const DeviationOptions& options) {

@@ -10,6 +10,7 @@
 
 #include "apps/deviations/deviation.h"
 #include "apps/deviations/deviation_verdict.h"
+#include "apps/deviations/unit_pictures.h"
 #include "core/base/progress.h"
 
 namespace scattermeter::apps {
@@ -71,8 +72,20 @@ std::vector<DeviationRun> planned_runs(const DeviationOptions& options);
 // The rig of a careful user, and its mesh: what measuring is told.
 Rig stated_rig(const DeviationRun& run, int image_width_px);
 TriangleMesh stated_mesh(const std::string& body);
-// What is true without a deviation.
-TrueSetup true_setup(const Rig& stated, const std::string& body);
+// What is true without a deviation: the rig as stated, with the media of its truth.materials.
+TrueSetup true_setup(const Rig& stated, const TriangleMesh& mesh);
+
+// What is true of a rig that deviates, and what measuring reports of its shots for R, G and B; a
+// rig that is refused as a whole gives three refusals.
+struct MeasuredSetup {
+  TrueSetup setup;
+  std::array<Estimate, 3> estimates;
+  double seconds = 0;  // of measuring, without the rendering
+};
+// Renders and measures the shots of a setup after it was made to deviate as run.kind says, by
+// run.seed. Measuring is told the stated rig, and the mesh that the setup has before.
+MeasuredSetup measure_deviating(Rig stated, TrueSetup setup, const DeviationRun& run,
+                                const DeviationOptions& options, UnitPictures& pictures);
 
 // Three results for each run, in their order.
 std::vector<DeviationResult> bench_deviations(const DeviationOptions& options);

@@ -18,6 +18,8 @@ struct DrawnPart {
 };
 
 namespace stated = default_uncertainty;
+// The deviation of the rig's first LED.
+constexpr double kAsTheRigSays = -1.0;
 constexpr std::array<DrawnPart, 19> kParts = {{
     {"mesh displaced in x", stated::kObjectPosition_mm},
     {"mesh displaced in y", stated::kObjectPosition_mm},
@@ -26,8 +28,8 @@ constexpr std::array<DrawnPart, 19> kParts = {{
     {"mesh turned about x", 0.2},
     {"mesh scaled", 100.0 * stated::kMeshScale},
     {"edges bevelled", stated::kEdge_mm, true},
-    {"LEDs displaced sideways", 0.2},
-    {"LEDs displaced in depth", 0.2},
+    {"LEDs displaced sideways", kAsTheRigSays},
+    {"LEDs displaced in depth", kAsTheRigSays},
     {"LED axes turned", stated::kLedAxis_deg},
     {"LED exponent off", stated::kLedExponent},
     {"all LED intensities off", 100.0 * stated::kLedIntensity},
@@ -44,9 +46,11 @@ void draw_all(TrueSetup& t, const DeviationDraw& d) {
   std::mt19937_64 random(d.seed);
   std::normal_distribution<double> normal;
   const bool is_round = t.mesh.triangles.size() > 100;
+  const double led_mm = t.rig.scene.lights.front().led()->position_std_mm;
   for (const DrawnPart& part : kParts) {
     const Deviation& row = deviation_named(part.name);
-    double size = d.size * part.std * normal(random);
+    const double std = part.std == kAsTheRigSays ? led_mm : part.std;
+    double size = d.size * std * normal(random);
     if (part.positive) size = std::abs(size);
     if (row.needs.edges && is_round) continue;
     row.truth(t, {size, 1.0, d.seed});

@@ -75,6 +75,11 @@ std::string key_of(const TrueSetup& setup, const SceneLight& light,
   key.add(setup.rig.truth.pose->position_mm);
   key.add(setup.rig.truth.pose->look_at_mm);
   key.add(setup.rig.truth.pose->up);
+  if (const auto& plane = setup.rig.scene.surroundings.plane) {
+    key.add(plane->z_mm);
+    for (const double v : plane->albedo) key.add(v);
+    key.add(static_cast<int>(plane->contact));
+  }
   key.add(setup.mesh);
   key.add(light);
   return key.bytes();

@@ -6,6 +6,8 @@ the lens, where the piece stands (here up to 5 mm and 5 degrees off), and the LE
 other under the camera's names, three of them bad and one half-written.
 """
 import json
+import os
+import pty
 import random
 import re
 import shutil
@@ -33,6 +35,22 @@ class FirstHour(unittest.TestCase):
         done = subprocess.run([PROGRAM, *words], cwd=self.home, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, status, f"{words}\n{done.stdout}\n{done.stderr}")
         return done.stdout
+
+    def answer(self, lines, *words):
+        """Runs a command on a terminal, with these lines typed; returns what the terminal shows."""
+        ours, theirs = pty.openpty()
+        with subprocess.Popen([PROGRAM, *words], cwd=self.home, stdin=theirs, stdout=theirs, stderr=theirs) as process:
+            os.close(theirs)
+            os.write(ours, "".join(line + "\n" for line in lines).encode())
+            shown = b""
+            try:
+                while some := os.read(ours, 4096):
+                    shown += some
+            except OSError:  # the other end is closed
+                pass
+            os.close(ours)
+        self.assertEqual(process.returncode, 0, shown.decode())
+        return shown.decode()
 
     def write(self, name, text):
         (self.home / name).write_text(text, encoding="utf-8")
@@ -73,8 +91,10 @@ class FirstHour(unittest.TestCase):
 
     def begin_rig(self):
         """What `init` writes, with the calibrations in place of what is marked MEASURE."""
-        leds = [word for name, position in LEDS.items() for word in ("--led", f"{name}:{position}")]
-        self.run_program("init", "first", "--out", "rig.yaml", "--body", "cube:20", "--material", "PE", *leds)
+        leds = " ".join(f"{name}:{position}" for name, position in LEDS.items())
+        asked = self.answer(["brick:20", "cube:20", "PE", leds, ""], "init", "first", "--out", "rig.yaml")
+        self.assertIn("--body: ", asked)  # the first answer is no body: asked again
+        self.assertEqual(asked.count("Which piece?"), 2)
         rig = self.read("rig.yaml")
         rig = self.replaced(rig, r"  intrinsics: .*?\n(?=\npose)", "  intrinsics: camera.yaml\n  radiance: radiance.yaml\n")
         rig = self.replaced(rig, r"pose:\n.*?\n\n", f"pose:\n  {self.charuco}\n  shot: pose.dng\n\n")

@@ -19,7 +19,7 @@ struct Seen {
 };
 Seen seen(const char* kind, const DeviationDraw& draw) {
   const DeviationRun run{.kind = &deviation_named(kind), .body = "cube"};
-  TrueSetup truth = true_setup(stated_rig(run, 3872), "cube");
+  TrueSetup truth = true_setup(stated_rig(run, 3872), stated_mesh("cube"));
   Seen out;
   out.before = images(truth.rig);
   run.kind->truth(truth, draw);
@@ -50,7 +50,7 @@ TEST(CameraDeviations, Lenses) {
   const Seen shifted = seen("principal point off", {1, 1, 1});
   EXPECT_NEAR(shifted.after[0].x() - shifted.before[0].x(), 38.72, 0.01);
   const DeviationRun run{.kind = &deviation_named("focal length off"), .body = "cube"};
-  TrueSetup truth = true_setup(stated_rig(run, 320), "cube");
+  TrueSetup truth = true_setup(stated_rig(run, 320), stated_mesh("cube"));
   run.kind->truth(truth, {5, 1, 1});
   EXPECT_TRUE(truth.marks_by_true_camera);
 }

@@ -19,7 +19,7 @@ struct Pair {
 Pair deviating_led(const char* kind, const DeviationDraw& draw) {
   const DeviationRun run{.kind = &deviation_named(kind), .body = "cube"};
   Pair out{stated_rig(run, 320), {}};
-  out.truth = true_setup(out.stated, "cube");
+  out.truth = true_setup(out.stated, stated_mesh("cube"));
   if (run.kind->truth) run.kind->truth(out.truth, draw);
   if (run.kind->stated) run.kind->stated(out.stated, draw);
   return out;

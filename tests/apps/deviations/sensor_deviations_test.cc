@@ -9,7 +9,7 @@ namespace {
 
 TrueSetup deviating_sensor(const char* kind, const DeviationDraw& draw) {
   const DeviationRun run{.kind = &deviation_named(kind), .body = "cube"};
-  TrueSetup setup = true_setup(stated_rig(run, 320), "cube");
+  TrueSetup setup = true_setup(stated_rig(run, 320), stated_mesh("cube"));
   run.kind->truth(setup, draw);
   return setup;
 }

@@ -18,7 +18,7 @@ struct Added {
 
 Added added(const char* kind, const DeviationDraw& draw) {
   const DeviationRun run{.kind = &deviation_named(kind), .body = "cube"};
-  Added out{true_setup(stated_rig(run, 320), "cube")};
+  Added out{true_setup(stated_rig(run, 320), stated_mesh("cube"))};
   run.kind->truth(out.truth, draw);
   const Led& led = out.truth.shots[0].lights[0].led()->led;
   const Eigen::Vector3d way_mm = Eigen::Vector3d(0, 0, 9) - led.position_mm;
@@ -67,7 +67,7 @@ TEST(StrayLightDeviations, Counts) {
 
 TEST(StrayLightDeviations, BlackLevels) {
   const DeviationRun run{.kind = &deviation_named("black level off at one site"), .body = "cube"};
-  TrueSetup truth = true_setup(stated_rig(run, 320), "cube");
+  TrueSetup truth = true_setup(stated_rig(run, 320), stated_mesh("cube"));
   run.kind->truth(truth, {30, -1, 6});
   EXPECT_EQ(truth.rig.scene.camera.sensor.black_counts, (std::array<int, 4>{64, 64, 34, 64}));
 }

@@ -17,7 +17,7 @@ struct SmallShots {
 SmallShots small_setup() {
   const DeviationRun run{.kind = &deviation_named("none"), .body = "cube", .seed = 4};
   SmallShots out{stated_rig(run, 240), {}};
-  out.truth = true_setup(out.stated, "cube");
+  out.truth = true_setup(out.stated, stated_mesh("cube"));
   return out;
 }
 

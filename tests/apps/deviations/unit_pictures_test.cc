@@ -11,7 +11,7 @@ namespace {
 
 TrueSetup pictured_setup() {
   const DeviationRun run{.kind = &deviation_named("none"), .body = "cube"};
-  return true_setup(stated_rig(run, 240), "cube");
+  return true_setup(stated_rig(run, 240), stated_mesh("cube"));
 }
 
 TEST(UnitPictures, RendersWhatIsNewAndNothingTwice) {

@@ -1,10 +1,10 @@
-#include "apps/bench/growth_exponent.h"
+#include "core/base/growth_exponent.h"
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-namespace scattermeter::apps {
+namespace scattermeter {
 
 double growth_exponent(const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() != y.size()) throw std::invalid_argument("growth_exponent: x and y");
@@ -21,4 +21,4 @@ double growth_exponent(const std::vector<double>& x, const std::vector<double>& 
   return spread > 0.0 ? (n * suv - su * sv) / spread : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace scattermeter::apps
+}  // namespace scattermeter

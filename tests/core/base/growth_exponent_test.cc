@@ -1,11 +1,11 @@
-#include "apps/bench/growth_exponent.h"
+#include "core/base/growth_exponent.h"
 
 #include <cmath>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
-namespace scattermeter::apps {
+namespace scattermeter {
 namespace {
 
 TEST(GrowthExponent, OfAPower) {
@@ -17,4 +17,4 @@ TEST(GrowthExponent, OfAPower) {
 }
 
 }  // namespace
-}  // namespace scattermeter::apps
+}  // namespace scattermeter
