@@ -3,8 +3,8 @@
 
 #include "apps/checking/check.h"
 #include "apps/commands/commands.h"
+#include "apps/pages/check_page.h"
 #include "apps/report/check_json.h"
-#include "apps/report/check_page.h"
 #include "apps/report/check_table.h"
 #include "apps/report/shot_picture.h"
 #include "calib/pose/shot_pose.h"

@@ -8,7 +8,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/instrument/measure.h"
-#include "apps/report/result_page.h"
+#include "apps/pages/result_page.h"
 #include "apps/report/result_table.h"
 #include "apps/results/result_json.h"
 #include "capture/files/pending_file.h"

@@ -10,10 +10,10 @@
 
 #include "apps/commands/commands.h"
 #include "apps/instrument/rig_inputs.h"
+#include "apps/pages/led_map_plot.h"
+#include "apps/pages/plan_page.h"
 #include "apps/planning/plan.h"
-#include "apps/report/led_map_plot.h"
 #include "apps/report/plan_json.h"
-#include "apps/report/plan_page.h"
 #include "apps/report/plan_table.h"
 #include "capture/files/pending_file.h"
 #include "core/base/input_error.h"

@@ -7,8 +7,8 @@
 #include <fmt/core.h>
 
 #include "apps/commands/commands.h"
+#include "apps/pages/watch_page.h"
 #include "apps/report/shot_picture.h"
-#include "apps/report/watch_page.h"
 #include "apps/rig/rig.h"
 #include "apps/watching/watched_folder.h"
 #include "apps/watching/watched_shots.h"

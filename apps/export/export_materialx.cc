@@ -4,8 +4,8 @@
 #include "apps/export/export_notes.h"
 #include "apps/export/identifiers.h"
 #include "apps/export/xml_text.h"
+#include "apps/pages/html_page.h"
 #include "apps/report/csv.h"
-#include "apps/report/html_page.h"
 
 namespace scattermeter::apps {
 namespace {

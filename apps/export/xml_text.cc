@@ -1,7 +1,7 @@
 #include "apps/export/xml_text.h"
 
+#include "apps/pages/html_page.h"
 #include "apps/report/csv.h"
-#include "apps/report/html_page.h"
 
 namespace scattermeter::apps {
 

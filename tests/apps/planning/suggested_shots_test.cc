@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/pages/plan_page.h"
 #include "apps/planning/plan.h"
-#include "apps/report/plan_page.h"
 #include "tests/fixtures/apps/body_rig.h"
 #include "tests/fixtures/apps/html_check.h"
 

@@ -14,8 +14,8 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/instrument/calibration_inputs.h"
+#include "apps/pages/led_plots.h"
 #include "apps/report/calibration_tables.h"
-#include "apps/report/led_plots.h"
 #include "apps/rig/led_calibration_file.h"
 #include "apps/simulation/virtual_led_shots.h"
 #include "calib/led/led_check.h"

@@ -1,4 +1,4 @@
-#include "apps/report/residual_maps.h"
+#include "apps/pages/residual_maps.h"
 
 #include <algorithm>
 #include <cmath>

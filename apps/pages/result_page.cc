@@ -1,4 +1,4 @@
-#include "apps/report/result_page.h"
+#include "apps/pages/result_page.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "apps/report/budget_details.h"
-#include "apps/report/html_page.h"
-#include "apps/report/page_plots.h"
-#include "apps/report/residual_maps.h"
-#include "apps/report/result_plots.h"
+#include "apps/pages/budget_details.h"
+#include "apps/pages/html_page.h"
+#include "apps/pages/page_plots.h"
+#include "apps/pages/residual_maps.h"
+#include "apps/pages/result_plots.h"
 #include "apps/report/result_table.h"
 #include "core/base/version.h"
 

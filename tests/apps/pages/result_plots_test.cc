@@ -1,4 +1,4 @@
-#include "apps/report/result_plots.h"
+#include "apps/pages/result_plots.h"
 
 #include <cmath>
 #include <limits>

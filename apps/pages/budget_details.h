@@ -1,7 +1,7 @@
 // The causes of an estimate's uncertainty, on a page.
 #pragma once
 
-#include "apps/report/html_page.h"
+#include "apps/pages/html_page.h"
 #include "core/fit/estimate.h"
 
 namespace scattermeter::apps {

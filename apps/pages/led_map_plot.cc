@@ -1,4 +1,4 @@
-#include "apps/report/led_map_plot.h"
+#include "apps/pages/led_map_plot.h"
 
 #include <algorithm>
 #include <cmath>

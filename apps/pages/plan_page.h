@@ -7,7 +7,7 @@
 
 namespace scattermeter::apps {
 
-// A self-contained HTML page (apps/report/html_page.h): the predicted uncertainties with their
+// A self-contained HTML page (apps/pages/html_page.h): the predicted uncertainties with their
 // budget, exposures, improvements, maps of LED positions, and the assumptions.
 std::string plan_page(const Plan& plan, const std::string& command_line);
 

@@ -1,10 +1,10 @@
-#include "apps/report/html_page.h"
+#include "apps/pages/html_page.h"
 
 #include <stdexcept>
 
 #include <fmt/core.h>
 
-#include "apps/report/base64.h"
+#include "apps/pages/base64.h"
 
 namespace scattermeter::apps {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "apps/instrument/measure.h"
-#include "apps/report/page_plots.h"
+#include "apps/pages/page_plots.h"
 
 namespace scattermeter::apps {
 

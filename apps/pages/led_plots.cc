@@ -1,4 +1,4 @@
-#include "apps/report/led_plots.h"
+#include "apps/pages/led_plots.h"
 
 #include <algorithm>
 #include <cmath>

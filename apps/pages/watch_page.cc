@@ -1,4 +1,4 @@
-#include "apps/report/watch_page.h"
+#include "apps/pages/watch_page.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,8 +6,8 @@
 #include <fmt/core.h>
 #include <fmt/format.h>
 
+#include "apps/pages/html_page.h"
 #include "apps/planning/plan.h"
-#include "apps/report/html_page.h"
 #include "apps/report/result_table.h"
 
 namespace scattermeter::apps {

@@ -1,8 +1,8 @@
 // Plot of the predicted uncertainty over LED positions.
 #pragma once
 
+#include "apps/pages/page_plots.h"
 #include "apps/planning/suggested_shots.h"
-#include "apps/report/page_plots.h"
 
 namespace scattermeter::apps {
 

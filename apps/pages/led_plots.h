@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "apps/report/page_plots.h"
+#include "apps/pages/page_plots.h"
 #include "calib/led/led_check.h"
 
 namespace scattermeter::apps {

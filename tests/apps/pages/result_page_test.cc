@@ -1,4 +1,4 @@
-#include "apps/report/result_page.h"
+#include "apps/pages/result_page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "apps/report/budget_details.h"
+#include "apps/pages/budget_details.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/report/html_page.h"
+#include "apps/pages/html_page.h"
 #include "apps/report/plot.h"
 
 namespace scattermeter::apps {

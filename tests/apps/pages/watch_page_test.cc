@@ -1,4 +1,4 @@
-#include "apps/report/watch_page.h"
+#include "apps/pages/watch_page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "apps/report/plan_page.h"
+#include "apps/pages/plan_page.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

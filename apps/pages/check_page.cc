@@ -1,4 +1,4 @@
-#include "apps/report/check_page.h"
+#include "apps/pages/check_page.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include <fmt/core.h>
 
-#include "apps/report/html_page.h"
-#include "apps/report/led_plots.h"
-#include "apps/report/page_plots.h"
+#include "apps/pages/html_page.h"
+#include "apps/pages/led_plots.h"
+#include "apps/pages/page_plots.h"
 #include "apps/report/radiance_plots.h"
 #include "core/base/version.h"
 

@@ -1,4 +1,4 @@
-#include "apps/report/html_page.h"
+#include "apps/pages/html_page.h"
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include "apps/report/page_plots.h"
+#include "apps/pages/page_plots.h"
 
 #include <stdexcept>
 #include <string>

@@ -1,4 +1,4 @@
-#include "apps/report/base64.h"
+#include "apps/pages/base64.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/report/check_page.h"
+#include "apps/pages/check_page.h"
 
 #include <string>
 

@@ -1,4 +1,4 @@
-#include "apps/report/plan_page.h"
+#include "apps/pages/plan_page.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 #include <fmt/core.h>
 
+#include "apps/pages/budget_details.h"
+#include "apps/pages/html_page.h"
+#include "apps/pages/led_map_plot.h"
+#include "apps/pages/page_plots.h"
 #include "apps/planning/plan_assumptions.h"
-#include "apps/report/budget_details.h"
-#include "apps/report/html_page.h"
-#include "apps/report/led_map_plot.h"
-#include "apps/report/page_plots.h"
 #include "apps/report/result_table.h"
 #include "core/base/version.h"
 
