@@ -7,6 +7,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/instrument/calibration_inputs.h"
+#include "apps/pages/calibration_page.h"
 #include "apps/report/calibration_tables.h"
 #include "apps/report/camera_calibration_pictures.h"
 #include "apps/results/result_json.h"
@@ -63,10 +64,11 @@ std::string write_camera(const calib::CameraCalibration& calibration, const std:
   std::string notes;
   std::string written = "written: " + path + "\n";
   const std::string stem = std::filesystem::path(path).replace_extension().string();
-  for (const auto& [draw, ending] : {std::pair(&draw_camera_residuals, "_residuals.png"),
-                                     std::pair(&draw_camera_coverage, "_coverage.png")}) {
+  for (const auto& [plot, ending] :
+       {std::pair(camera_residual_plot(calibration), "_residuals.png"),
+        std::pair(camera_coverage_plot(calibration), "_coverage.png")}) {
     try {
-      draw(calibration, stem + ending);
+      write_plot(plot, stem + ending);
       written += "written: " + stem + ending + "\n";
     } catch (const InputError& error) {
       notes += std::string("note: ") + error.what() + "\n";  // the file is valid without it
@@ -81,7 +83,10 @@ void declare_options(CLI::App& command, CameraArguments& a) {
       .add_option("SHOTS", a.run.shots,
                   "folder of the shots, or the files themselves (with --rig: the folder)")
       ->required();
-  command.add_option("--out", a.out, "file to write (YAML), with pictures next to it")->required();
+  command
+      .add_option("--out", a.out,
+                  "file to write (YAML), with pictures and a page (HTML) next to it")
+      ->required();
   CLI::Option* rig = command.add_option("--rig", a.rig, "rig file (YAML) with calibration.camera");
   CLI::Option* board = command.add_option("--board", a.board, "without --rig: kind of the board")
                            ->check(CLI::IsMember({"chessboard", "charuco"}))
@@ -133,9 +138,23 @@ int run_calibrate_camera(CameraArguments a, CommandContext& context) {
   const bool ok = run.calibration.status == calib::CameraCalibrationStatus::kOk;
   std::string text = camera_calibration_table(a.run.board, run);
   if (ok) {
+    const std::string page = calibration_page(
+        {"Camera calibration",
+         fmt::format(
+             "The lens is known: residuals of {:.2f} px in {} views, {:.2f} px (one standard "
+             "deviation) at the worst corner of the frame.",
+             run.calibration.rms_px, run.calibration.views.size(),
+             run.calibration.frame_corner_std_px),
+         true,
+         text,
+         {{camera_residual_plot(run.calibration),
+           "Residuals (projected - found) of the corners, magnified."},
+          {camera_coverage_plot(run.calibration), "The corners that were found, by view."}}},
+        context.command_line);
     text += write_camera(run.calibration, a.out,
                          {fmt::format("scattermeter {}: {}", kVersion, context.command_line),
                           board_name(a.run.board)});
+    text += write_page_beside(a.out, page);
   }
   if (!context.quiet) context.out << text;
   if (ok) return 0;

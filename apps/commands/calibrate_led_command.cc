@@ -6,6 +6,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/instrument/calibration_inputs.h"
+#include "apps/pages/calibration_page.h"
 #include "apps/report/calibration_tables.h"
 #include "apps/results/result_json.h"
 #include "apps/rig/led_calibration_file.h"
@@ -33,9 +34,10 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
   command->add_option("--light", options->light,
                       "name of the LED in the rig (default: all of calibration.led)");
   command
-      ->add_option("--out", options->out,
-                   "file to write (YAML, for the rig's lights.NAME.calibration); without --light, "
-                   "the folder for NAME.yaml")
+      ->add_option(
+          "--out", options->out,
+          "file to write (YAML, for the rig's lights.NAME.calibration), with a page (HTML) "
+          "next to it; without --light, the folder for NAME.yaml")
       ->required();
   run_if_named(*command, context, [options, &context] {
     if (options->light.empty()) {
@@ -61,7 +63,8 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
       }
       const bool ok = calibration.fit.status == calib::LedStatus::kOk;
       refused = refused || !ok;
-      if (!context.quiet || !ok) context.out << led_calibration_table(calibration);
+      const std::string table = led_calibration_table(calibration);
+      if (!context.quiet || !ok) context.out << table;
       if (!ok) continue;
       if (!rig.scene.camera.responsivity && !context.quiet) {
         context.out << "the rig has no responsivity: intensities count for 1e10 counts mm2 sr / "
@@ -70,7 +73,15 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
       const std::string path =
           all ? (std::filesystem::path(options->out) / (light + ".yaml")).string() : options->out;
       capture::write_text_file(path, led_calibration_yaml(calibration));
-      if (!context.quiet) context.out << "written: " << path << "\n";
+      const std::string page = write_page_beside(
+          path,
+          calibration_page({"Calibration of " + light,
+                            "Position, axis, lobe and intensity of the LED are known as below.",
+                            true,
+                            table,
+                            {}},
+                           context.command_line));
+      if (!context.quiet) context.out << "written: " << path << "\n" << page;
     }
     return refused ? 1 : 0;
   });

@@ -1,11 +1,15 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include "apps/commands/commands.h"
 #include "apps/instrument/calibration_inputs.h"
+#include "apps/pages/calibration_page.h"
 #include "apps/report/calibration_tables.h"
 #include "apps/report/plot.h"
 #include "apps/report/radiance_plots.h"
@@ -27,6 +31,19 @@ void draw_radiance(const capture::RadianceCalibration& calibration, const std::s
   write_plot(linearity_plot(calibration), stem + "_linearity.png");
 }
 
+std::vector<PagePlot> plots_of(const capture::RadianceCalibration& calibration) {
+  std::vector<PagePlot> out = {
+      {linearity_plot(calibration),
+       "Recorded signal relative to that of a camera with the sensitivity at zero signal."}};
+  for (std::size_t c = 0; c < kRgb; ++c) {
+    out.push_back({photon_transfer_plot(calibration, c),
+                   fmt::format("Variance over signal in {} of the pairs of flats, with the noise "
+                               "model.",
+                               kRgbName[c])});
+  }
+  return out;
+}
+
 }  // namespace
 
 void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context) {
@@ -38,7 +55,8 @@ void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context) {
       "radiance",
       "Black, dark current, hot pixels, read noise, gain, linearity, exposure times, vignetting, "
       "glare and responsivity from the shots that the rig's calibration.radiance lists.\n"
-      "Writes the file for camera.radiance, and plots of noise and linearity next to it.\n"
+      "Writes the file for camera.radiance, and plots of noise and linearity and a page (HTML) "
+      "next to it.\n"
       "Exit status: 0 done, 1 a residual exceeds its limit, 2 bad input.");
   command->add_option("SHOTS", options->shots, "folder of the raw files")->required();
   command->add_option("--rig", options->rig, "rig file (YAML)")->required();
@@ -55,11 +73,19 @@ void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context) {
     capture::write_text_file(options->out, radiance_file_text(calibration));
     std::filesystem::path stem(options->out);
     draw_radiance(calibration, stem.replace_extension().string());
-    if (!context.quiet) context.out << radiance_calibration_table(calibration);
-    for (const capture::RadianceResidual& r : calibration.residuals) {
-      if (r.rms > r.limit) return 1;
-    }
-    return 0;
+    std::string text = radiance_calibration_table(calibration);
+    const auto exceeds = std::find_if(calibration.residuals.begin(), calibration.residuals.end(),
+                                      [](const auto& r) { return r.rms > r.limit; });
+    const bool ok = exceeds == calibration.residuals.end();
+    text += write_page_beside(
+        options->out,
+        calibration_page({"Radiance calibration",
+                          ok ? "All residuals are within their limits."
+                             : fmt::format("The residual of {} exceeds its limit.", exceeds->what),
+                          ok, text, plots_of(calibration)},
+                         context.command_line));
+    if (!context.quiet) context.out << text;
+    return ok ? 0 : 1;
   });
 }
 

@@ -5,16 +5,18 @@
 #include <utility>
 
 #include "apps/commands/commands.h"
+#include "apps/pages/comparison_page.h"
 #include "apps/report/comparison_table.h"
 #include "apps/results/comparison.h"
 #include "apps/results/material_library.h"
+#include "capture/files/pending_file.h"
 
 namespace scattermeter::apps {
 
 namespace {
 
 struct CompareArguments {
-  std::string first, second;
+  std::string first, second, out;
   std::vector<std::string> materials;
   bool same_rig = false;
   std::optional<std::string> library;  // a folder; "": published coefficients alone
@@ -25,10 +27,15 @@ int compare_two(const CompareArguments& a, const ReadResult& first, CommandConte
   const bool share_rig = a.same_rig || have_same_rig(first, second);
   const std::vector<MaterialComparison> materials =
       compare(first, second, pairs_of(first, second, a.materials), share_rig);
-  if (!context.quiet) {
-    context.out << comparison_table(materials)
-                << (share_rig ? "what both owe to their common rig is counted once\n"
-                              : "the rigs are taken as independent (--same-rig: they are not)\n");
+  const std::string rigs = share_rig
+                               ? "what both owe to their common rig is counted once"
+                               : "the rigs are taken as independent (--same-rig: they are not)";
+  if (!context.quiet) context.out << comparison_table(materials) << rigs << "\n";
+  if (!a.out.empty()) {
+    const std::string path = a.out + "/compare.html";
+    capture::write_text_file(
+        path, comparison_page(materials, a.first, a.second, rigs, context.command_line));
+    if (!context.quiet) context.out << "written: " << path << "\n";
   }
   return std::any_of(materials.begin(), materials.end(),
                      [](const MaterialComparison& m) { return m.is_different(); })
@@ -81,6 +88,7 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
   command->add_flag("--same-rig", a->same_rig,
                     "the rig files differ only in shots, materials and pieces (default: one rig "
                     "only where the files are equal)");
+  CLI::Option* out = command->add_option("--out", a->out, "folder for a page, compare.html");
   command
       ->add_option_function<std::vector<std::string>>(
           "--library",
@@ -91,11 +99,13 @@ void add_compare_command(CLI::App& app, CommandContext& context) {
           "a folder is named, of all results below it")
       ->type_name("[FOLDER]")
       ->expected(0, 1)
-      ->excludes(second);
+      ->excludes(second)
+      ->excludes(out);
   run_if_named(*command, context, [a, &context] {
     if (a->second.empty() && !a->library) {
       throw InputError("compare", "needs a second result, or --library [FOLDER]");
     }
+    if (!a->out.empty()) capture::require_output_folder(a->out);
     const ReadResult first = read_result(a->first);
     return a->library ? compare_with_library(*a, first, context) : compare_two(*a, first, context);
   });

@@ -12,6 +12,7 @@
 #include "apps/instrument/frame_watch.h"
 #include "apps/instrument/light_look.h"
 #include "apps/instrument/outline_watch.h"
+#include "apps/instrument/rig_places.h"
 #include "apps/instrument/seen_shots.h"
 #include "calib/pose/shot_pose.h"
 #include "core/base/chi_square.h"
@@ -249,6 +250,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     out.notes.push_back("paths of transport are not kept: " + atlas_->problem());
   }
   opened = seen.shots();
+  out.places = std::make_shared<RigPlaces>(rig_places(rig_, objects_, opened));
   if (!without_noise) widen_by_blur(opened, rig_.scene.camera.intrinsics.fx_px, out.results);
   out.skipped = skipped_of(opened, lit_);
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +15,8 @@
 #include "core/estimation/estimate.h"
 
 namespace scattermeter::apps {
+
+struct RigPlaces;  // rig_places.h
 
 struct MeasureOptions {
   EstimateOptions estimate;
@@ -65,6 +68,7 @@ struct Measurement {
   std::vector<MergedBracket> brackets;                   // in the rig's order
   std::map<std::string, double> patch_size_mm;           // by object
   Skipped skipped;
+  std::shared_ptr<const RigPlaces> places;  // where everything stood; null if not measured here
   bool any_refused() const;
 };
 

@@ -11,6 +11,7 @@
 #include "apps/pages/html_page.h"
 #include "apps/pages/led_plots.h"
 #include "apps/pages/page_plots.h"
+#include "apps/pages/rig_figure.h"
 #include "apps/report/radiance_plots.h"
 #include "core/base/version.h"
 
@@ -268,6 +269,8 @@ std::string check_page(const CheckedRig& checked, const CheckReport& report,
     body += html_element("h2", html_text(title));
     body += plot_figures(plots);
   };
+  body += html_element("h2", html_text("The rig"));
+  body += rig_figure(rig_places(checked.rig, checked.geometry->objects, checked.shots));
   section("Pose", pose_plots(checked));
   section("Over the shots", trends(checked, report));
   section("Noise", noise_plots(checked));

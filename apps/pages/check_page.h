@@ -8,9 +8,9 @@
 
 namespace scattermeter::apps {
 
-// A self-contained HTML page (html_page.h): the table with advice, pose residuals over the frame,
-// light, black level and noise over the shots, small pictures of the shots with clipped samples
-// marked, and all single values. Without gnuplot, messages replace the plots.
+// A self-contained HTML page (html_page.h): the table with advice, the rig in three dimensions,
+// pose residuals over the frame, light, black level and noise over the shots, small pictures of the
+// shots with clipped samples marked, and all single values.
 std::string check_page(const CheckedRig& checked, const CheckReport& report,
                        const std::string& command_line);
 

@@ -1,19 +1,23 @@
 #include "apps/pages/html_page.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/core.h>
 
 #include "apps/pages/base64.h"
+#include "apps/pages/page_script.h"
 
 namespace scattermeter::apps {
 namespace {
 
 constexpr const char* kStyle = R"css(
 :root { color-scheme: light dark; --ink: #1b1f24; --paper: #ffffff; --soft: #f3f5f7; --line: #d4d9df;
-  --dim: #5a6470; --pass: #11632f; --fail: #b3141d; --bar: #4a86c5; }
+  --dim: #5a6470; --pass: #11632f; --fail: #b3141d; --bar: #4a86c5;
+  --camera: #3b6fa8; --led: #b26a00; --mark: #8a3fa0; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e4e7eb; --paper: #14171a; --soft: #1e2328;
-  --line: #3a424b; --dim: #a2acb8; --pass: #6fd08f; --fail: #ff8a86; --bar: #6fa8e0; } }
+  --line: #3a424b; --dim: #a2acb8; --pass: #6fd08f; --fail: #ff8a86; --bar: #6fa8e0;
+  --camera: #7fb0ea; --led: #f0b429; --mark: #d39be6; } }
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 1rem; max-width: 78rem; background: var(--paper); color: var(--ink);
   font: 1rem/1.5 system-ui, sans-serif; overflow-wrap: anywhere; }
@@ -38,9 +42,12 @@ figure { margin: 0; padding: 0.4rem; border: 1px solid var(--line); border-radiu
   background: var(--soft); min-width: 0; }
 figure img { display: block; width: 100%; height: auto; background: #ffffff; border-radius: 3px; }
 figcaption { font-size: 0.875rem; color: var(--dim); padding: 0.3rem 0.2rem 0; }
+pre { margin: 0.6rem 0; padding: 0.6rem; font-size: 0.85rem; }
 details { margin: 0.6rem 0; }
 summary { cursor: pointer; font-weight: 600; }
 meter { width: 6rem; }
+.swatch { display: inline-block; width: 4rem; height: 1.6rem; vertical-align: middle;
+  border: 1px solid var(--line); border-radius: 4px; }
 @media (max-width: 30rem) { body { padding: 0.6rem; } th, td { padding: 0.25rem 0.4rem; } }
 )css";
 
@@ -151,6 +158,16 @@ Html html_table(const HtmlTable& table) {
   return {out + "</tbody></table></div>\n"};
 }
 
+Html html_lines(const std::string& text) {
+  std::string out;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    out += html_text(text.substr(begin, end - begin)).markup + "\n";
+    begin = end + 1;
+  }
+  return {"<pre class=\"scroll\">\n" + out + "</pre>\n"};
+}
+
 std::string data_address(const std::string& type, const std::string& bytes) {
   return "data:" + type + ";base64," + base64(bytes);
 }
@@ -158,6 +175,15 @@ std::string data_address(const std::string& type, const std::string& bytes) {
 Html html_figure(const std::string& address, const std::string& alt, const Html& caption) {
   return {"<figure><img src=\"" + html_text(address).markup + "\" alt=\"" + html_text(alt).markup +
           "\"><figcaption>" + caption.markup + "</figcaption></figure>\n"};
+}
+
+Html html_widget(const std::string& kind, const std::string& json, const Html& caption) {
+  std::string data;
+  for (const char c : json) data += c == '<' ? "\\u003c" : std::string(1, c);
+  return {"<figure data-widget=\"" + html_text(kind).markup +
+          "\"><div class=\"stage\"></div><noscript>Drawn where scripts may run.</noscript>" +
+          "<script type=\"application/json\">" + data + "</script><figcaption>" + caption.markup +
+          "</figcaption></figure>\n"};
 }
 
 Html html_figures(const std::vector<Html>& figures) {
@@ -175,14 +201,17 @@ std::string html_document(const std::string& title, const Html& body, int reload
   const std::string reload = reload_s == 0 ? ""
                                            : "<meta http-equiv=\"refresh\" content=\"" +
                                                  std::to_string(reload_s) + "\">\n";
+  const bool is_live = body.markup.find("<figure data-widget=") != std::string::npos;
+  const std::string may_run =
+      is_live ? fmt::format("; script-src 'sha256-{}'", kPageScriptSha256) : "";
+  const std::string script = is_live ? fmt::format("<script>{}</script>\n", kPageScript) : "";
   return std::string("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
-         "data:; "
-         "style-src 'unsafe-inline'\">\n" +
-         reload +
+         "data:; style-src 'unsafe-inline'" +
+         may_run + "\">\n" + reload +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
          html_text(title).markup + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n" +
-         body.markup + "</body>\n</html>\n";
+         body.markup + script + "</body>\n</html>\n";
 }
 
 }  // namespace scattermeter::apps

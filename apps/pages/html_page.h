@@ -38,11 +38,19 @@ HtmlTable::Cell number_cell(const std::string& text);
 // std::invalid_argument unless each row has as many cells as the header.
 Html html_table(const HtmlTable& table);
 
+// Lines of text as they stand, in letters of one width; control characters but line ends become
+// spaces.
+Html html_lines(const std::string& text);
+
 // "data:TYPE;base64,...".
 std::string data_address(const std::string& type, const std::string& bytes);
 
 // A picture from a data: address with its caption; `alt` is the alternative text.
 Html html_figure(const std::string& address, const std::string& alt, const Html& caption);
+
+// A figure that the page's script draws (apps/pages/web): `kind` names how, `json` is what from.
+// The caption says in words what it shows.
+Html html_widget(const std::string& kind, const std::string& json, const Html& caption);
 
 // Figures side by side as far as the width of the page allows.
 Html html_figures(const std::vector<Html>& figures);
@@ -51,8 +59,9 @@ Html html_figures(const std::vector<Html>& figures);
 Html html_details(const std::string& summary, const Html& inner);
 
 // The complete document: UTF-8, responsive, light or dark as the reader prefers. Its
-// Content-Security-Policy forbids all requests and scripts. reload_s: after which it is loaded
-// again; 0: never.
+// Content-Security-Policy forbids all requests and, but for the page's own (page_script.h), which
+// stands in a document with widgets, all scripts. reload_s: after which it is loaded again; 0:
+// never.
 std::string html_document(const std::string& title, const Html& body, int reload_s = 0);
 
 }  // namespace scattermeter::apps

@@ -9,17 +9,18 @@
 
 namespace scattermeter::apps {
 
-// A size at which the labels are legible on a phone.
-inline constexpr int kPagePlotWidth_px = 480;
-inline constexpr int kPagePlotHeight_px = 360;
-
 struct PagePlot {
   Plot plot;
   std::string caption;  // also the alternative text
 };
 
-// Figures of the plots as SVG. A plot without anything to draw is omitted; if gnuplot fails or is
-// missing, its message replaces the plot.
+// What apps/pages/web/plot.js draws: axes, series and colours as JSON, with six significant digits.
+// Points with a coordinate that is not finite (or not positive on a log axis) are omitted; a value
+// or a deviation that is not finite is null. "" if nothing is left to draw. Throws
+// std::invalid_argument for lists of unequal length.
+std::string plot_data(const Plot& plot);
+
+// Figures of the plots. A plot without anything to draw is omitted.
 Html plot_figures(const std::vector<PagePlot>& plots);
 
 }  // namespace scattermeter::apps

@@ -12,6 +12,7 @@
 #include "apps/pages/html_page.h"
 #include "apps/pages/led_map_plot.h"
 #include "apps/pages/page_plots.h"
+#include "apps/pages/rig_figure.h"
 #include "apps/planning/plan_assumptions.h"
 #include "apps/report/result_table.h"
 #include "core/base/version.h"
@@ -186,6 +187,10 @@ std::string plan_page(const Plan& plan, const std::string& command_line) {
       "dim");
   body += forecast_table(plan);
   body += refusal_list(plan);
+  if (plan.places) {
+    body += html_element("h2", html_text("The rig"));
+    body += rig_figure(*plan.places);
+  }
   body += html_element("h2", html_text("Exposures"));
   const auto advised = std::count_if(plan.exposures.begin(), plan.exposures.end(),
                                      [](const ExposureAdvice& a) { return !a.advice.empty(); });

@@ -8,7 +8,8 @@
 namespace scattermeter::apps {
 
 // A self-contained HTML page (apps/pages/html_page.h): the predicted uncertainties with their
-// budget, exposures, improvements, maps of LED positions, and the assumptions.
+// budget, the rig in three dimensions, exposures, improvements, maps of LED positions, and the
+// assumptions.
 std::string plan_page(const Plan& plan, const std::string& command_line);
 
 }  // namespace scattermeter::apps

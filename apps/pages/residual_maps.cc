@@ -2,38 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+#include <oneapi/tbb/parallel_for.h>
+
+#include "apps/pages/html_page.h"
+#include "apps/pages/packed_integers.h"
+#include "apps/pages/page_number.h"
 
 namespace scattermeter::apps {
 namespace {
 
-constexpr PictureColour kBehind = {28, 30, 34};
-constexpr PictureColour kUnused = {120, 120, 120};
-constexpr PictureColour kClipped = {213, 0, 50};
-constexpr PictureColour kLeftOut = {230, 159, 0};
+using Json = nlohmann::ordered_json;
 
-// A picture of the rectangle of the map with the values of its rows, at most `width_px` wide.
-template <class ColourOfRow>
-Picture row_picture(const SampleMap& map, int width_px, const ColourOfRow& colour_of_row) {
-  const int step = (map.width + width_px - 1) / width_px;
-  Picture out(map.width / step, map.height / step, kBehind);
-  for (int y = 0; y < out.height_px; ++y) {
-    for (int x = 0; x < out.width_px; ++x) {
-      const auto at =
-          static_cast<std::size_t>(y * step + step / 2) * static_cast<std::size_t>(map.width) +
-          static_cast<std::size_t>(x * step + step / 2);
-      const std::int32_t row = map.row_of_sample[at];
-      if (row >= 0) out.set(x, y, colour_of_row(static_cast<std::size_t>(row)));
-    }
-  }
-  return out;
-}
-
-// Colours are few enough for a palette, which halves the size of a page, and finer than the noise.
-constexpr double kGreySteps = 100.0;
-constexpr double kDifferenceSteps = 50.0;  // to each side
-
-double in_steps(double value, double steps) { return std::round(value * steps) / steps; }
+constexpr double kObservedStep_percent = 0.01;  // of the brightest row in use
+constexpr double kDifferenceStep = 0.01;        // of the full scale
+// Of a row in one channel of one shot, as packed in base64, with its share of the map (measured on
+// the sample).
+constexpr std::size_t kBytesPerRow = 5;
 
 double brightest_of(const ShotRows& rows) {
   double out = 0.0;
@@ -49,6 +40,48 @@ double round_up(double percent) {
     if (percent <= step) return step;
   }
   return 100.0;
+}
+
+// Which row is seen at each place of a reduced picture of the map's rectangle.
+Json map_data(const SampleMap& map, int width_px) {
+  const int step = std::max(1, (map.width + width_px - 1) / width_px);
+  const int width = map.width / step, height = map.height / step;
+  std::vector<std::int32_t> rows;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const auto at =
+          static_cast<std::size_t>(y * step + step / 2) * static_cast<std::size_t>(map.width) +
+          static_cast<std::size_t>(x * step + step / 2);
+      rows.push_back(map.row_of_sample[at] + 1);
+    }
+  }
+  return {{"x0", map.x0},   {"y0", map.y0},     {"step", step},
+          {"width", width}, {"height", height}, {"rows", packed_integers(rows, 3)}};
+}
+
+Json shot_data(const ChannelShot& shot, std::ptrdiff_t map_idx, double full_scale_percent) {
+  const ShotRows& rows = *shot.rows;
+  const double brightest = brightest_of(rows);
+  const auto steps = [&](double value, double step_percent) {
+    const double n = 100.0 * value / (brightest * step_percent);
+    return std::isfinite(n)
+               ? static_cast<std::int32_t>(std::lround(std::clamp(n, -32767.0, 32767.0)))
+               : 0;
+  };
+  std::vector<std::int32_t> observed, difference, state;
+  for (std::size_t j = 0; j < rows.observed.size(); ++j) {
+    observed.push_back(steps(rows.observed[j], kObservedStep_percent));
+    difference.push_back(steps(static_cast<double>(rows.observed[j]) - rows.predicted[j],
+                               kDifferenceStep * full_scale_percent));
+    state.push_back(static_cast<std::int32_t>(rows.state[j]));
+  }
+  return {{"file", plain_text(rows.file)},
+          {"channel", std::string(1, shot.channel)},
+          {"map", map_idx},
+          {"rms_percent", page_number(100.0 * relative_rms(rows))},
+          {"observed", packed_integers(observed, 2)},
+          {"difference", packed_integers(difference, 2)},
+          {"state", packed_integers(state, 1)}};
 }
 
 }  // namespace
@@ -67,8 +100,7 @@ double difference_scale_percent(const ShotRows& rows) {
   return round_up(100.0 * differences[static_cast<std::size_t>(at)] / brightest);
 }
 
-ResidualMap residual_map(const ShotRows& rows, int width_px, double full_scale_percent) {
-  const double brightest = brightest_of(rows);
+double relative_rms(const ShotRows& rows) {
   double squares = 0.0, light = 0.0;
   for (std::size_t j = 0; j < rows.observed.size(); ++j) {
     if (rows.state[j] != RowState::kUsed) continue;
@@ -77,25 +109,54 @@ ResidualMap residual_map(const ShotRows& rows, int width_px, double full_scale_p
     squares += d * d;
     light += o * o;
   }
-  const double unit = full_scale_percent > 0.0 ? 0.01 * full_scale_percent * brightest : 1.0;
-  const auto used = [&](std::size_t j) { return rows.state[j] == RowState::kUsed; };
-  const auto grey = [&](float value) {
-    return grey_colour(in_steps(static_cast<double>(value) / brightest, kGreySteps));
-  };
-  const Picture observed = row_picture(*rows.map, width_px, [&](std::size_t j) {
-    if (rows.state[j] == RowState::kClipped) return kClipped;
-    return used(j) ? grey(rows.observed[j]) : kLeftOut;
+  return light > 0.0 ? std::sqrt(squares / light) : 0.0;
+}
+
+std::vector<ChannelShot> shots_to_map(const std::vector<const ChannelResult*>& channels,
+                                      std::size_t most_bytes) {
+  std::map<std::string, double> worst;  // of each shot's channels
+  std::size_t bytes = 0;
+  for (const ChannelResult* r : channels) {
+    for (const ShotRows& rows : r->rows) {
+      double& of_shot = worst[rows.file];
+      of_shot = std::max(of_shot, relative_rms(rows));
+      bytes += kBytesPerRow * rows.observed.size();
+    }
+  }
+  std::vector<std::pair<double, std::string>> order;
+  for (const auto& [file, rms] : worst) order.emplace_back(-rms, file);
+  std::sort(order.begin(), order.end());
+  const std::size_t shown = bytes <= most_bytes
+                                ? order.size()
+                                : std::max<std::size_t>(1, order.size() * most_bytes / bytes);
+  std::set<std::string> files;
+  for (std::size_t i = 0; i < shown && i < order.size(); ++i) files.insert(order[i].second);
+  std::vector<ChannelShot> out;
+  for (const ChannelResult* r : channels) {
+    for (const ShotRows& rows : r->rows) {
+      if (files.contains(rows.file)) out.push_back({&rows, r->channel});
+    }
+  }
+  return out;
+}
+
+std::string residual_map_data(const std::vector<ChannelShot>& shots, int width_px,
+                              double full_scale_percent) {
+  std::vector<const SampleMap*> maps;
+  std::vector<Json> of_shot(shots.size());
+  for (const ChannelShot& shot : shots) {
+    const SampleMap* map = shot.rows->map.get();
+    if (std::find(maps.begin(), maps.end(), map) == maps.end()) maps.push_back(map);
+  }
+  std::vector<Json> of_map(maps.size());
+  tbb::parallel_for(std::size_t{0}, maps.size(),
+                    [&](std::size_t i) { of_map[i] = map_data(*maps[i], width_px); });
+  tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) {
+    const auto map = std::find(maps.begin(), maps.end(), shots[i].rows->map.get());
+    of_shot[i] = shot_data(shots[i], map - maps.begin(), full_scale_percent);
   });
-  const Picture model = row_picture(*rows.map, width_px, [&](std::size_t j) {
-    return used(j) ? grey(rows.predicted[j]) : kUnused;
-  });
-  const Picture difference = row_picture(*rows.map, width_px, [&](std::size_t j) {
-    if (!used(j)) return kUnused;
-    return difference_colour(in_steps(
-        static_cast<double>(rows.observed[j] - rows.predicted[j]) / unit, kDifferenceSteps));
-  });
-  return {side_by_side({observed, model, difference}, 4),
-          light > 0.0 ? std::sqrt(squares / light) : 0.0};
+  return Json{{"full_scale_percent", full_scale_percent}, {"maps", of_map}, {"shots", of_shot}}
+      .dump();
 }
 
 }  // namespace scattermeter::apps

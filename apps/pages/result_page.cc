@@ -7,21 +7,23 @@
 
 #include <fmt/core.h>
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include "apps/pages/budget_details.h"
 #include "apps/pages/html_page.h"
 #include "apps/pages/page_plots.h"
 #include "apps/pages/residual_maps.h"
+#include "apps/pages/result_headline.h"
 #include "apps/pages/result_plots.h"
+#include "apps/pages/rig_figure.h"
+#include "apps/pages/swatches.h"
 #include "apps/report/result_table.h"
 #include "core/base/version.h"
 
 namespace scattermeter::apps {
 namespace {
 
-constexpr int kMapWidth_px = 150;
-constexpr std::size_t kMapsPerChannel = 24;
+constexpr int kMapWidth_px = 320;
+constexpr std::size_t kMostMapBytes = 1'700'000;  // of all materials
 
 std::string interval(const Quantity& q, bool known) {
   if (!known) return "–";
@@ -125,35 +127,39 @@ std::string left_out(const ChannelResult& r) {
   return fmt::format("{}: {}", r.channel, patches_text(r.patches_by_state, r.patches_partly_seen));
 }
 
-Html maps(const std::vector<const ChannelResult*>& channels, double full_scale_percent) {
-  std::vector<const ShotRows*> all;
-  std::vector<char> names;
-  std::size_t more = 0;
+// Observed, model and difference, by shot and channel.
+Html maps(const std::vector<const ChannelResult*>& channels, double full_scale_percent,
+          std::size_t most_bytes) {
+  const std::vector<ChannelShot> shots = shots_to_map(channels, most_bytes);
+  if (shots.empty()) return {};
+  std::size_t all = 0;
+  HtmlTable table;
+  table.header = {"shot", "channel", "rms of the difference"};
   for (const ChannelResult* r : channels) {
-    for (std::size_t i = 0; i < std::min(r->rows.size(), kMapsPerChannel); ++i) {
-      all.push_back(&r->rows[i]);
-      names.push_back(r->channel);
+    all += r->rows.size();
+    for (const ShotRows& rows : r->rows) {
+      table.rows.push_back({text_cell(rows.file), text_cell(std::string(1, r->channel)),
+                            number_cell(fmt::format("{:.2g} %", 100.0 * relative_rms(rows)))});
     }
-    more = std::max(more, r->rows.size() - std::min(r->rows.size(), kMapsPerChannel));
   }
-  std::vector<Html> figures(all.size());
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    const ResidualMap map = residual_map(*all[i], kMapWidth_px, full_scale_percent);
-    const std::string caption = fmt::format("{} {}: observed, model, difference; rms {:.2g} %",
-                                            all[i]->file, names[i], 100.0 * map.rms_relative);
-    figures[i] =
-        html_figure(data_address("image/png", png_bytes(map.picture)), caption, html_text(caption));
-  });
-  Html out = html_figures(figures);
-  if (more > 0) {
-    out += html_element("p", html_text(fmt::format("{} more shots are not shown.", more)), "dim");
-  }
+  const std::string chosen =
+      shots.size() < all
+          ? fmt::format(" Shown are the {} of {} maps whose shots depart most.", shots.size(), all)
+          : "";
+  Html out = html_widget(
+      "maps", residual_map_data(shots, kMapWidth_px, full_scale_percent),
+      html_text(fmt::format("Observed, model and difference of {}. One scale for all differences "
+                            "of this page: blue to red, ±{:g} % of the brightest place of the "
+                            "shot.{}",
+                            channels.front()->material, full_scale_percent, chosen)));
+  out += html_details("differences of all shots", html_table(table));
   return out;
 }
 
-Html material_section(const std::vector<const ChannelResult*>& channels,
-                      double full_scale_percent) {
+Html material_section(const std::vector<const ChannelResult*>& channels, double full_scale_percent,
+                      std::size_t most_bytes) {
   Html out = html_element("h2", html_text(channels.front()->material));
+  out += swatches(channels);
   std::vector<PagePlot> plots;
   for (const ChannelResult* r : channels) {
     for (PagePlot& plot : reflectance_plots(*r)) plots.push_back(std::move(plot));
@@ -189,12 +195,7 @@ Html material_section(const std::vector<const ChannelResult*>& channels,
   for (const ChannelResult* r : channels) {
     out += html_element("p", html_text(left_out(*r)), "dim");
   }
-  out += html_element("p",
-                      html_text(fmt::format("Differences on all maps of this page: blue to red, "
-                                            "±{:g} % of the brightest place of the shot.",
-                                            full_scale_percent)),
-                      "dim");
-  out += maps(channels, full_scale_percent);
+  out += maps(channels, full_scale_percent, most_bytes);
   return out;
 }
 
@@ -203,12 +204,23 @@ Html material_section(const std::vector<const ChannelResult*>& channels,
 std::string result_page(const Measurement& m, const std::string& command_line) {
   const auto refused =
       std::count_if(m.results.begin(), m.results.end(), [](const auto& r) { return r.refused(); });
-  Html body = html_element("h1", html_text("Scattering and absorption"));
+  std::vector<std::string> materials;
+  for (const ChannelResult& r : m.results) {
+    if (materials.empty() || materials.back() != r.material) materials.push_back(r.material);
+  }
+  const std::string title =
+      fmt::format("Scattering and absorption of {}", fmt::join(materials, ", "));
+  Html body = html_element("h1", html_text(title));
   body += html_element(
       "p",
       html_text(refused == 0 ? fmt::format("All {} values measured.", m.results.size())
                              : fmt::format("{} of {} values refused.", refused, m.results.size())),
       refused == 0 ? "pass" : "fail");
+  for (const std::string& sentence : {precision_sentence(m), next_sentence(m)}) {
+    if (!sentence.empty()) body += html_element("p", html_text(sentence));
+  }
+  body += reasons(m);
+  body += overview(m);
   double total_s = 0.0;
   for (const auto& [stage, seconds] : m.timing_s) {
     if (stage == "total") total_s = seconds;
@@ -217,18 +229,15 @@ std::string result_page(const Measurement& m, const std::string& command_line) {
       "p",
       html_text(fmt::format("{} ({:.1f} s, scattermeter {})", command_line, total_s, kVersion)),
       "dim");
-  body += overview(m);
-  body += reasons(m);
   for (const std::string& note : m.notes) body += html_element("p", html_text(note), "dim");
   body += skipped(m.skipped);
   for (const MergedBracket& b : m.brackets) {
     body += html_element("p", html_text("Bracket " + bracket_text(b) + "."), "dim");
   }
-  body += html_element(
-      "p",
-      html_text("In the observations, areas at silhouettes and creases, which are not used, are "
-                "dark, clipped areas red, and other excluded areas orange."),
-      "dim");
+  if (m.places) {
+    body += html_element("h2", html_text("The rig"));
+    body += rig_figure(*m.places);
+  }
   double full_scale_percent = 0.0;
   for (const ChannelResult& r : m.results) {
     for (const ShotRows& rows : r.rows) {
@@ -241,7 +250,7 @@ std::string result_page(const Measurement& m, const std::string& command_line) {
     for (; i < m.results.size() && m.results[i].material == material; ++i) {
       channels.push_back(&m.results[i]);
     }
-    body += material_section(channels, full_scale_percent);
+    body += material_section(channels, full_scale_percent, kMostMapBytes / materials.size());
   }
   HtmlTable inputs;
   inputs.header = {"file", "sha256"};
@@ -250,7 +259,7 @@ std::string result_page(const Measurement& m, const std::string& command_line) {
   }
   body += html_element("h2", html_text("Inputs"));
   body += html_details(fmt::format("{} files", m.inputs.size()), html_table(inputs));
-  return html_document("Scattering and absorption", body);
+  return html_document(title, body);
 }
 
 }  // namespace scattermeter::apps

@@ -7,11 +7,11 @@
 
 namespace scattermeter::apps {
 
-// A self-contained HTML page (html_page.h): all materials and channels with verdicts and reasons;
-// for each material r(d) with error bars and the fitted models, the 95 % regions of sigma_s' and
-// sigma_a, the estimates from single shots, the uncertainty budget, and observation, model and
-// difference of the shots (if the measurement kept its rows). Without gnuplot, messages replace the
-// plots.
+// A self-contained HTML page (html_page.h): how well what was measured is known and what would help
+// most, reasons of refusals, all materials and channels with verdicts, the rig in three dimensions;
+// for each material its colour as a plate, r(d) with error bars and the fitted models, the 95 %
+// regions of sigma_s' and sigma_a, the uncertainty budget, the estimates from single shots, and
+// observation, model and difference of the shots (if the measurement kept its rows).
 std::string result_page(const Measurement& measurement, const std::string& command_line);
 
 }  // namespace scattermeter::apps

@@ -210,6 +210,7 @@ Plan plan(const Rig& given, const ObjectScenes& objects, const PlanOptions& opti
     out.patch_size_mm = m.patch_size_mm;
     add_forecasts(m, materials[k], k == 0, out.channels);
     if (k == 0) {
+      out.places = m.places;
       out.exposures = exposure_advice(rig, shots, opened.shots, out.noise, range_counts);
     }
     watch.lap("forecast");

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -70,7 +71,8 @@ struct Plan {
   std::map<std::string, double> patch_size_mm;
   std::vector<InputFile> inputs;  // rig, meshes, probes
   std::vector<std::pair<std::string, double>> timing_s;
-  bool any_refused() const;  // also at a corner of the ranges
+  std::shared_ptr<const RigPlaces> places;  // where everything will stand
+  bool any_refused() const;                 // also at a corner of the ranges
 };
 
 // The rig whose shots are simulated. If the rig names a radiance calibration but has no

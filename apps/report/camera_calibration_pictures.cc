@@ -5,8 +5,6 @@
 
 #include <fmt/core.h>
 
-#include "apps/report/plot.h"
-
 namespace scattermeter::apps {
 namespace {
 
@@ -15,7 +13,8 @@ Plot frame_plot(const calib::CameraCalibration& c) {
   const double height = c.intrinsics.height_px;
   Plot plot;
   plot.x = {"x [px]", false, -0.5, width - 0.5};
-  plot.y = {"y [px]", false, height - 0.5, -0.5};  // down, as in a picture
+  plot.y = {"y [px]", false, -0.5, height - 0.5};
+  plot.y_down = true;
   plot.legend_outside = true;
   // The axes have about the aspect ratio of the frame, apart from margins and legend.
   plot.width_px = 1160;
@@ -43,7 +42,7 @@ double round_factor(double value) {
 
 }  // namespace
 
-void draw_camera_residuals(const calib::CameraCalibration& c, const std::string& path) {
+Plot camera_residual_plot(const calib::CameraCalibration& c) {
   Plot plot = frame_plot(c);
   const double longest = std::max(1e-9, c.worst_px);
   const double factor = round_factor(c.intrinsics.width_px / 12.0 / longest);
@@ -60,10 +59,10 @@ void draw_camera_residuals(const calib::CameraCalibration& c, const std::string&
     corners.dy.push_back(factor * r.residual_px.y());
   }
   plot.series = {corners, left_out_corners(c)};
-  write_plot(plot, path);
+  return plot;
 }
 
-void draw_camera_coverage(const calib::CameraCalibration& c, const std::string& path) {
+Plot camera_coverage_plot(const calib::CameraCalibration& c) {
   Plot plot = frame_plot(c);
   plot.title = fmt::format("Corners in {} views: {:.0f} % of 5 x 5 fields of the frame covered",
                            c.views.size(), 100 * c.layout.covered_share);
@@ -80,7 +79,7 @@ void draw_camera_coverage(const calib::CameraCalibration& c, const std::string& 
     plot.series.push_back(series);
   }
   plot.series.push_back(left_out_corners(c));
-  write_plot(plot, path);
+  return plot;
 }
 
 }  // namespace scattermeter::apps

@@ -34,14 +34,6 @@ std::string seen(const MaterialComparison& m) {
       300.0 * scattering, 3.0 * absorption_per_mm);
 }
 
-std::string verdict(const MaterialComparison& m) {
-  if (m.channels.empty()) return fmt::format("{}: no channel is measured in both\n", names(m));
-  if (m.is_different()) {
-    return fmt::format("{}: different (p = {:.2g})\n", names(m), m.p_value);
-  }
-  return fmt::format("{}: no difference found (p = {:.2g}); {}\n", names(m), m.p_value, seen(m));
-}
-
 // "+10 -3 +4", of R, G, B; "-" for a channel that is not measured in both.
 std::string percents(const MaterialComparison& m, Quantity ReadChannel::*coefficient,
                      Difference ChannelComparison::*difference) {
@@ -60,6 +52,14 @@ std::string percents(const MaterialComparison& m, Quantity ReadChannel::*coeffic
 }
 
 }  // namespace
+
+std::string comparison_sentence(const MaterialComparison& m) {
+  if (m.channels.empty()) return fmt::format("{}: no channel is measured in both", names(m));
+  if (m.is_different()) {
+    return fmt::format("{}: different (p = {:.2g})", names(m), m.p_value);
+  }
+  return fmt::format("{}: no difference found (p = {:.2g}); {}", names(m), m.p_value, seen(m));
+}
 
 std::string comparison_table(const std::vector<MaterialComparison>& materials) {
   using Align = TextTable::Align;
@@ -84,7 +84,7 @@ std::string comparison_table(const std::vector<MaterialComparison>& materials) {
                      fmt::format("{:+.1f} std", c.sigma_a_per_mm.value / c.sigma_a_per_mm.std),
                      fmt::format("{:.2g}", c.p_value)});
     }
-    verdicts += verdict(m);
+    verdicts += comparison_sentence(m) + "\n";
   }
   return table.text() + verdicts;
 }

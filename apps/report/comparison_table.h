@@ -14,6 +14,9 @@ namespace scattermeter::apps {
 // in words for each pair of materials.
 std::string comparison_table(const std::vector<MaterialComparison>& materials);
 
+// "PP and PE: different (p = 0.0001)", or that none was found and what would have been seen.
+std::string comparison_sentence(const MaterialComparison& material);
+
 // The `most` likest known materials, one line each: differences of sigma_s' and sigma_a by channel,
 // whether they are beyond the errors, then a sentence about the likest. matches: of the material
 // `name`, in order.

@@ -20,9 +20,6 @@ struct Picture {
   PictureColour at(int x, int y) const;
 };
 
-// The pictures side by side on a common background, `gap_px` apart.
-Picture side_by_side(const std::vector<Picture>& pictures, int gap_px);
-
 // Draws ASCII text in dark letters with capitals `height_px` high, from x on with the baseline at
 // y. Other characters appear as question marks.
 void draw_text(Picture& picture, const std::string& text, int x, int y, int height_px);
@@ -31,11 +28,5 @@ int text_width(const std::string& text, int height_px);
 
 // The bytes of a PNG file. Throws std::invalid_argument for an empty picture.
 std::string png_bytes(const Picture& picture);
-
-// Grey for a linear value clamped to 0 .. 1, with a gamma of 2.
-PictureColour grey_colour(double value);
-// Blue for -1, white for 0, red for 1, linear in between; values are clamped. A diverging colour
-// map in the manner of K. Moreland (2009).
-PictureColour difference_colour(double value);
 
 }  // namespace scattermeter::apps

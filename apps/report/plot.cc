@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -246,40 +244,6 @@ void write_plot(const Plot& plot, const std::string& path) {
   capture::PendingFile file(path);
   draw(script, path, file.descriptor());
   file.commit();
-}
-
-std::string plot_svg(const Plot& plot) { return plot_svgs({plot}).front(); }
-
-std::vector<std::string> plot_svgs(const std::vector<Plot>& plots) {
-  std::vector<std::string> out;
-  if (plots.empty()) return out;
-  std::string script;
-  for (const Plot& plot : plots) {
-    // Unsetting the output ends the previous picture.
-    script += "set output\nreset\n" + script_of(plot, terminal_of(plot, ".svg"));
-  }
-  const std::string& name = plots.front().title;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::tmpfile(), std::fclose);
-  if (!file) throw InputError(name, "is not drawn: no temporary file can be made");
-  draw(script, name, fileno(file.get()));
-  std::string text(static_cast<std::size_t>(::lseek(fileno(file.get()), 0, SEEK_END)), '\0');
-  const ssize_t n = ::pread(fileno(file.get()), text.data(), text.size(), 0);
-  if (n != static_cast<ssize_t>(text.size())) {
-    throw InputError(name, "is not drawn: the temporary file cannot be read");
-  }
-  // The closing tag occurs nowhere else, as text in the pictures is escaped.
-  const std::string end = "</svg>\n";
-  for (std::size_t begin = 0, at; (at = text.find(end, begin)) != std::string::npos;) {
-    at += end.size();
-    out.push_back(text.substr(begin, at - begin));
-    begin = text.find_first_not_of('\n', at);
-    if (begin == std::string::npos) break;
-  }
-  if (out.size() != plots.size()) {
-    throw InputError(
-        name, fmt::format("is not drawn: gnuplot drew {} of {} plots", out.size(), plots.size()));
-  }
-  return out;
 }
 
 }  // namespace scattermeter::apps

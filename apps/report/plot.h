@@ -73,11 +73,4 @@ struct Plot {
 // file cannot be written.
 void write_plot(const Plot& plot, const std::string& path);
 
-// The plot as the text of an SVG file. Throws as write_plot() does.
-std::string plot_svg(const Plot& plot);
-
-// Several plots as SVG from a single run of gnuplot. Throws as for the first one that cannot be
-// drawn.
-std::vector<std::string> plot_svgs(const std::vector<Plot>& plots);
-
 }  // namespace scattermeter::apps

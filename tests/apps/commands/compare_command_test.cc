@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/fixtures/apps/html_check.h"
 #include "tests/fixtures/apps/made_result.h"
 #include "tests/fixtures/apps/small_rig.h"
 #include "tests/fixtures/temporary_folder.h"
@@ -30,6 +31,13 @@ TEST_F(CompareCommand, StatusTellsWhetherMaterialsDiffer) {
   const Answer other = run({"compare", first_, first_, "--material", "PP=POM"});
   EXPECT_EQ(other.status, 1) << other.err;
   EXPECT_THAT(other.out, HasSubstr("PP and POM: different"));
+}
+
+TEST_F(CompareCommand, WritesAPage) {
+  const Answer a = run({"compare", first_, first_, "--out", folder_ / "page"});
+  EXPECT_EQ(a.status, 0) << a.err;
+  EXPECT_THAT(a.out, HasSubstr("written: " + (folder_ / "page/compare.html")));
+  EXPECT_EQ(html_problem(slurp(folder_ / "page/compare.html")), "");
 }
 
 TEST_F(CompareCommand, FindsKnownMaterials) {

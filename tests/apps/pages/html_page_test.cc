@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/pages/page_script.h"
 #include "tests/fixtures/apps/html_check.h"
 
 namespace scattermeter::apps {
@@ -41,6 +42,16 @@ TEST(HtmlPage, DocumentIsWellFormedAndAsksNobody) {
   EXPECT_THAT(page, Not(HasSubstr("<script")));
   EXPECT_THAT(page, HasSubstr("name=\"viewport\""));
   EXPECT_THAT(page, HasSubstr("prefers-color-scheme: dark"));
+}
+
+TEST(HtmlPage, OnlyItsOwnScriptRuns) {
+  const Html widget = html_widget("plot", "{\"a\":\"</script><script>alert(1)\"}", html_text("x"));
+  EXPECT_THAT(widget.markup, HasSubstr("\\u003c/script>\\u003cscript>alert"));
+  const std::string page = html_document("t", widget);
+  EXPECT_EQ(html_problem(page), "");
+  EXPECT_THAT(page, HasSubstr("script-src 'sha256-" + std::string(kPageScriptSha256) + "'"));
+  EXPECT_EQ(kPageScript.find("</script"), std::string::npos);
+  EXPECT_NE(html_problem(html_document("t", {"<script>alert(1)</script>"})), "");
 }
 
 TEST(HtmlPage, TheCheckerItselfSeesProblems) {

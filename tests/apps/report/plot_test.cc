@@ -77,6 +77,12 @@ TEST(Plot, Boxes) {
   EXPECT_THAT(slurp(folder / "boxes.svg"), HasSubstr("</svg>"));
 }
 
+std::string svg_of(const Plot& plot) {
+  const TemporaryFolder folder;
+  write_plot(plot, folder / "plot.svg");
+  return slurp(folder / "plot.svg");
+}
+
 TEST(Plot, CellsHaveAColourEach) {
   Plot plot;
   PlotSeries cells{"", PlotSeries::Style::kCells, {0.5, 1.5, 2.5}, {0.5, 0.5, 0.5}};
@@ -84,14 +90,14 @@ TEST(Plot, CellsHaveAColourEach) {
   cells.value = {-2, 2, std::numeric_limits<double>::quiet_NaN()};
   plot.series = {cells};
   plot.colours = {"it's [%]", 2};
-  const std::string svg = plot_svg(plot);
+  const std::string svg = svg_of(plot);
   // The ends of the scale, the ground where no cell is, the scale's label.
   for (const char* text :
        {"rgb( 33, 102, 172)", "rgb(178,  24,  43)", "rgb(200, 200, 200)", "it's [%]"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }
   plot.series[0].value.pop_back();
-  EXPECT_THROW(plot_svg(plot), std::invalid_argument);
+  EXPECT_THROW(svg_of(plot), std::invalid_argument);
 }
 
 Plot log_cells() {
@@ -105,34 +111,9 @@ Plot log_cells() {
   return plot;
 }
 
-// Less its first group, which is empty and has the colour that was last used.
-std::string drawn(std::string svg) {
-  const std::size_t group = svg.find("<g fill", svg.find("</defs>"));
-  return svg.erase(group, svg.find("</g>", group) - group);
-}
-
-// One start of gnuplot draws what starts for each draw: nothing of a plot stays for the next.
-TEST(Plot, ManyAtOnceAreTheSame) {
-  Plot cells = log_cells();
-  cells.y_down = true;
-  Plot text = example();
-  text.title = "</svg>\n<svg>";
-  text.x.log = text.y.log = true;
-  text.legend_outside = true;
-  const std::vector<Plot> plots = {example(), cells, text, example(), cells};
-  const std::vector<std::string> svgs = plot_svgs(plots);
-  ASSERT_EQ(svgs.size(), plots.size());
-  for (std::size_t i = 0; i < plots.size(); ++i) {
-    EXPECT_EQ(drawn(svgs[i]), drawn(plot_svg(plots[i])));
-  }
-  EXPECT_THAT(svgs[2], HasSubstr("&lt;/svg>"));
-  EXPECT_TRUE(plot_svgs({}).empty());
-  EXPECT_THROW(plot_svgs({example(), Plot{}}), std::invalid_argument);
-}
-
 // From dark blue to yellow, with labels inside a decade.
 TEST(Plot, CellsOnALogScale) {
-  const std::string svg = plot_svg(log_cells());
+  const std::string svg = svg_of(log_cells());
   for (const char* text : {"rgb( 68,   1,  84)", "rgb(253, 231,  37)", ">1.5<", ">7<"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }

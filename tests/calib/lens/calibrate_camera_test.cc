@@ -58,6 +58,7 @@ TEST(CalibrateCamera, RawsBackToTheTruth) {
     EXPECT_NEAR(file.intrinsics.fx_px, 520, 4 * std::sqrt(file.covariance(0, 0)));
     EXPECT_LT(std::sqrt(file.covariance(0, 0)), 3);
     EXPECT_LT(file.rms_px, 0.25);
+    EXPECT_TRUE(fs::exists(rig / "camera.html"));
     EXPECT_TRUE(fs::exists(rig / "camera_residuals.png") || a.out.find("gnuplot") != a.out.npos);
     const std::string other = rig / "other.yaml";
     std::ofstream(other) << replaced(rig.text(),

@@ -1,0 +1,202 @@
+// browser_test.mjs PACKAGES BROWSER PAGES: opens result.html, check.html, plan.html and compare.html of the
+// folder PAGES, and points, drags, zooms and types as a reader does. Started by browser_test.py.
+import assert from 'node:assert/strict';
+import {readFileSync, statSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {join} from 'node:path';
+
+const [packages, executablePath, folder] = process.argv.slice(2);
+const {chromium} = createRequire(join(packages, 'node_modules', 'x.cjs'))('playwright-core');
+const kMostBytes = 3e6;
+
+const browser = await chromium.launch({executablePath, args: ['--no-sandbox']});
+const page = await browser.newPage();
+const complaints = [];
+page.on('console', message => complaints.push(message.text()));
+page.on('pageerror', error => complaints.push(error.stack));
+page.on('request', request => {
+  if (!/^(data|blob|file):/.test(request.url())) complaints.push(`asks for ${request.url()}`);
+});
+
+async function open(name) {
+  const path = join(folder, `${name}.html`);
+  assert.ok(statSync(path).size < kMostBytes, `${name} is too large`);
+  await page.setViewportSize({width: 1280, height: 900});
+  await page.emulateMedia({colorScheme: 'light'});
+  await page.goto(`file://${path}`);
+}
+
+// A picture of what an element shows.
+const seen = locator => locator.evaluate(e => e.toDataURL ? e.toDataURL() : e.innerHTML);
+
+async function lookAtAll(name) {
+  assert.equal(await page.locator('h1').count(), 1, name);
+  assert.equal(await page.locator('html').getAttribute('lang'), 'en');
+  assert.equal(await page.locator('img:not([alt]), img[alt=""]').count(), 0, `${name}: a picture without words`);
+  assert.equal(await page.locator('[tabindex="0"]:not([aria-label]):not(.scroll)').count(), 0, name);
+  assert.equal(await page.locator('button:not([aria-label])').filter({hasText: /^.?$/}).count(), 0, name);
+  for (const width of [1600, 1280, 400]) {
+    await page.setViewportSize({width, height: 900});
+    for (const colorScheme of ['light', 'dark']) {
+      await page.emulateMedia({colorScheme});
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(wide <= width, `${name} is ${wide} px wide on ${width} px`);
+      // Whatever has no scroll bar of its own stays within the page.
+      const cut = await page.evaluate(() => [...document.querySelectorAll('figure, canvas, svg, select, h1, h2, p')]
+        .filter(e => !e.closest('.scroll, details:not([open])') && e.getBoundingClientRect().right > innerWidth + 1)
+        .map(e => e.outerHTML.slice(0, 80)));
+      assert.deepEqual(cut, [], `${name} at ${width} px, ${colorScheme}`);
+    }
+  }
+  await page.setViewportSize({width: 1280, height: 900});
+  await page.emulateMedia({colorScheme: 'light'});
+}
+
+// The numbers before the units: "d 3.2 mm, r 0.0012 1/mm²" -> [3.2, 0.0012].
+const numbersIn = text => [...text.matchAll(/(?<![\w^/])−?\d[\d.]*(?: × 10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?/g)].map(([t]) => {
+  const [mantissa, power] = t.replace('−', '-').split(' × 10');
+  const exponent = [...(power ?? '⁰')].map(c => c === '⁻' ? '-' : '⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(c)).join('');
+  return Number(`${mantissa}e${exponent}`);
+});
+const isNear = (a, b) => Math.abs(a - b) <= 2e-3 * Math.abs(b);
+
+async function plots() {
+  // r(d), as recovered from the image, is what result.json holds.
+  const knots = JSON.parse(readFileSync(join(folder, 'result.json'))).results[0].reflectance.knots
+    .filter(k => k.determined);
+  const plot = page.locator('[data-widget="plot"]').first();
+  await plot.scrollIntoViewIfNeeded();
+  const readout = plot.locator('output');
+  const data = JSON.parse(await plot.locator('script').textContent());
+  const series = data.series.findIndex(s => s.name === 'image alone');
+  await plot.locator('.plot').focus();
+  for (let i = 0; i < series; ++i) await page.keyboard.press('ArrowDown');
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowLeft');
+  const byKeys = numbersIn(await readout.textContent());
+  assert.ok(knots.some(k => isNear(byKeys[0], k.distance_mm) && isNear(byKeys[1], k.r_per_mm2)),
+            `${await readout.textContent()} is in no knot`);
+  // By the pointer: the middle of the plot's area is near some point of the curve or its line.
+  const over = plot.locator('.u-over');
+  const box = await over.boundingBox();
+  const texts = new Set();
+  for (let i = 1; i < 12; ++i) {
+    await page.mouse.move(box.x + box.width * i / 12, box.y + box.height * (0.1 + 0.8 * i / 12));
+    texts.add(await readout.textContent());
+  }
+  assert.ok(texts.size > 3, `hovering says ${[...texts]}`);
+  const read = [...texts].filter(t => t.startsWith('image alone')).map(numbersIn);
+  for (const [d, r] of read) assert.ok(knots.some(k => isNear(d, k.distance_mm) && isNear(r, k.r_per_mm2)), `${d} ${r}`);
+  // Dragging zooms, 0 shows all again; the dark draws it anew.
+  const canvas = plot.locator('canvas');
+  const whole = await seen(canvas);
+  await page.mouse.move(box.x + 60, box.y + 20);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 200, box.y + 100, {steps: 4});
+  await page.mouse.up();
+  assert.notEqual(await seen(canvas), whole, 'dragging does not zoom');
+  await page.mouse.move(0, 0);
+  await plot.locator('.plot').focus();
+  await page.keyboard.press('0');
+  await page.keyboard.press('Escape');
+  const light = await seen(canvas);
+  await page.emulateMedia({colorScheme: 'dark'});
+  await page.waitForTimeout(50);
+  assert.notEqual(await seen(canvas), light, 'a plot is not redrawn in the dark');
+  await page.emulateMedia({colorScheme: 'light'});
+  await plot.locator('summary').click();
+  assert.equal(await plot.locator('tbody tr').count(), data.series.reduce((n, s) => n + s.x.length, 0));
+}
+
+// A map of LED positions: cells with values, as wide as high.
+async function ledMap() {
+  const plot = page.locator('[data-widget="plot"]').first();
+  await plot.scrollIntoViewIfNeeded();
+  const data = JSON.parse(await plot.locator('script').textContent());
+  const cells = data.series.find(s => s.style === 'cells');
+  const box = await plot.locator('.u-over').boundingBox();
+  await page.mouse.move(box.x + box.width * 0.42, box.y + box.height * 0.44);
+  const [x, y, value] = numbersIn(await plot.locator('output').textContent());
+  const i = cells.x.findIndex((v, k) => isNear(v, x) && isNear(cells.y[k], y));
+  assert.ok(i >= 0 && isNear(value, cells.value[i]), await plot.locator('output').textContent());
+  assert.ok(x < 0 && y > 0, 'left of the middle and above it');
+}
+
+async function maps() {
+  const widget = page.locator('[data-widget="maps"]').first();
+  await widget.scrollIntoViewIfNeeded();
+  const data = JSON.parse(await widget.locator('script').textContent());
+  const small = widget.locator('.overview button');
+  await page.waitForFunction(n => document.querySelectorAll('.overview button').length >= n, data.shots.length);
+  const panels = widget.locator('.panels');
+  const difference = widget.locator('.panel canvas').nth(2);
+  const readout = widget.locator('output');
+  const zoom = async () => Number(await panels.getAttribute('data-zoom'));
+  assert.equal(await zoom(), 1);
+  // The model is the observation without the difference.
+  const box = await difference.boundingBox();
+  await page.mouse.move(box.x + box.width * 0.4, box.y + box.height * 0.3);
+  const text = await readout.textContent();
+  assert.match(text, /patch \d+, observed/);
+  const [, , , observed, model, change] = numbersIn(text.replace('+', ''));
+  assert.ok(Math.abs(observed - model - change) < 0.02, text);
+  const whole = await seen(difference);
+  await page.mouse.wheel(0, -400);
+  await page.waitForFunction(() => Number(document.querySelector('.panels').dataset.zoom) > 2);
+  const zoomed = await seen(difference);
+  assert.notEqual(zoomed, whole);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.5, {steps: 3});
+  await page.mouse.up();
+  assert.notEqual(await seen(difference), zoomed, 'dragging does not move the map');
+  await panels.focus();
+  await page.keyboard.press('0');
+  assert.equal(await zoom(), 1);
+  const before = await readout.textContent();
+  await page.keyboard.press('ArrowRight');
+  assert.notEqual(await readout.textContent(), before);
+  await page.keyboard.press('+');
+  assert.ok(await zoom() > 1.5);
+  await widget.getByLabel('zoom out').click();
+  await widget.getByLabel('show all').click();
+  // Another channel and another shot show another map.
+  const first = await seen(difference);
+  await widget.getByLabel('channel').selectOption('G');
+  await page.waitForFunction(() => document.querySelector('.overview [aria-pressed="true"]')?.ariaLabel.includes(' G'));
+  assert.notEqual(await seen(difference), first);
+  await small.last().click();
+  const last = data.shots.at(-1);
+  await page.waitForFunction(n => document.querySelector('[data-widget="maps"] select').value === n, last.file);
+}
+
+async function rig() {
+  const widget = page.locator('[data-widget="rig"]').first();
+  await widget.scrollIntoViewIfNeeded();
+  const view = widget.locator('.rig');
+  const angles = async () => [await view.getAttribute('data-azimuth'), await view.getAttribute('data-elevation')].map(Number);
+  assert.ok(await view.locator('path').count() > 100, 'the object is not drawn');
+  assert.ok(await view.locator('svg').getByText('led1', {exact: true}).count() === 1);
+  const before = await seen(view.locator('svg'));
+  const [azimuth, elevation] = await angles();
+  const box = await view.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 60, box.y + box.height / 2 + 20, {steps: 3});
+  await page.mouse.up();
+  assert.deepEqual(await angles(), [azimuth - 30, elevation + 10]);
+  assert.notEqual(await seen(view.locator('svg')), before);
+  await view.focus();
+  await page.keyboard.press('ArrowRight');
+  assert.deepEqual(await angles(), [azimuth - 25, elevation + 10]);
+  await page.keyboard.press('0');
+  assert.deepEqual(await angles(), [azimuth, elevation]);
+  assert.equal(await page.locator('summary', {hasText: /^positions$/}).count(), 1);
+}
+
+for (const [name, look] of [['result', [plots, maps, rig]], ['check', [rig]], ['plan', [rig, ledMap]], ['compare', []]]) {
+  await open(name);
+  for (const part of look) await part();
+  await lookAtAll(name);
+  assert.deepEqual(complaints, [], name);
+}
+await browser.close();
