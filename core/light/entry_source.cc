@@ -48,7 +48,7 @@ class LedEntry : public EntrySource {
     const double e = from.transmitted_irradiance_per_mm2(x, normal, eta_);
     if (!(e > 0.0) || scene_.occluded(x, normal, from.position_mm)) return std::nullopt;
     return Entry{x, refracted((x - from.position_mm).normalized(), normal, eta_),
-                 e * patches_.area_mm2(k) / choice_->probability(i)};
+                 e * patches_.area_mm2(k) / choice_->probability(i), normal};
   }
 
  private:
@@ -139,7 +139,8 @@ class EnvironmentEntry : public EntrySource {
     constexpr double kHalf = 5e-4;
     const double local = map_.solid_angle_sr({px - kHalf, py - kHalf, px + kHalf, py + kHalf}) /
                          (4.0 * kHalf * kHalf * solid_angle_sr_[i]);
-    return Entry{x, refracted(-toward, normal, eta_), facet_->sum() * pixel_->sum() * local};
+    return Entry{x, refracted(-toward, normal, eta_), facet_->sum() * pixel_->sum() * local,
+                 normal};
   }
 
  private:
@@ -157,7 +158,7 @@ class BeamEntry : public EntrySource {
   explicit BeamEntry(const Beam& beam) : beam_(beam) {}
   std::optional<Entry> sample(double stratum, RandomStream& random) const override {
     return Entry{beam_.corner_mm + stratum * beam_.side1_mm + random.uniform() * beam_.side2_mm,
-                 beam_.direction, 1.0};
+                 beam_.direction, 1.0, Eigen::Vector3d::Zero()};
   }
 
  private:

@@ -18,6 +18,8 @@ struct Entry {
   Eigen::Vector3d position_mm;  // on the surface
   Eigen::Vector3d direction;    // of flight, behind it
   double power = 0;             // represented by this sample
+  // Of the surface there, outwards; zero for a beam, which starts behind it.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
 
 // The mean power over all samples is the transmitted power, in the units of IncidentLight:

@@ -51,7 +51,7 @@ class PlaneEntry : public EntrySource {
     const double e = plane_irradiance_per_mm2(scene_, from, on_plane);
     if (!(e > 0.0)) return std::nullopt;
     if (!scene_.convex() && scene_.occluded(x, normal, on_plane)) return std::nullopt;
-    return Entry{x, refracted(-toward, normal, eta_), choice_->sum() * plane_.albedo * e};
+    return Entry{x, refracted(-toward, normal, eta_), choice_->sum() * plane_.albedo * e, normal};
   }
 
  private:

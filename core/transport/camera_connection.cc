@@ -6,7 +6,6 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -22,35 +21,6 @@ constexpr double kSureDepth = 0.7;
 // Relative to the body's size: a point this far beyond a plane still counts as on the body.
 constexpr double kOnBody = 1e-9;
 
-// The camera's ray through a plane to a point at a depth below it.
-struct Passage {
-  RefractedRay ray;
-  Eigen::Vector3d point;  // on the plane
-};
-Passage passage_to(const Eigen::Vector3d& x, double depth_mm, const Eigen::Vector3d& normal,
-                   const Eigen::Vector3d& foot, double height_mm, double eta) {
-  // It lies between the feet of camera and point on the plane.
-  const Eigen::Vector3d across = x + depth_mm * normal - foot;
-  const double foot_mm = across.norm();
-  const RefractedRay ray = refracted_ray(height_mm, depth_mm, foot_mm, eta);
-  if (!(foot_mm > 0.0)) return {ray, foot};
-  return {ray, foot + (ray.radius_mm / foot_mm) * across};
-}
-
-// The ends of a short line on the plane that contains the passage: with q as in refracted_ray(),
-// radius / foot = q / (q + depth), and eta height <= q <= its value at the foot.
-std::pair<Eigen::Vector3d, Eigen::Vector3d> passage_between(const Eigen::Vector3d& x,
-                                                            double depth_mm,
-                                                            const Eigen::Vector3d& normal,
-                                                            const Eigen::Vector3d& foot,
-                                                            double height_mm, double eta) {
-  const Eigen::Vector3d across = x + depth_mm * normal - foot;
-  const double least = eta * height_mm;
-  // sqrt(1 + u) <= 1 + u / 2.
-  const double most = least + 0.5 * (eta * eta - 1.0) * across.squaredNorm() / least;
-  return {foot + least / (least + depth_mm) * across, foot + most / (most + depth_mm) * across};
-}
-
 bool on_facet(const TriangleMesh& mesh, int facet, const Eigen::Vector3d& normal,
               const Eigen::Vector3d& x) {
   const auto& t = mesh.triangles[static_cast<std::size_t>(facet)];
@@ -64,31 +34,6 @@ bool on_facet(const TriangleMesh& mesh, int facet, const Eigen::Vector3d& normal
 
 }  // namespace
 
-RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
-                           double eta_int_over_ext) {
-  const double eta2 = eta_int_over_ext * eta_int_over_ext;
-  const double h2 = height_mm * height_mm;
-  const auto eta_d_cos = [&](double r) { return std::sqrt((eta2 - 1.0) * r * r + eta2 * h2); };
-  // The start is above the root, and f is concave: all other steps come from below.
-  double r = foot_mm / (1.0 + depth_mm / eta_d_cos(foot_mm));
-  double q = eta_d_cos(r);
-  double slope = 1.0;
-  for (int i = 0; i < 50; ++i) {
-    slope = 1.0 + depth_mm * eta2 * h2 / (q * q * q);
-    const double step = (r + depth_mm * r / q - foot_mm) / slope;
-    const double before = r;
-    r = std::max(0.0, r - step);
-    q = eta_d_cos(r);
-    // The next step is at most this times the square of this one: f'' falls with q.
-    const double curvature =
-        1.5 * depth_mm * (eta2 - 1.0) * eta2 * h2 * std::max(r, before) / (q * q * q * q * q);
-    if (curvature * step * step <= 1e-10 * (height_mm + r)) break;
-  }
-  const double cos_inside = q / (eta_int_over_ext * std::sqrt(r * r + h2));
-  slope = 1.0 + depth_mm * eta2 * h2 / (q * q * q);
-  return {r, depth_mm / cos_inside, cos_inside, (1.0 + depth_mm / q) * slope};
-}
-
 CameraConnection::CameraConnection(const PathBoundary& boundary,
                                    const Eigen::Vector3d& camera_in_world_mm,
                                    const ScatteringMedium& medium, int most_walls)
@@ -100,8 +45,9 @@ CameraConnection::CameraConnection(const PathBoundary& boundary,
       phase_(medium.phase) {
   medium.check();
   const std::vector<BodyPlane>& planes = boundary.body().planes;
-  cone_ = std::make_shared<EscapeCone>(eta_);
-  if (planes.empty()) {
+  cone_ = std::make_shared<EscapeCone>(eta_, medium.surface_alpha);
+  if (medium.surface_alpha > 0.0) rough_.emplace(medium.surface_alpha, eta_);
+  if (planes.empty() || rough_) {
     beams_ = std::make_shared<FacetBeams>(boundary.scene().mesh(), camera_mm_, eta_);
   }
   for (std::size_t k = 0; k < planes.size(); ++k) {
@@ -118,6 +64,10 @@ CameraConnection CameraConnection::with(const ScatteringMedium& medium,
     throw std::invalid_argument(
         "CameraConnection: eta_int_over_ext = " + std::to_string(medium.eta_int_over_ext) +
         ", built for " + std::to_string(eta_));
+  }
+  if (medium.surface_alpha != (rough_ ? rough_->alpha() : 0.0)) {
+    throw std::invalid_argument(
+        "CameraConnection: surface_alpha = " + std::to_string(medium.surface_alpha) + " differs");
   }
   CameraConnection other = *this;
   other.sigma_t_ = medium.sigma_t_per_mm();
@@ -143,6 +93,7 @@ void CameraConnection::connect(const Vertex& vertex, RandomStream& random,
   // A connection whose path is at least b long is made where b < deepest: with probability
   // min(1, exp(kSureDepth - sigma_t b)).
   const double deepest_mm = (kSureDepth - std::log(random.uniform())) / sigma_t_;
+  if (rough_) return through_rough_facets(vertex, deepest_mm, random, scores);
   if (beams_) return through_facets(vertex, deepest_mm, scores);
   std::array<int, PathBoundary::kFewPlanes> near{};
   int n_near = 0;
@@ -239,22 +190,58 @@ void CameraConnection::through(const Window& window, const Image& image, const V
 void CameraConnection::through_facets(const Vertex& vertex, double deepest_mm,
                                       std::vector<PathScore>& scores) const {
   if (boundary_.clearance_mm(vertex.x) > deepest_mm) return;
-  const RayScene& scene = boundary_.scene();
   beams_->for_candidates(vertex.x, deepest_mm, [&](const FacetBeams::Facet& facet) {
     const double depth_mm = facet.normal.dot(facet.foot - vertex.x);
     if (!(depth_mm > 0.0 && depth_mm < deepest_mm)) return;
     const auto [ray, passage] =
         passage_to(vertex.x, depth_mm, facet.normal, facet.foot, facet.height_mm, eta_);
     if (!(ray.length_mm < deepest_mm)) return;
-    if (!on_facet(scene.mesh(), facet.facet_idx, facet.normal, passage)) return;
-    if (!boundary_.convex() &&
-        ((!facet.surely_seen && scene.occluded(passage, facet.normal, camera_mm_)) ||
-         !boundary_.clear_inside(vertex.x, passage))) {
-      return;
-    }
+    if (!may_be_seen(vertex, facet, passage)) return;
     push(vertex, passage, ray, facet.facet_idx, (passage - vertex.x).normalized(), 1.0, true,
          ray.length_mm, scores);
   });
+}
+
+void CameraConnection::through_rough_facets(const Vertex& vertex, double deepest_mm,
+                                            RandomStream& random,
+                                            std::vector<PathScore>& scores) const {
+  if (boundary_.clearance_mm(vertex.x) > deepest_mm) return;
+  const RoughBoundary::Facet tilted = rough_->draw_facet(random);
+  const Eigen::Vector3d way = camera_mm_ - vertex.x;
+  const double distance_mm = way.norm();
+  const Eigen::Vector3d to_camera = way / distance_mm;
+  // The facets' beams were made for the camera's rays to them, this one is to the point.
+  const double turn_rad = std::atan(tilted.tan_tilt) + deepest_mm / distance_mm;
+  beams_->for_turned_candidates(
+      vertex.x, deepest_mm, turn_rad, [&](const FacetBeams::Facet& facet) {
+        const double depth_mm = facet.normal.dot(facet.foot - vertex.x);
+        if (!(depth_mm > 0.0 && depth_mm < deepest_mm)) return;
+        const auto through = rough_->pass(to_camera, facet.normal, tilted);
+        if (!through) return;
+        const double length_mm = depth_mm / through->cos_inside;
+        if (!(length_mm < deepest_mm)) return;
+        const Eigen::Vector3d passage = vertex.x - length_mm * through->direction;
+        if (!may_be_seen(vertex, facet, passage)) return;
+        // Trace of d (direction) / dx, with d (ray) / dx = (1 - ray ray^T) / distance.
+        const double cos_ray = to_camera.dot(through->facet_normal);
+        const double trace_per_mm =
+            (2.0 - through->stretch * (1.0 - cos_ray * cos_ray)) / (eta_ * distance_mm);
+        push(vertex, passage, {0.0, length_mm, through->cos_inside, 1.0 + length_mm * trace_per_mm},
+             facet.facet_idx, -through->direction,
+             rough_->share(to_camera, tilted, *through) /
+                 rough_->smooth_transmittance(through->cos_viewer),
+             true, length_mm, scores);
+      });
+}
+
+// The passage lies on the facet, nothing is in the way from there to the camera, nor to the point.
+bool CameraConnection::may_be_seen(const Vertex& vertex, const FacetBeams::Facet& facet,
+                                   const Eigen::Vector3d& passage) const {
+  const RayScene& scene = boundary_.scene();
+  if (!on_facet(scene.mesh(), facet.facet_idx, facet.normal, passage)) return false;
+  if (boundary_.convex()) return true;
+  return (facet.surely_seen || !scene.occluded(passage, facet.normal, camera_mm_)) &&
+         boundary_.clear_inside(vertex.x, passage);
 }
 
 std::optional<PathScore> CameraConnection::not_connected(const PathScore& escape) const {
@@ -263,7 +250,8 @@ std::optional<PathScore> CameraConnection::not_connected(const PathScore& escape
   const Eigen::Vector3d to_camera = (camera_mm_ - escape.point_mm).normalized();
   const Eigen::Vector3d& normal = boundary_.facet_normal(escape.facet_idx);
   const double cosine = to_camera.dot(normal);
-  if (!(cosine > 0.0) || escape.direction.dot(to_camera) < EscapeCone::kCosHalf) {
+  const double cos_half = escape.by_several ? EscapeCone::kCosWideHalf : EscapeCone::kCosHalf;
+  if (!(cosine > 0.0) || escape.direction.dot(to_camera) < cos_half) {
     return std::nullopt;
   }
   if (!boundary_.convex() && boundary_.scene().occluded(escape.point_mm, normal, camera_mm_)) {
@@ -271,18 +259,22 @@ std::optional<PathScore> CameraConnection::not_connected(const PathScore& escape
   }
   PathScore score = escape;
   score.direction = to_camera;
-  score.weight = std::numbers::pi * escape.weight / cone_->transmitting_sr(cosine);
+  const double axis = rough_ ? std::max(RoughBoundary::kLeastCosine, cosine) : cosine;
+  score.weight =
+      std::numbers::pi * escape.weight /
+      (escape.by_several ? cone_->transmitting_by_several_sr(axis) : cone_->transmitting_sr(axis));
   return score;
 }
 
-// `bound_mm`: the lower bound of the path's length that decided whether it was made.
+// `share`: of the light inside that passes, over Ft and but for what walls reflect; `bound_mm`: the
+// lower bound of the path's length that decided whether it was made.
 void CameraConnection::push(const Vertex& vertex, const Eigen::Vector3d& passage,
                             const RefractedRay& ray, int facet, const Eigen::Vector3d& outgoing,
-                            double reflectance, bool straight, double bound_mm,
+                            double share, bool straight, double bound_mm,
                             std::vector<PathScore>& scores) const {
   const double probability = std::min(1.0, std::exp(kSureDepth - sigma_t_ * bound_mm));
   scores.push_back({passage, (camera_mm_ - passage).normalized(), facet,
-                    std::numbers::pi / (eta_ * eta_) * vertex.weight * reflectance *
+                    std::numbers::pi / (eta_ * eta_) * vertex.weight * share *
                         phase_.per_sr(vertex.before.dot(outgoing)) *
                         std::exp(-sigma_t_ * ray.length_mm) /
                         (ray.cos_inside * ray.spread * probability),

@@ -1,4 +1,4 @@
-// Connections from scattering events to a camera, through the smooth surface.
+// Connections from scattering events to a camera, through the surface.
 #pragma once
 
 #include <memory>
@@ -10,29 +10,15 @@
 #include "core/base/random_stream.h"
 #include "core/light/diffuse_plane.h"
 #include "core/material/phase_function.h"
+#include "core/material/rough_boundary.h"
 #include "core/material/scattering_medium.h"
 #include "core/transport/escape_cone.h"
 #include "core/transport/facet_beams.h"
 #include "core/transport/path_boundary.h"
 #include "core/transport/path_score.h"
+#include "core/transport/refracted_ray.h"
 
 namespace scattermeter {
-
-// The ray from a point inside to the camera through a plane, and its spread.
-struct RefractedRay {
-  double radius_mm = 0;  // distance on the plane from the camera's foot to the passage
-  double length_mm = 0;  // from the point to the passage
-  double cos_inside = 1;
-  double spread = 1;  // ratio of a ray bundle's area at the point's depth to that on the plane
-};
-
-// Snell on a plane: the camera is `height_mm` above it, the point `depth_mm` below it, and their
-// feet are `foot_mm` apart. Solves r + depth r / sqrt(eta^2 (r^2 + height^2) - r^2) = foot by
-// Newton's method, to 1e-10 of the distance to the camera. Domain: height > 0, depth >= 0, foot >=
-// 0,
-// eta >= 1.
-RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
-                           double eta_int_over_ext);
 
 // Scores l (paper eq. 11), integrated over the surface: the sum of the scores on a patch estimates
 // area * mean of pi L_o(P, toward the camera) / Ft(eta, w_o).
@@ -70,6 +56,15 @@ RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
 // not_connected(). A box of 8 x 8 x 6 mm, mean free path 0.5 mm, beam from above, from three sides:
 // 1.85 +- 0.05, 1.33 +- 0.05 and 0.53 +- 0.04 % of the light, where images give 1.99, 1.40 and 0.43
 // %; within a mean free path of the edges the error of the light is at most 1.6 %.
+//
+// Rough boundaries, of bodies of any number of planes: l stays pi L_o / Ft
+// (RoughBoundary::smooth_transmittance()), and is the mean over microfacets of the share of the
+// camera's ray that passes by them, times pi / (eta^2 Ft) L_inside. One is drawn for every
+// connection; every facet of the mesh whose beam, refracted by it, contains the point is connected
+// as above. The camera's ray is taken to have the direction that it has at the point, not at the
+// passage, which lies some mean free paths beside it: 1e-3 rad. Light that meets several
+// microfacets as it leaves is not connected but scored as an escape, like light that was reflected
+// inside.
 class CameraConnection {
  public:
   // The boundary must outlive the object. most_walls: 0 .. 2, number of internal reflections; for
@@ -78,7 +73,7 @@ class CameraConnection {
                    const ScatteringMedium& medium, int most_walls = 2);
   // The same camera and body for another medium, above a plane (a face without a gap of air to the
   // plane is no mirror); shares the data that are expensive to build. std::invalid_argument if eta
-  // differs.
+  // or surface_alpha differs.
   CameraConnection with(const ScatteringMedium& medium,
                         const std::optional<DiffusePlane>& plane = std::nullopt) const;
 
@@ -118,9 +113,13 @@ class CameraConnection {
                double least_bound_mm, std::vector<PathScore>& scores) const;
   void through_facets(const Vertex& vertex, double deepest_mm,
                       std::vector<PathScore>& scores) const;
+  void through_rough_facets(const Vertex& vertex, double deepest_mm, RandomStream& random,
+                            std::vector<PathScore>& scores) const;
+  bool may_be_seen(const Vertex& vertex, const FacetBeams::Facet& facet,
+                   const Eigen::Vector3d& passage) const;
 
   void push(const Vertex& vertex, const Eigen::Vector3d& passage, const RefractedRay& ray,
-            int facet, const Eigen::Vector3d& outgoing, double reflectance, bool straight,
+            int facet, const Eigen::Vector3d& outgoing, double share, bool straight,
             double bound_mm, std::vector<PathScore>& scores) const;
 
   const PathBoundary& boundary_;
@@ -131,7 +130,8 @@ class CameraConnection {
   PhaseFunction phase_;
   std::vector<Window> windows_;
   int no_mirror_ = -1;  // plane that does not reflect inside
-  // For a body of many planes.
+  std::optional<RoughBoundary> rough_;
+  // For a body of many planes or with a rough boundary.
   std::shared_ptr<const FacetBeams> beams_;
   std::shared_ptr<const EscapeCone> cone_;
 };

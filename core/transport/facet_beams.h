@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <Eigen/Core>
@@ -45,18 +46,34 @@ class FacetBeams {
   // the surface, and for some others.
   template <class Visit>
   void for_candidates(const Eigen::Vector3d& x, double within_mm, const Visit& visit) const {
+    search([&](const Node& node) { return node.may_hold(x, within_mm); }, visit);
+  }
+  // The same where each facet's beam may have turned by up to `turn_rad`, as by refraction at a
+  // microfacet with such a tilt: the refracted direction turns by less than the normal.
+  template <class Visit>
+  void for_turned_candidates(const Eigen::Vector3d& x, double within_mm, double turn_rad,
+                             const Visit& visit) const {
+    const double sin_turn = std::sin(turn_rad);
+    const double cos_turn = std::cos(turn_rad);
+    search([&](const Node& node) { return node.may_hold_turned(x, within_mm, sin_turn, cos_turn); },
+           visit);
+  }
+
+ private:
+  template <class MayHold, class Visit>
+  void search(const MayHold& may_hold, const Visit& visit) const {
     if (nodes_.empty()) return;
     std::array<int, kDeepest> open;
     int n_open = 0;
     int at = 0;
-    if (!nodes_[0].may_hold(x, within_mm)) return;
+    if (!may_hold(nodes_[0])) return;
     for (;;) {
       const int first = nodes_[static_cast<std::size_t>(at)].first;
       if (first < 0) {
         visit(facets_[static_cast<std::size_t>(-first - 1)]);
       } else {
-        const bool left = nodes_[static_cast<std::size_t>(first)].may_hold(x, within_mm);
-        const bool right = nodes_[static_cast<std::size_t>(first) + 1].may_hold(x, within_mm);
+        const bool left = may_hold(nodes_[static_cast<std::size_t>(first)]);
+        const bool right = may_hold(nodes_[static_cast<std::size_t>(first) + 1]);
         if (left) {
           if (right) open[static_cast<std::size_t>(n_open++)] = first + 1;
           at = first;
@@ -72,7 +89,6 @@ class FacetBeams {
     }
   }
 
- private:
   static constexpr int kDeepest = 64;  // depth of the tree for 2^31 facets
 
   struct Node {
@@ -91,6 +107,22 @@ class FacetBeams {
       const double radius_at_t_mm = radius_mm + t * sin_half;
       if (t < -radius_mm || radius_at_t_mm < 0.0) return false;
       return (v2 - t * t) * cos2_half <= radius_at_t_mm * radius_at_t_mm;
+    }
+    // With a cone wider by an angle below a right one.
+    bool may_hold_turned(const Eigen::Vector3d& x, double within_mm, double sin_turn,
+                         double cos_turn) const {
+      constexpr double kWide = 0.07;  // the cosine of 1.5, as in node_around()
+      const double cos_half = std::sqrt(cos2_half);
+      const double cos_wider = cos_half * cos_turn - sin_half * sin_turn;
+      Node wider = *this;
+      if (cos2_half == 0.0 || cos_wider < kWide) {
+        wider.axis.setZero();
+        wider.sin_half = wider.cos2_half = 0.0;
+      } else {
+        wider.sin_half = sin_half * cos_turn + cos_half * sin_turn;
+        wider.cos2_half = cos_wider * cos_wider;
+      }
+      return wider.may_hold(x, within_mm);
     }
   };
 

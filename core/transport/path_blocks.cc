@@ -74,7 +74,8 @@ std::uint64_t path_task(const PathWorld& world, const PathOptions& options) {
   const std::array<double, 4> phase = world.medium.phase.numbers();
   for (const double number :
        {world.medium.sigma_s_per_mm, world.medium.sigma_a_per_mm, phase[0], phase[1], phase[2],
-        phase[3], world.medium.eta_int_over_ext, static_cast<double>(options.paths_per_block)}) {
+        phase[3], world.medium.eta_int_over_ext, world.medium.surface_alpha,
+        static_cast<double>(options.paths_per_block)}) {
     // Boost's hash_combine for 64 bits.
     hash ^=
         std::bit_cast<std::uint64_t>(number) + 0x9e3779b97f4a7c15U + (hash << 12U) + (hash >> 4U);

@@ -17,9 +17,11 @@ struct PathScore {
   double weight = 0;
   int scatterings = 0;   // before it
   double length_mm = 0;  // inside the body
-  // Since its last scattering it has neither been reflected nor left the body and entered again.
+  // Since its last scattering it has neither been reflected nor left the body and entered again,
+  // and of a rough boundary it met a single facet.
   bool straight = false;
-  bool by_plane = false;  // since its last scattering it has come from the plane
+  bool by_plane = false;    // since its last scattering it has come from the plane
+  bool by_several = false;  // it left a rough boundary by several microfacets
 };
 
 // Power by fate, in the source's unit. entered = absorbed + in_plane + escaped + roulette + lost to

@@ -13,6 +13,7 @@
 #include "core/light/entry_source.h"
 #include "core/material/fresnel.h"
 #include "core/material/phase_function.h"
+#include "core/material/rough_boundary.h"
 #include "core/material/scattering_medium.h"
 #include "core/material/smooth_boundary.h"
 #include "core/transport/camera_connection.h"
@@ -48,10 +49,10 @@ struct PathWorld {
 // scores of one block add up to an estimate of the whole; blocks are independent.
 //
 // A path enters refracted, flies exponential lengths, is scattered, and reflected or let out at the
-// surface by a draw with Fresnel's reflectance. Absorption lowers its weight (albedo at each
-// scattering) and ends it by roulette only. Light that leaves a non-convex body may enter it again,
-// and light that meets the plane is reflected diffusely, with its albedo as a factor; otherwise it
-// is an escape.
+// surface by a draw with Fresnel's reflectance, or by a rough boundary (RoughBoundary::meet()).
+// Absorption lowers its weight (albedo at each scattering) and ends it by roulette only. Light that
+// leaves a non-convex body may enter it again, and light that meets the plane is reflected
+// diffusely, with its albedo as a factor; otherwise it is an escape.
 //
 // Sink has escape(const PathScore&): power that leaves for good; and camera(const PathScore&): see
 // CameraConnection. With a plane, the camera sees what leaves the body towards it, whether or not
@@ -69,6 +70,7 @@ class PathTracer {
         mean_free_path_mm_(1.0 / world.medium.sigma_t_per_mm()) {
     world.medium.check();
     if (world.plane) plane_.emplace(*world.plane, world.boundary.size_mm());
+    if (world.medium.surface_alpha > 0.0) rough_.emplace(world.medium.surface_alpha, eta_);
   }
 
   PathAudit trace_block(std::uint64_t block) {
@@ -144,11 +146,13 @@ class PathTracer {
     double length_mm;  // up to the end of the current step
     bool straight;     // as in PathScore
     bool by_plane;
+    bool by_several = false;  // as it last met the surface
   };
 
   // At the surface from inside: reflects (false) or refracts out (true).
   bool leaves(const Crossing& at, RandomStream& random, Path& path) const {
     if (plane_ && plane_->without_gap(at)) return true;
+    if (rough_) return passes_rough(at, random, path);
     const double cosine = path.direction.dot(at.normal);
     if (random.uniform() < fresnel_transmittance(1.0 / eta_, cosine)) {
       path.direction = refracted(path.direction, -at.normal, 1.0 / eta_);
@@ -162,6 +166,11 @@ class PathTracer {
   // At the surface from outside: refracts in (true) or reflects.
   bool enters(const Crossing& at, RandomStream& random, Path& path) const {
     path.straight = false;
+    if (rough_) {
+      const bool in = passes_rough(at, random, path);
+      if (in) path.x = at.point_mm;
+      return in;
+    }
     const double cosine = -path.direction.dot(at.normal);
     if (random.uniform() < fresnel_transmittance(eta_, cosine)) {
       path.direction = refracted(path.direction, at.normal, eta_);
@@ -170,6 +179,15 @@ class PathTracer {
     }
     path.direction = reflected(path.direction, at.normal);
     return false;
+  }
+
+  // From either side.
+  bool passes_rough(const Crossing& at, RandomStream& random, Path& path) const {
+    const RoughBoundary::Meeting met = rough_->meet(path.direction, at.normal, random);
+    path.direction = met.direction;
+    path.by_several = met.facets > 1;
+    path.straight = path.straight && met.passed && !path.by_several;
+    return met.passed;
   }
 
   // Outside, where it left the body: continues, with any number of reflections by the body and the
@@ -241,7 +259,8 @@ class PathTracer {
             path.scatterings,
             path.length_mm,
             path.straight,
-            path.by_plane};
+            path.by_plane,
+            path.by_several};
   }
 
   void lose(const Path& path) {
@@ -257,6 +276,7 @@ class PathTracer {
   double albedo_;
   double mean_free_path_mm_;
   std::optional<PathPlane> plane_;
+  std::optional<RoughBoundary> rough_;
   PathAudit audit_;
   std::vector<PathScore> scores_;
 };

@@ -67,8 +67,8 @@ bool WhiteRows::take(WhiteSums sums) {
 
 void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
   PathWorld white = world;
-  white.medium =
-      scattering_medium({sigma_s_per_mm_, 0.0, world.medium.eta_int_over_ext}, world.medium.phase);
+  white.medium = scattering_medium({sigma_s_per_mm_, 0.0, world.medium.eta_int_over_ext},
+                                   world.medium.phase, world.medium.surface_alpha);
   PathOptions options;
   options.seed = seed;
   options.paths_per_block = static_cast<int>((paths_of(levels() + 1) - paths()) / kBatches);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/material/fresnel.h"
 #include "core/transport/path_blocks.h"
 #include "tests/fixtures/core/block_mean.h"
 #include "tests/fixtures/core/boxes.h"
@@ -15,37 +16,6 @@
 
 namespace scattermeter {
 namespace {
-
-// Snell at the passage, and the spread by finite differences: rays through two places of the plane
-// that lie close together, radially and around the foot.
-TEST(CameraConnection, RefractsAfterSnell) {
-  for (double eta : {1.0, 1.3, 1.7}) {
-    for (double height_mm : {0.5, 30.0, 4000.0}) {
-      for (double depth_mm : {0.0, 0.01, 2.0, 60.0}) {
-        for (double foot_mm : {0.0, 1e-3, 1.0, 40.0, 3000.0}) {
-          const RefractedRay ray = refracted_ray(height_mm, depth_mm, foot_mm, eta);
-          const double r = ray.radius_mm;
-          const double sin_outside = r / std::hypot(r, height_mm);
-          const double sin_inside = (foot_mm - r) / std::max(1e-300, ray.length_mm);
-          if (depth_mm > 0.0) {
-            EXPECT_NEAR(sin_outside, eta * sin_inside, 1e-7);
-          } else {
-            EXPECT_NEAR(r, foot_mm, 1e-9);
-          }
-          EXPECT_NEAR(ray.length_mm * ray.cos_inside, depth_mm, 1e-12);
-          const auto reached_mm = [&](double radius) {
-            const double s = radius / std::hypot(radius, height_mm) / eta;
-            return radius + depth_mm * s / std::sqrt(1.0 - s * s);
-          };
-          if (foot_mm == 0.0) continue;
-          const double step = 1e-4 * r;
-          const double radial = (reached_mm(r + step) - reached_mm(r - step)) / (2.0 * step);
-          EXPECT_NEAR(ray.spread, radial * foot_mm / r, 1e-6 * ray.spread);
-        }
-      }
-    }
-  }
-}
 
 struct FirstScatterings {
   double middle = 0;
@@ -106,6 +76,43 @@ TEST(CameraConnection, SeesSingleScatteringThroughManyFacets) {
   const PathBoundary boundary(scene);
   ASSERT_TRUE(boundary.body().planes.empty());
   expect_single_scattering(boundary);
+}
+
+// The same through a rough face: l is pi / (eta^2 Ft) times the mean over microfacets of share
+// sigma_s p E / (sigma_t (1 + cos)), each with its own cos.
+TEST(CameraConnection, SeesSingleScatteringThroughARoughFace) {
+  constexpr double kEta = 1.4;
+  const RayScene scene(test_support::make_box({-12, -12, -12}, {12, 12, 0}));
+  const PathBoundary boundary(scene);
+  const Eigen::Vector3d eye(0, -600, 400);
+  const auto source = beam_entry({{-10, -10, 0}, {20, 0, 0}, {0, 20, 0}, {0, 0, -1}});
+  for (const double alpha : {0.02, 0.3}) {
+    const ScatteringMedium medium{1.5, 0.5, 0.4, kEta, alpha};
+    const CameraConnection camera(boundary, eye, medium);
+    test_support::BlockMean seen;
+    PathOptions options;
+    options.paths_per_block = 2000;
+    trace_blocks<FirstScatterings>(
+        {boundary, medium, *source, &camera}, options, 0, 120, [] { return FirstScatterings(); },
+        [&](const FirstScatterings& s, const PathAudit&) { seen.add(s.middle); });
+    const RoughBoundary rough(alpha, kEta);
+    RandomStream random(1, 0);
+    double expected = 0.0;
+    constexpr int kDraws = 100'000;
+    for (int i = 0; i < kDraws; ++i) {
+      const Eigen::Vector3d p(-4.0 + 8.0 * random.uniform(), -4.0 + 8.0 * random.uniform(), 0);
+      const Eigen::Vector3d to_eye = (eye - p).normalized();
+      const RoughBoundary::Facet facet = rough.draw_facet(random);
+      const auto passage = rough.pass(to_eye, Eigen::Vector3d::UnitZ(), facet);
+      if (!passage) continue;
+      const double cosine = passage->cos_inside;
+      expected += rough.share(to_eye, facet, *passage) * 64.0 / kDraws * std::numbers::pi /
+                  (kEta * kEta * fresnel_transmittance(kEta, to_eye.z())) * 1.5 *
+                  HenyeyGreenstein(0.4).per_sr(-cosine) / 400.0 / (2.0 * (1.0 + cosine));
+    }
+    EXPECT_LT(std::abs(seen.z(expected)), test_support::kSigmas) << seen.mean() << " " << expected;
+    EXPECT_LT(seen.std_error(), 0.015 * expected);
+  }
 }
 
 // Distance along a ray to a facet, from Cramer's rule; negative: none.

@@ -193,6 +193,23 @@ TEST(ConnectionConeStatistics, SeesWhatEscapesFromBumps) {
             test_support::limit_at(0.1, 300, test_support::draws(100, 300)) * rest.escaped.mean());
 }
 
+// Through rough boundaries: what meets one microfacet as it leaves is connected, the rest is
+// averaged over a cone.
+void expect_power_that_escapes_roughly(const TriangleMesh& mesh, double alpha) {
+  const Rest rest = expect_power_that_escapes(mesh, {1.0, 0.01, 0.3, 1.4, alpha});
+  const double error = std::hypot(rest.escaped.std_error(), rest.seen.std_error());
+  EXPECT_LT(std::abs(rest.seen.mean() - rest.escaped.mean()),
+            test_support::kSigmas * error + 0.1 * rest.escaped.mean());
+}
+
+TEST(ConnectionConeStatistics, SeesWhatEscapesFromARoughSphere) {
+  expect_power_that_escapes_roughly(test_support::make_sphere(10, 4), 0.3);
+}
+
+TEST(ConnectionConeStatistics, SeesWhatEscapesFromRoughBumps) {
+  expect_power_that_escapes_roughly(test_support::make_bumps(10, 0.4, 4), 0.3);
+}
+
 // Light that was reflected inside, of a box whose bottom is cut in planes that differ by
 // nanometres: by the cone what images give where the planes are few. Images in three walls and more
 // are left out there, and the light bends a little over the cone: a tenth of it.

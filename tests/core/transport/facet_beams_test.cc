@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "core/material/rough_boundary.h"
 #include "core/transport/camera_connection.h"
 #include "tests/fixtures/core/boxes.h"
 #include "tests/fixtures/core/bumps.h"
@@ -62,6 +63,33 @@ TEST(FacetBeams, HoldWhatIsPutInto) {
           p + length_mm * inside, length_mm * (1.0 + 1e-9),
           [&](const FacetBeams::Facet& g) { found = found || g.facet_idx == f.facet_idx; });
       ASSERT_TRUE(found) << f.facet_idx << " at " << length_mm;
+    }
+  }
+}
+
+// The same for beams refracted by tilted microfacets.
+TEST(FacetBeams, HoldWhatIsPutIntoTurnedBeams) {
+  RandomStream random(2, 1);
+  for (const BeamCase& c : cases()) {
+    const FacetBeams beams(c.mesh, c.camera, c.eta);
+    const RoughBoundary rough(0.5, c.eta);
+    for (int i = 0; i < 5'000; ++i) {
+      const auto& f = beams.facets()[random.bits() % beams.facets().size()];
+      const auto& t = c.mesh.triangles[static_cast<std::size_t>(f.facet_idx)];
+      const Eigen::Vector3d p = (c.mesh.vertices_mm[static_cast<std::size_t>(t[0])] +
+                                 c.mesh.vertices_mm[static_cast<std::size_t>(t[1])] +
+                                 c.mesh.vertices_mm[static_cast<std::size_t>(t[2])]) /
+                                3.0;
+      const RoughBoundary::Facet tilted = rough.draw_facet(random);
+      const auto passage = rough.pass((c.camera - p).normalized(), f.normal, tilted);
+      if (!passage) continue;
+      const double length_mm = 30.0 * std::pow(random.uniform(), 3);
+      bool found = false;
+      beams.for_turned_candidates(
+          p + length_mm * passage->direction, length_mm * (1.0 + 1e-9),
+          std::atan(tilted.tan_tilt) + 1e-9,
+          [&](const FacetBeams::Facet& g) { found = found || g.facet_idx == f.facet_idx; });
+      ASSERT_TRUE(found) << f.facet_idx << " at " << length_mm << " by " << tilted.tan_tilt;
     }
   }
 }

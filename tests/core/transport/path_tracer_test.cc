@@ -56,6 +56,19 @@ TEST(PathTracer, MeetsVanDeHulst) {
   EXPECT_LT(r.up.std_error(), 6e-4);
 }
 
+// A rough boundary neither takes nor makes power, and a white body lets out all of it.
+TEST(PathTracer, LosesNothingAtARoughBoundary) {
+  const auto source = beam_entry({{-0.4, -0.4, 1}, {0.8, 0, 0}, {0, 0.8, 0}, {0, 0, -1}});
+  for (const double alpha : {0.1, 0.5}) {
+    for (const TriangleMesh& mesh :
+         {test_support::make_box({-1, -1, -1}, {1, 1, 1}), test_support::make_sphere(1.2, 3)}) {
+      const Result white = run(mesh, {2.0, 0.0, 0.3, 1.4, alpha}, *source, 4, 500);
+      EXPECT_NEAR(white.audit.escaped, white.audit.entered, 1e-9 * white.audit.entered);
+      run(mesh, {2.0, 0.1, 0.3, 1.4, alpha}, *source, 4, 500);
+    }
+  }
+}
+
 // Half-spaces are boxes of 200 mean free paths and more. Giovanelli: n 1.5, albedo 0.9, g 0: 0.2600
 // with 0.0400 of it specular. Chandrasekhar's H-function: n 1, albedo 0.9 and 0.99.
 TEST(PathTracer, MeetsHalfSpaces) {
