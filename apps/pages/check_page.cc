@@ -269,8 +269,10 @@ std::string check_page(const CheckedRig& checked, const CheckReport& report,
     body += html_element("h2", html_text(title));
     body += plot_figures(plots);
   };
-  body += html_element("h2", html_text("The rig"));
-  body += rig_figure(rig_places(checked.rig, checked.geometry->objects, checked.shots));
+  if (checked.geometry) {
+    body += html_element("h2", html_text("The rig"));
+    body += rig_figure(rig_places(checked.rig, checked.geometry->objects, checked.shots));
+  }
   section("Pose", pose_plots(checked));
   section("Over the shots", trends(checked, report));
   section("Noise", noise_plots(checked));

@@ -100,6 +100,10 @@ async function plots() {
   await page.keyboard.press('0');
   await page.keyboard.press('Escape');
   const light = await seen(canvas);
+  await page.keyboard.press('+');
+  assert.notEqual(await seen(canvas), light, 'plus does not zoom');
+  await page.keyboard.press('0');
+  assert.equal(await seen(canvas), light, '0 does not show all again');
   await page.emulateMedia({colorScheme: 'dark'});
   await page.waitForTimeout(50);
   assert.notEqual(await seen(canvas), light, 'a plot is not redrawn in the dark');

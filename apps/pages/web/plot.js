@@ -2,51 +2,16 @@
 // keys, choose a point, whose values are shown; dragging zooms, a double click or 0 shows all again.
 import uPlot from 'uplot';
 import {element} from './element.js';
-import {linearTickTexts, logTicks, tickText} from './log_ticks.js';
-import {labelAndUnit, numberText} from './number_text.js';
-import {fullRanges, withEqualUnits} from './plot_range.js';
-import {drawSeries, nearestPoint} from './plot_series.js';
+import {plotAxis} from './plot_axis.js';
+import {listenToKeys} from './plot_keys.js';
 import {plotLegend} from './plot_legend.js';
+import {fullRanges, withEqualUnits, zoomed} from './plot_range.js';
+import {drawSeries, nearestPoint} from './plot_series.js';
 import {plotTable} from './plot_table.js';
+import {pointText} from './plot_text.js';
 import {lookColour, onThemeChange, themeColour} from './theme.js';
 
-const kFont = '12px system-ui, sans-serif';
 const kReach_px = 30;
-
-function axis(stated, side, scale) {
-  const [name, unit] = labelAndUnit(stated.label);
-  const out = {
-    scale, side, label: unit ? `${name} [${unit}]` : name, font: kFont, labelFont: '11px system-ui, sans-serif', labelSize: 22,
-    stroke: () => themeColour('ink'), grid: {stroke: () => themeColour('line'), width: 1},
-    ticks: {stroke: () => themeColour('line'), width: 1},
-    values: (u, ticks) => stated.log ? ticks.map(tickText) : linearTickTexts(ticks),
-  };
-  if (side === 3) {
-    out.size = (u, values) => 16 + 7 * Math.max(3, ...(values ?? []).map(v => v.length));
-  } else {
-    out.space = 60;
-    out.size = 34;
-  }
-  if (stated.log) {
-    out.filter = (u, ticks) => ticks;
-    out.splits = (u, i, min, max) => logTicks(min, max, side === 3 ? 7 : Math.max(3, u.width / 70));
-  }
-  return out;
-}
-
-// What is said of a point: "dipole, fitted: distance d 3.2 mm, r 0.0012 1/mm²".
-function pointText(data, at) {
-  const series = data.series[at.series];
-  const of = (label, value, std) => {
-    const [name, unit] = labelAndUnit(label);
-    const deviation = std === undefined || std === null ? '' : ` ± ${numberText(std, 2)}`;
-    return `${name} ${numberText(value)}${deviation}${unit ? ` ${unit}` : ''}`;
-  };
-  const parts = [of(data.x.label, series.x[at.point]),
-                 of(data.y.label, series.y[at.point], series.std?.[at.point])];
-  if (series.value) parts.push(of(data.colours.label, series.value[at.point]));
-  return (series.name ? `${series.name}: ` : '') + parts.join(', ');
-}
 
 export function mountPlot(host, data) {
   const stage = host.querySelector('.stage');
@@ -77,15 +42,7 @@ export function mountPlot(host, data) {
     say();
     u.redraw(false);
   };
-  const zoom = (u, factor) => {
-    const about = (range, log) => {
-      const [a, b] = log ? range.map(Math.log) : range;
-      const [mid, half] = [(a + b) / 2, factor * (b - a) / 2];
-      const out = [mid - half, mid + half];
-      return log ? out.map(Math.exp) : out;
-    };
-    show(u, {x: about(view.x, data.x.log), y: about(view.y, data.y.log)});
-  };
+  const zoom = (u, factor) => show(u, zoomed(data, view, factor));
   const height = width => data.equal ? width : Math.max(240, Math.min(420, 0.72 * width));
   const sizes = () => {
     const width = Math.max(200, frame.clientWidth);
@@ -97,7 +54,7 @@ export function mountPlot(host, data) {
   const plot = new uPlot({
     ...sizes(), padding: [8, 14, 0, 0],
     scales: {x: scale(data.x, () => view.x), y: scale(data.y, () => view.y)},
-    axes: [axis(data.x, 2, 'x'), axis(data.y, 3, 'y')],
+    axes: [plotAxis(data.x, 2, 'x'), plotAxis(data.y, 3, 'y')],
     series: [{}, {show: true, paths: () => null, points: {show: false}}],
     legend: {show: false},
     cursor: {
@@ -126,25 +83,9 @@ export function mountPlot(host, data) {
     },
   }, [[0, 1], [null, null]], frame);
 
-  frame.addEventListener('keydown', event => {
-    const step = {ArrowRight: [0, 1], ArrowLeft: [0, -1], ArrowDown: [1, 0], ArrowUp: [-1, 0]}[event.key];
-    if (step) {
-      const n = data.series.length;
-      const series = ((chosen?.series ?? 0) + step[0] + n) % n;
-      const length = data.series[series].x.length;
-      const from = chosen && step[0] === 0 ? chosen.point : -Math.min(0, step[1]) - 1;
-      const point = step[0] !== 0 ? Math.min(chosen?.point ?? 0, length - 1) : (from + step[1] + length) % length;
-      choose(plot, {series, point});
-    } else if (event.key === '+' || event.key === '-') {
-      zoom(plot, event.key === '+' ? 0.7 : 1 / 0.7);
-    } else if (event.key === '0') {
-      show(plot, full);
-    } else if (event.key === 'Escape') {
-      choose(plot, null);
-    } else {
-      return;
-    }
-    event.preventDefault();
+  listenToKeys(frame, data, {
+    chosen: () => chosen, choose: at => choose(plot, at), zoom: factor => zoom(plot, factor),
+    showAll: () => show(plot, full),
   });
   onThemeChange(() => plot.redraw(false));
   new ResizeObserver(() => {

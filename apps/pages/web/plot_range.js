@@ -28,3 +28,14 @@ export function withEqualUnits({x, y}, width, height) {
   const around = ([a, b], pixels) => [(a + b - perPixel * pixels) / 2, (a + b + perPixel * pixels) / 2];
   return {x: around(x, width), y: around(y, height)};
 }
+
+// Ranges `factor` times as long about the same middle, on a log axis that of the logarithms.
+export function zoomed(data, {x, y}, factor) {
+  const about = (range, log) => {
+    const [a, b] = log ? range.map(Math.log) : range;
+    const [mid, half] = [(a + b) / 2, factor * (b - a) / 2];
+    const out = [mid - half, mid + half];
+    return log ? out.map(Math.exp) : out;
+  };
+  return {x: about(x, data.x.log), y: about(y, data.y.log)};
+}

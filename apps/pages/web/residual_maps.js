@@ -1,68 +1,13 @@
 // Observed, model and difference of the shots of a material, side by side: chosen by shot and channel,
 // zoomed and moved together, with the values under the pointer.
-import {differenceColour, greyColour} from './colour_scale.js';
 import {element} from './element.js';
-import {kClipped, kStates, kUsed, unpack} from './map_data.js';
+import {listenToMaps} from './map_input.js';
+import {MapShot} from './map_shot.js';
 import {MapView} from './map_view.js';
 import {numberText} from './number_text.js';
 import {scaleBar} from './plot_legend.js';
 
-const kBehind = [28, 30, 34];
-const kUnused = [120, 120, 120];
-const kClippedColour = [213, 0, 50];
-const kLeftOut = [230, 159, 0];
 const kPanels = ['observed', 'model', 'difference'];
-const kObservedStep_percent = 0.01;
-const kDifferenceStep = 0.01;
-
-// In percent of the brightest row in use.
-class Shot {
-  constructor(stated, map, fullScale_percent, rows, observed, difference, state) {
-    Object.assign(this, {stated, map, rows, state, fullScale_percent});
-    this.observed = Float32Array.from(observed, v => v * kObservedStep_percent);
-    this.difference = Float32Array.from(difference, v => v * kDifferenceStep * fullScale_percent);
-  }
-  static async unpack(data, stated) {
-    const map = data.maps[stated.map];
-    map.unpacked ??= unpack(map.rows, Int32Array, 3);
-    return new Shot(stated, map, data.full_scale_percent, await map.unpacked,
-                    await unpack(stated.observed, Int16Array, 2),
-                    await unpack(stated.difference, Int16Array, 2), await unpack(stated.state, Uint8Array, 1));
-  }
-  colour(panel, row) {
-    if (this.state[row] !== kUsed) {
-      if (panel !== 'observed') return kUnused;
-      return this.state[row] === kClipped ? kClippedColour : kLeftOut;
-    }
-    if (panel === 'difference') return differenceColour(this.difference[row] / this.fullScale_percent);
-    const model = panel === 'model' ? this.difference[row] : 0;
-    return greyColour((this.observed[row] - model) / 100);
-  }
-  // A canvas of the map's size.
-  picture(panel) {
-    const {width, height} = this.map;
-    const canvas = element('canvas', {width, height});
-    const image = new ImageData(width, height);
-    this.rows.forEach((row, i) => {
-      image.data.set(row === 0 ? kBehind : this.colour(panel, row - 1), 4 * i);
-      image.data[4 * i + 3] = 255;
-    });
-    canvas.getContext('2d').putImageData(image, 0, 0);
-    return canvas;
-  }
-  // What is known of the place (x, y) of the map.
-  text(x, y) {
-    const {x0, y0, step, width} = this.map;
-    const pixel = v => Math.floor(v) * step + Math.floor(step / 2);
-    const place = `x ${x0 + pixel(x)} y ${y0 + pixel(y)} px: `;
-    const row = this.rows[Math.floor(y) * width + Math.floor(x)] - 1;
-    if (row < 0) return `${place}no patch`;
-    if (this.state[row] !== kUsed) return `${place}patch ${row}, not used (${kStates[this.state[row]]})`;
-    const [o, d] = [this.observed[row], this.difference[row]];
-    return `${place}patch ${row}, observed ${numberText(o)} %, model ${numberText(o - d)} %, ` +
-      `difference ${d > 0 ? '+' : ''}${numberText(d, 3)} %`;
-  }
-}
 
 function choice(label, names, onChange) {
   const select = element('select', {}, ...names.map(n => element('option', {value: n}, n)));
@@ -116,7 +61,7 @@ export function mountMaps(host, data) {
     const stated = data.shots.find(s => s.file === files.value && s.channel === channels.value) ??
       data.shots.find(s => s.file === files.value);
     channels.value = stated.channel;
-    shot = await Shot.unpack(data, stated);
+    shot = await MapShot.unpack(data, stated);
     pictures = kPanels.map(panel => shot.picture(panel));
     at = null;
     view.resize(shot.map.width, shot.map.height);
@@ -137,7 +82,7 @@ export function mountMaps(host, data) {
   const thumbnails = async () => {
     for (const stated of data.shots) {
       const name = `${stated.file} ${stated.channel}, rms ${numberText(stated.rms_percent, 2)} %`;
-      const small = (await Shot.unpack(data, stated)).picture('difference');
+      const small = (await MapShot.unpack(data, stated)).picture('difference');
       const entry = button('', name, () => {
         files.value = stated.file;
         channels.value = stated.channel;
@@ -151,55 +96,7 @@ export function mountMaps(host, data) {
   };
   host.querySelector('.stage').append(tools, readout, panels, overview);
 
-  let drag = null;
-  for (const canvas of canvases) {
-    const place = event => {
-      const box = canvas.getBoundingClientRect();
-      return view.placeAt(event.clientX - box.left, event.clientY - box.top, box.width);
-    };
-    canvas.addEventListener('pointermove', event => {
-      if (!shot) return;
-      if (drag) {
-        const perPixel = view.width / (canvas.clientWidth * view.zoom);
-        view.moveTo(drag.x - (event.clientX - drag.left) * perPixel, drag.y - (event.clientY - drag.top) * perPixel);
-      } else {
-        read(...place(event));
-        draw();
-      }
-    });
-    canvas.addEventListener('pointerdown', event => {
-      if (event.button !== 0) return;
-      if (shot) read(...place(event));
-      drag = {left: event.clientX, top: event.clientY, x: view.x, y: view.y};
-      canvas.setPointerCapture(event.pointerId);
-      draw();
-    });
-    for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => { drag = null; });
-    canvas.addEventListener('wheel', event => {
-      // Out of the whole map, the wheel scrolls the page.
-      if (!shot || (view.zoom === 1 && event.deltaY > 0)) return;
-      event.preventDefault();
-      view.zoomAbout(Math.exp(-event.deltaY / 400), ...place(event));
-    }, {passive: false});
-    canvas.addEventListener('dblclick', () => view.reset());
-  }
-  panels.addEventListener('keydown', event => {
-    const step = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1]}[event.key];
-    if (!shot) return;
-    if (step) {
-      const [x, y] = middle();
-      const far = Math.max(1, Math.round(8 / view.zoom));
-      read(x + far * step[0], y + far * step[1]);
-      view.reveal(...at);
-    } else if (event.key === '+' || event.key === '-') {
-      view.zoomAbout(event.key === '+' ? 1.6 : 1 / 1.6, ...middle());
-    } else if (event.key === '0') {
-      view.reset();
-    } else {
-      return;
-    }
-    event.preventDefault();
-  });
+  listenToMaps(panels, canvases, view, {ready: () => shot !== null, place: middle, read, draw});
   new ResizeObserver(draw).observe(panels);
   // Unpacked when it comes into view: a page may hold many.
   const seen = new IntersectionObserver(entries => {

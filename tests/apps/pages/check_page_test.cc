@@ -33,7 +33,8 @@ TEST(CheckPage, PagesEscapeNames) {
     const std::string page = slurp(rig.out() + name);
     EXPECT_EQ(html_problem(page), "") << name;
     EXPECT_THAT(page, HasSubstr("&lt;script&gt;x&lt;/script&gt;&amp;")) << name;
-    EXPECT_THAT(page, Not(HasSubstr("<script"))) << name;
+    EXPECT_THAT(page, Not(HasSubstr("<script>x"))) << name;
+    EXPECT_THAT(page, HasSubstr("data-widget=\"rig\"")) << name;
   }
   EXPECT_THAT(slurp(rig.out() + "/result.html"), HasSubstr("data-widget=\"plot\""));
 }
