@@ -17,6 +17,7 @@
 #include "apps/simulation/simulate.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/sensor/radiance_calibration.h"
+#include "core/base/input_error.h"
 #include "core/base/progress.h"
 #include "core/camera/channel_index.h"
 #include "core/camera/sensor_noise.h"
@@ -170,6 +171,11 @@ Rig planned_rig(const Rig& given) {
 }
 
 Plan plan(const Rig& given, const ObjectScenes& objects, const PlanOptions& options) {
+  for (const SceneObject& object : given.scene.objects) {
+    if (!(object.surface_alpha > 0.0)) continue;
+    throw InputError(given.at(object.line) + ": objects." + object.name + ".roughness",
+                     "plan forecasts shots of smooth objects only");
+  }
   Plan out;
   Stopwatch watch(out.timing_s);
   const std::vector<TruthMaterials> materials =

@@ -11,6 +11,7 @@
 #include "apps/rig/rig_fields.h"
 #include "apps/rig/rig_light_reader.h"
 #include "apps/rig/rig_pose_reader.h"
+#include "apps/rig/rig_roughness_reader.h"
 #include "apps/rig/rig_sensor_truth.h"
 #include "apps/rig/rig_surroundings.h"
 #include "apps/rig/yaml_field.h"
@@ -77,7 +78,7 @@ void read_place(const YamlField& field, SceneObject& object) {
 SceneObject read_object(const std::string& name, const YamlField& field,
                         const std::string& rig_path) {
   field.only({"mesh", "eta", "eta_std", "position_std_mm", "scale_relative_std", "edge_std_mm",
-              "phase", "patch_size_mm", "pose"});
+              "phase", "patch_size_mm", "pose", "roughness"});
   SceneObject object;
   object.name = name;
   object.line = field.line();
@@ -91,6 +92,7 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   object.edge_std_mm = field.number_or("edge_std_mm", default_uncertainty::kEdge_mm, 0.0, 1000.0);
   object.gamma_std = default_uncertainty::kGamma;
   if (const auto f = field.find("phase")) read_phase(*f, object);
+  if (const auto f = field.find("roughness")) read_roughness(*f, object);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   if (const auto f = field.find("pose")) read_place(*f, object);
   const auto stated = field.find("position_std_mm");
@@ -263,6 +265,7 @@ Rig read_rig(const std::string& path, bool with_radiance) {
       }
     }
   }
+  require_lights_of_rough_objects(rig.scene);
   if (rig.scene.shots.empty()) shots.fail("expected at least one shot");
   if (const auto f = top.find("surroundings")) rig.scene.surroundings = read_surroundings(*f);
   if (const auto f = top.find("calibration")) rig.calibration = read_calibration(*f, path);

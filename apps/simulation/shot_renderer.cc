@@ -8,6 +8,7 @@
 #include "apps/simulation/board_picture.h"
 #include "calib/pose/shot_pose.h"
 #include "core/base/input_error.h"
+#include "core/light/gloss.h"
 #include "core/light/plane_light.h"
 #include "core/material/fresnel.h"
 #include "core/scene/surroundings.h"
@@ -42,11 +43,36 @@ CameraView true_view(const Rig& rig) {
           calib::pose_from_points(rig.scene, rig.pose).camera_from_world};
 }
 
+// At the nodes, with the mean normals of the patches around them.
+void ShotRenderer::add_gloss(const SceneLight& light, const ObjectScene& object,
+                             const PatchMesh& patches, const SurfaceField& field,
+                             std::vector<Eigen::Array3d>& values) const {
+  std::vector<Eigen::Vector3d> normals(values.size(), Eigen::Vector3d::Zero());
+  for (int k = 0; k < patches.size(); ++k) {
+    for (const int node : field.nodes_of(k)) {
+      if (node >= 0) normals[static_cast<std::size_t>(node)] += patches.normal(k);
+    }
+  }
+  const RoughBoundary boundary(object.stated->surface_alpha, object.stated->eta_int_over_ext);
+  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
+    if (normals[i].isZero(0.0)) return;
+    values[i] += light->power() * gloss_per_mm2(boundary, *object.rays, light.led()->led,
+                                                field.nodes_mm()[i], normals[i].normalized(),
+                                                view_.center_in_world_mm());
+  });
+}
+
 ShotRenderer::ShotRenderer(const Rig& rig, const ObjectScenes& objects,
                            const RenderTransport& transport)
     : rig_(rig), objects_(objects), transport_(transport), view_(true_view(rig)) {
   for (const SceneShot& shot : rig.scene.shots) {
     truth_of(rig, shot);
+    const SceneObject& object = rig.scene.object(shot.object);
+    if (object.surface_alpha > 0.0 && !transport.volume) {
+      throw InputError(rig.at(object.line) + ": objects." + object.name + ".roughness",
+                       "the dipole shows smooth surfaces only: use simulate --transport volume, "
+                       "or render --model transport");
+    }
     for (const std::string& name : shot.lights) rig.scene.light(name)->open();
   }
 }
@@ -119,9 +145,11 @@ SurfaceField ShotRenderer::field(const SceneShot& shot, Stage& s) const {
 SurfaceField ShotRenderer::volume_field(const SceneShot& shot, Stage& s) {
   const ObjectScene& scene = objects_.at(shot.object);
   const double eta = scene.stated->eta_int_over_ext;
+  const double alpha = scene.stated->surface_alpha;
   if (!s.boundary) s.boundary = std::make_unique<PathBoundary>(*scene.rays);
   if (!s.camera) {
-    s.camera.emplace(*s.boundary, view_.center_in_world_mm(), ScatteringMedium{1.0, 0.0, 0.0, eta});
+    s.camera.emplace(*s.boundary, view_.center_in_world_mm(),
+                     ScatteringMedium{1.0, 0.0, 0.0, eta, alpha});
   }
   SurfaceField field(*s.patches, s.needed, smooth_parts(scene.mesh()));
   for (const std::string& name : shot.lights) {
@@ -131,12 +159,13 @@ SurfaceField ShotRenderer::volume_field(const SceneShot& shot, Stage& s) {
       if (!(light->power()[c] > 0.0)) continue;
       Medium reduced = truth_of(rig_, shot)[static_cast<std::size_t>(c)];
       reduced.eta_int_over_ext = eta;
-      const ScatteringMedium medium = scattering_medium(reduced, scene.stated->phase);
+      const ScatteringMedium medium = scattering_medium(reduced, scene.stated->phase, alpha);
       std::optional<DiffusePlane> plane;
       if (const auto& stated = rig_.scene.surroundings.plane) {
         plane = stated->in(static_cast<std::size_t>(c));
       }
-      const auto source = entry_above(light, *scene.rays, eta, c, plane.value_or(DiffusePlane{}));
+      const auto source =
+          entry_above(light, *scene.rays, eta, c, plane.value_or(DiffusePlane{}), alpha);
       const CameraConnection camera = s.camera->with(medium, plane);
       const VolumeLight l = volume_radiosity(
           field, *s.patches, {*s.boundary, medium, *source, &camera, plane},
@@ -146,6 +175,7 @@ SurfaceField ShotRenderer::volume_field(const SceneShot& shot, Stage& s) {
         values[i][c] = light->power()[c] * l.l_at_nodes[i];
       }
     }
+    if (alpha > 0.0 && light.led() != nullptr) add_gloss(light, scene, *s.patches, field, values);
     field.add(values);
   }
   return field;

@@ -93,6 +93,9 @@ class ShotRenderer {
                                       const PatchMesh& patches) const;
   SurfaceField light_from(const SceneShot& shot, Stage& s);
   SurfaceField field(const SceneShot& shot, Stage& s) const;
+  // Adds what a rough surface reflects of an LED.
+  void add_gloss(const SceneLight& light, const ObjectScene& object, const PatchMesh& patches,
+                 const SurfaceField& field, std::vector<Eigen::Array3d>& values) const;
   SurfaceField volume_field(const SceneShot& shot, Stage& s);
 
   const Rig& rig_;

@@ -59,6 +59,7 @@ std::vector<double> numbers_of(const TriangleMesh& mesh, const PatchMesh& patche
                            static_cast<double>(seed)};
   const auto add = [&](const auto& v) { n.insert(n.end(), v.begin(), v.end()); };
   if (!medium.phase.is_isotropic()) add(medium.phase.numbers());
+  if (medium.surface_alpha > 0.0) n.push_back(medium.surface_alpha);
   for (const Eigen::Vector3d& v : mesh.vertices_mm) add(v);
   for (const auto& facet : mesh.triangles) n.insert(n.end(), facet.begin(), facet.end());
   RandomStream random(seed, 0);
@@ -76,8 +77,9 @@ std::vector<double> numbers_of(const TriangleMesh& mesh, const PatchMesh& patche
 
 double TransportAtlas::sigma_s_per_mm(int node) { return std::exp(kSpacing * node); }
 
-bool TransportAtlas::LitView::View::shows(const SeenObject& seen, double eta_int_over_ext) const {
-  return object == seen.object && patches == seen.patches && eta == eta_int_over_ext &&
+bool TransportAtlas::LitView::View::shows(const SeenObject& seen, const AtlasMedium& medium) const {
+  return object == seen.object && patches == seen.patches && eta == medium.eta_int_over_ext &&
+         surface_alpha == medium.surface_alpha &&
          are_near(*object, center_mm, seen.camera_center_mm) &&
          std::all_of(seen.map.patch_of_row.begin(), seen.map.patch_of_row.end(), [&](int patch) {
            return rows.row_of_patch[static_cast<std::size_t>(patch)] >= 0;
@@ -86,18 +88,19 @@ bool TransportAtlas::LitView::View::shows(const SeenObject& seen, double eta_int
 
 const TransportAtlas::View& TransportAtlas::view(const SeenObject& seen,
                                                  const Eigen::Vector3d& center_mm,
-                                                 double eta_int_over_ext) {
+                                                 const AtlasMedium& medium) {
   const auto known = std::find_if(views_.begin(), views_.end(), [&](const View& v) {
-    return v.center_mm == center_mm && v.shows(seen, eta_int_over_ext);
+    return v.center_mm == center_mm && v.shows(seen, medium);
   });
   if (known != views_.end()) return *known;
   View& v = views_.emplace_back();
   v.object = seen.object;
   v.patches = seen.patches;
-  v.eta = eta_int_over_ext;
+  v.eta = medium.eta_int_over_ext;
+  v.surface_alpha = medium.surface_alpha;
   v.center_mm = center_mm;
   v.boundary = std::make_unique<PathBoundary>(*seen.object->rays);
-  v.camera.emplace(*v.boundary, center_mm, ScatteringMedium{1.0, 0.0, 0.0, eta_int_over_ext});
+  v.camera.emplace(*v.boundary, center_mm, ScatteringMedium{1.0, 0.0, 0.0, v.eta, v.surface_alpha});
   v.rows = scattering_view(*seen.patches, facing(*seen.patches, center_mm));
   return v;
 }
@@ -110,13 +113,13 @@ TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const Seen
   // An LED lights all channels alike but for its power.
   const int own = light.led() != nullptr ? -1 : static_cast<int>(channel);
   const auto known = std::find_if(lit_.begin(), lit_.end(), [&](const LitView& v) {
-    return v.view_->shows(seen, eta_int_over_ext) && v.light_ == &light && v.channel_ == own &&
+    return v.view_->shows(seen, medium) && v.light_ == &light && v.channel_ == own &&
            v.phase_ == medium.phase && same(v.plane_, plane);
   });
   if (known != lit_.end()) return *known;
   LitView v;
-  v.source_ =
-      entry_above(light, *seen.object->rays, eta_int_over_ext, static_cast<int>(channel), plane);
+  v.source_ = entry_above(light, *seen.object->rays, eta_int_over_ext, static_cast<int>(channel),
+                          plane, medium.surface_alpha);
   v.light_ = &light;
   v.phase_ = medium.phase;
   v.channel_ = own;
@@ -138,8 +141,8 @@ TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const Seen
   }
   centers.push_back(seen.camera_center_mm);
   for (const Eigen::Vector3d& center : centers) {
-    v.view_ = &view(seen, center, eta_int_over_ext);
-    if (v.view_->shows(seen, eta_int_over_ext)) break;
+    v.view_ = &view(seen, center, medium);
+    if (v.view_->shows(seen, medium)) break;
   }
   return lit_.emplace_back(std::move(v));
 }
@@ -162,7 +165,7 @@ const WhiteRows& TransportAtlas::LitView::node(int idx, int levels) {
   WhiteRows& out = known_node(idx);
   if (out.levels() >= levels) return out;
   const ScatteringMedium medium =
-      scattering_medium({out.sigma_s_per_mm(), 0.0, view_->eta}, phase_);
+      scattering_medium({out.sigma_s_per_mm(), 0.0, view_->eta}, phase_, view_->surface_alpha);
   const CameraConnection camera = view_->camera->with(medium, plane_);
   const PathWorld world{*view_->boundary, medium, *source_, &camera, plane_};
   const std::uint64_t seed = seed_ + static_cast<std::uint64_t>(idx + static_cast<int>(kNodes / 2));

@@ -26,6 +26,7 @@ namespace scattermeter {
 struct AtlasMedium {
   double eta_int_over_ext = 1;
   PhaseFunction phase = {};
+  double surface_alpha = 0;
 };
 
 // Nodes stand at fixed values of sigma_s', evenly in its logarithm, and are traced when they are
@@ -70,7 +71,8 @@ class TransportAtlas {
       std::unique_ptr<PathBoundary> boundary;
       std::optional<CameraConnection> camera;  // of some medium
       ScatteringView rows;
-      bool shows(const SeenObject& seen, double eta_int_over_ext) const;
+      double surface_alpha = 0;
+      bool shows(const SeenObject& seen, const AtlasMedium& medium) const;
     };
     WhiteRows& known_node(int idx) const;
 
@@ -94,7 +96,7 @@ class TransportAtlas {
  private:
   using View = LitView::View;
   const View& view(const SeenObject& seen, const Eigen::Vector3d& center_mm,
-                   double eta_int_over_ext);
+                   const AtlasMedium& medium);
   std::shared_ptr<AtlasStore> store_;
   std::list<View> views_;
   std::list<LitView> lit_;

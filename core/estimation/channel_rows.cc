@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/fit/method_errors.h"
+#include "core/scene/rough_surfaces.h"
 #include "core/view/row_selection.h"
 
 namespace scattermeter {
@@ -39,6 +40,13 @@ ChannelRows channel_rows(const Scene& scene, const MaterialChannel& channel) {
   for (const ObservedShot* shot : channel.shots) {
     const SeenObject& seen = *shot->seen;
     ChannelObservation& o = rows.emplace_back(shot->observation.channel[channel.channel]);
+    if (const double alpha = seen.object->stated->surface_alpha; alpha > 0.0) {
+      const RowGloss gloss = row_gloss(scene, *shot->stated, seen, channel.channel, alpha);
+      for (std::size_t j = 0; j < o.l.size(); ++j) {
+        if (is_glossy(gloss, j)) leave_out(o, j, RowState::kMirror);
+      }
+      continue;
+    }
     for (const std::string& name : shot->stated->lights) {
       const auto position_mm = scene.light(name)->position_mm();
       if (!position_mm) continue;

@@ -18,7 +18,8 @@ namespace scattermeter {
 // proceeds.
 using ChannelRows = std::vector<ChannelObservation>;
 
-// The observed rows, without those that mirror a light into the camera.
+// The observed rows, without those that mirror a light into the camera (of a rough object:
+// is_glossy()).
 ChannelRows channel_rows(const Scene& scene, const MaterialChannel& channel);
 
 // The used rows of one of the shots under all its lights. `mean_free_path_mm`: of the material, for

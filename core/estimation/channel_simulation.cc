@@ -81,7 +81,7 @@ void add_carried(const WhiteRows::Light& light, double power, const Share& share
 
 ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& channel,
                                      TransportAtlas& atlas)
-    : channel_(channel) {
+    : scene_(scene), channel_(channel) {
   for (std::size_t s = 0; s < channel.shots.size(); ++s) {
     const ObservedShot& shot = *channel.shots[s];
     for (const std::string& name : shot.stated->lights) {
@@ -89,7 +89,8 @@ ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& 
       const double power = light->power()[static_cast<Eigen::Index>(channel.channel)];
       if (!(power > 0.0)) continue;
       TransportAtlas::LitView* in_atlas = &atlas.lit_view(
-          scene, *shot.seen, light, channel.channel, {channel.eta_int_over_ext, channel.phase});
+          scene, *shot.seen, light, channel.channel,
+          {channel.eta_int_over_ext, channel.phase, shot.seen->object->stated->surface_alpha});
       auto known = std::find_if(lit_.begin(), lit_.end(),
                                 [&](const Lit& v) { return v.in_atlas == in_atlas; });
       if (known == lit_.end()) {
@@ -111,14 +112,17 @@ void ChannelSimulation::set_rows(const ChannelRows& rows) {
   area_mm2_.clear();
   center_mm_.clear();
   for (Lit& v : lit_) v.rows.clear();
+  std::vector<RoughSurfaces::Rows> of_shots;
   Eigen::Index at = 0;
   for (std::size_t s = 0; s < channel_.shots.size(); ++s) {
     const SeenObject& seen = *channel_.shots[s]->seen;
     std::vector<std::pair<Eigen::Index, int>> used;  // row and patch
+    of_shots.push_back({channel_.shots[s]->stated, &seen, {}});
     for (std::size_t j = 0; j < rows[s].state.size(); ++j) {
       if (rows[s].state[j] != RowState::kUsed) continue;
       const int patch = seen.map.patch_of_row[j];
       used.emplace_back(at++, patch);
+      of_shots.back().rows.push_back(j);
       area_mm2_.push_back(seen.patches->area_mm2(patch));
       center_mm_.push_back(seen.patches->center_mm(patch));
     }
@@ -129,6 +133,7 @@ void ChannelSimulation::set_rows(const ChannelRows& rows) {
       }
     }
   }
+  surfaces_ = RoughSurfaces(scene_, channel_.channel, of_shots);
 }
 
 std::int64_t ChannelSimulation::missing_paths(const ScatteringPoint& at, int blocks) const {
@@ -141,7 +146,7 @@ std::int64_t ChannelSimulation::missing_paths(const ScatteringPoint& at, int blo
 
 Eigen::VectorXd ChannelSimulation::light_at_node(int node, double sigma_a_per_mm,
                                                  int blocks) const {
-  Eigen::VectorXd l = Eigen::VectorXd::Zero(n_rows());
+  Eigen::VectorXd l = surfaces_.gloss();
   const int levels = WhiteRows::levels_for(kBlockPaths * blocks);
   for (const Lit& v : lit_) {
     const Eigen::VectorXd of_view = v.in_atlas->node(node, levels).light(sigma_a_per_mm).l;
@@ -196,6 +201,7 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
       squares[i] += error * error;
     }
   }
+  image.l += surfaces_.gloss();
   out.covariance = 0.5 * (out.by_half[0] + out.by_half[1]);
   for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
     const double sign = half == 0 ? -1.0 : 1.0;

@@ -13,6 +13,7 @@
 #include "core/atlas/transport_atlas.h"
 #include "core/estimation/channel_rows.h"
 #include "core/fit/scattering_equation.h"
+#include "core/scene/rough_surfaces.h"
 #include "core/transport/scattering_rows.h"
 
 namespace scattermeter {
@@ -33,6 +34,8 @@ class ChannelSimulation {
 
   // From now on, images and projections have the rows whose state is kUsed, shot by shot.
   void set_rows(const ChannelRows& rows);
+  // Of those rows; their gloss is part of the images.
+  const RoughSurfaces& surfaces() const { return surfaces_; }
   Eigen::Index n_rows() const { return static_cast<Eigen::Index>(area_mm2_.size()); }
   // By row, of its patch.
   const std::vector<double>& area_mm2() const { return area_mm2_; }
@@ -72,7 +75,9 @@ class ChannelSimulation {
     std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;
   };
 
+  const Scene& scene_;
   const MaterialChannel& channel_;
+  RoughSurfaces surfaces_;
   std::vector<Lit> lit_;
   std::vector<double> area_mm2_;
   std::vector<Eigen::Vector3d> center_mm_;

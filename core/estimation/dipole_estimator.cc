@@ -291,6 +291,7 @@ class DipoleEstimator {
 
 void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems) {
   DipoleEstimator(e, systems).run();
+  e.refuse_rough_surfaces();
 }
 
 void estimate_dipole(Estimation& e) { estimate_dipole(e, nullptr); }

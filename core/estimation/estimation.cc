@@ -45,6 +45,15 @@ void Estimation::for_open_channels(const std::string& stage_name,
   });
 }
 
+void Estimation::refuse_rough_surfaces() {
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (!(channels[i].surface_alpha > 0.0)) continue;
+    results[i].estimate.reasons.push_back(
+        fmt::format("the surface is rough (alpha {:g}), for which only transport is a model",
+                    channels[i].surface_alpha));
+  }
+}
+
 ScalePrior scale_prior(const Scene& scene) {
   if (!scene.camera.responsivity) return {std::numeric_limits<double>::infinity()};
   return {scene.camera.responsivity_relative_std};

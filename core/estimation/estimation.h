@@ -50,6 +50,8 @@ class Estimation {
   // Runs `work` for every channel whose result is not yet refused, in parallel, as one stage.
   void for_open_channels(const std::string& stage,
                          const std::function<void(std::size_t)>& work) const;
+  // For models that know smooth surfaces only: refuses the channels with rough ones.
+  void refuse_rough_surfaces();
 };
 
 // The scene's prior of the scale: free without a responsivity.

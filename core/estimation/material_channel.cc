@@ -41,6 +41,8 @@ std::vector<MaterialChannel> material_channels(const Scene& scene,
         one.eta_int_over_ext = eta;
         one.phase = object.phase;
         one.gamma_std = std::max(one.gamma_std, object.gamma_std);
+        one.surface_alpha = std::max(one.surface_alpha, object.surface_alpha);
+        one.surface_alpha_std = std::max(one.surface_alpha_std, object.surface_alpha_std);
         one.shots.push_back(&shot);
       }
       if (!one.shots.empty()) out.push_back(one);

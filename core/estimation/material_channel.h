@@ -19,6 +19,9 @@ struct MaterialChannel {
   double eta_int_over_ext = 0;
   PhaseFunction phase = {};
   double gamma_std = 0;  // the largest of the objects
+  // The largest of the objects', too.
+  double surface_alpha = 0;
+  double surface_alpha_std = 0;
 };
 
 // The shots' materials in the scene's order, each in the channels of `channels` (R, G, B; empty:

@@ -37,6 +37,7 @@ void estimate_paper(Estimation& e) {
       e.results[i].estimate = choose_width(estimates[i]);
     }
   }
+  e.refuse_rough_surfaces();
   e.watch.lap("fit");
 }
 

@@ -1,10 +1,12 @@
 #include "core/estimation/transport_pilot.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "core/diffusion/dipole_curve.h"
+#include "core/material/fresnel.h"
 
 namespace scattermeter {
 
@@ -59,24 +61,39 @@ std::array<TransportRound::Pilot, 2> PathPilots::pilots(const ShotParts& parts,
   return out;
 }
 
-DenseSystem system_of_paths(const DipoleSystem& dipole, double gamma_std) {
+DenseSystem system_of_paths(const DipoleSystem& dipole, double gamma_std, bool is_rough) {
   DenseSystem system = dipole.system();
   if (dipole.light_by_plane) system.l += dipole.light_by_plane();
   std::vector<Eigen::Index> kept;
   std::vector<Nuisance> nuisances = {{"phase function", gamma_std, true, "gamma"}};
+  if (is_rough) nuisances.push_back({"roughness", 1.0, true, "roughness"});
+  const auto own = static_cast<Eigen::Index>(nuisances.size());
   for (std::size_t k = 0; k < system.nuisances.size(); ++k) {
     if (system.nuisances[k].group == "camera shift") continue;
     kept.push_back(static_cast<Eigen::Index>(k));
     nuisances.push_back(system.nuisances[k]);
   }
   Eigen::MatrixXd columns(system.l.size(), static_cast<Eigen::Index>(nuisances.size()));
-  columns.col(0).setZero();
+  columns.leftCols(own).setZero();
   if (!kept.empty()) {
-    columns.rightCols(columns.cols() - 1) = system.nuisance_columns(Eigen::all, kept);
+    columns.rightCols(columns.cols() - own) = system.nuisance_columns(Eigen::all, kept);
   }
   system.nuisances = std::move(nuisances);
   system.nuisance_columns = std::move(columns);
   return system;
+}
+
+// Of the dipole's image, only A knows eta: the derivative by ln A is that by eta over that of ln A.
+Eigen::VectorXd roughness_change(const RoughSurfaces& surfaces, const WeightMatrix& weights,
+                                 const DistanceKnots& knots, const ScatteringPoint& at,
+                                 double eta_int_over_ext) {
+  constexpr double kStep = 0.01;
+  const auto l_with = [&](double eta) { return dipole_pilot(weights, knots, at, eta).l; };
+  const double more = eta_int_over_ext + kStep;
+  const double less = std::max(1.0, eta_int_over_ext - kStep);
+  const double log_mismatch = std::log(boundary_mismatch(more) / boundary_mismatch(less));
+  return at.scale *
+         surfaces.change(l_with(eta_int_over_ext), (l_with(more) - l_with(less)) / log_mismatch);
 }
 
 }  // namespace scattermeter

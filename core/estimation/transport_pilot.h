@@ -52,7 +52,13 @@ class PathPilots {
 
 // The dipole's system for the search: with the light by way of the plane, which paths simulate, and
 // without the shifts of single shots: with these, the search for faint materials ends with scale
-// and eta far off. Its first nuisance is gamma (PhaseFunction::gamma()), with a column of zeros.
-DenseSystem system_of_paths(const DipoleSystem& dipole, double gamma_std);
+// and eta far off. Its first nuisance is gamma (PhaseFunction::gamma()); of rough objects, the
+// second is their roughness, in deviations. The columns of both are zeros.
+DenseSystem system_of_paths(const DipoleSystem& dipole, double gamma_std, bool is_rough);
+
+// The column of the roughness at a point: RoughSurfaces::change().
+Eigen::VectorXd roughness_change(const RoughSurfaces& surfaces, const WeightMatrix& weights,
+                                 const DistanceKnots& knots, const ScatteringPoint& at,
+                                 double eta_int_over_ext);
 
 }  // namespace scattermeter

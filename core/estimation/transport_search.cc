@@ -42,7 +42,7 @@ class TransportSearch {
                   TransportAtlas& atlas, const EstimateOptions& options, const ProgressStage& stage)
       : channel_(channel),
         knots_(dipole.knots),
-        system_(system_of_paths(dipole, channel.gamma_std)),
+        system_(system_of_paths(dipole, channel.gamma_std, channel.surface_alpha_std > 0.0)),
         rows_(*dipole.rows),
         scale_(scale_prior(scene)),
         options_(options),
@@ -78,6 +78,10 @@ class TransportSearch {
     for (int i = 0; i < kMaxRounds && budget_.left_s() > 0.0; ++i) {
       stage_.check();
       system_.nuisance_columns.col(0) = phase_.change(system_.weights, at);
+      if (channel_.surface_alpha_std > 0.0) {
+        system_.nuisance_columns.col(1) = roughness_change(simulation_.surfaces(), system_.weights,
+                                                           knots_, at, channel_.eta_int_over_ext);
+      }
       const bool learned = pilots_.have_learned();
       // During the search, a scale with a prior is taken as exact: that is more stable.
       TransportRound round(

@@ -62,6 +62,9 @@ struct SceneObject {
   std::optional<PieceSearch> to_be_found;  // that position is only about right
   double eta_int_over_ext = 1.3;
   double eta_std = 0;
+  // Width of the surface's microfacets (RoughBoundary), 0: smooth; all materials of the object.
+  double surface_alpha = 0;
+  double surface_alpha_std = 0;
   PhaseFunction phase;
   double gamma_std = 0;  // of PhaseFunction::gamma()
   // Standard deviation of each coordinate of the object's position, world, mm; its orientation is

@@ -6,6 +6,7 @@
 
 #include "core/base/input_error.h"
 #include "core/light/plane_entry.h"
+#include "core/light/rough_entry.h"
 
 namespace scattermeter {
 namespace {
@@ -34,7 +35,11 @@ ScenePlane plane_below(const Scene& scene, const ObjectScene& object) {
 
 std::unique_ptr<EntrySource> entry_above(const SceneLight& light, const RayScene& scene,
                                          double eta_int_over_ext, int channel,
-                                         const DiffusePlane& plane) {
+                                         const DiffusePlane& plane, double surface_alpha) {
+  if (surface_alpha > 0.0) {
+    return rough_entry(entry_above(light, scene, 1.0, channel, plane), surface_alpha,
+                       eta_int_over_ext);
+  }
   if (light.led() != nullptr) {
     return led_entry_above(scene, light.led()->led, plane, eta_int_over_ext);
   }

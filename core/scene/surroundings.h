@@ -14,11 +14,12 @@ namespace scattermeter {
 // below 0.01).
 ScenePlane plane_below(const Scene& scene, const ObjectScene& object);
 
-// Source of the light's paths into an object above a plane. An LED's light that meets the plane
+// Source of the light's paths into an object above a plane, through a smooth surface or one of this
+// roughness (RoughBoundary). An LED's light that meets the plane
 // first is included; a picture of the surroundings already shows the plane.
 std::unique_ptr<EntrySource> entry_above(const SceneLight& light, const RayScene& scene,
                                          double eta_int_over_ext, int channel,
-                                         const DiffusePlane& plane);
+                                         const DiffusePlane& plane, double surface_alpha = 0.0);
 
 // Throws InputError where the scene's plane is not below all objects and all LEDs of the shots, or
 // where the contact is stated (not air) and no face of an object lies on the plane.

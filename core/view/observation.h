@@ -16,7 +16,7 @@ enum class RowState : unsigned char {
   kNoSamples,  // no sample of the channel falls on it
   kClipped,    // at least one of its samples is clipped
   kFloor,      // so dark that the camera clips its noise at zero
-  kMirror,     // mirrors a light into the camera
+  kMirror,     // mirrors a light into the camera; of a rough object: much of it
   kNoise,      // its expected light does not exceed the noise
   kOutlier,    // inconsistent with the other rows: dust, a scratch, a mark
   kEdge,       // beside a silhouette, a step or a crease, for a model of whole patches

@@ -20,8 +20,8 @@ class Arriving : public EntrySource {
 
 // What gets in is the boundary's share of it, in directions below the surface, mostly refracted.
 TEST(RoughEntry, LetsInWhatTheBoundaryPasses) {
-  constexpr double kEta = 1.5;
-  const auto source = rough_entry(std::make_unique<Arriving>(), 0.2, kEta);
+  constexpr double kRoughEta = 1.5;
+  const auto source = rough_entry(std::make_unique<Arriving>(), 0.2, kRoughEta);
   RandomStream random(1, 0);
   test_support::BlockMean power, along;
   for (int block = 0; block < 50; ++block) {
@@ -38,8 +38,8 @@ TEST(RoughEntry, LetsInWhatTheBoundaryPasses) {
     power.add(sum);
     along.add(sum_along / sum);
   }
-  EXPECT_NEAR(power.mean(), 2.0 * RoughBoundary(0.2, kEta).transmittance(0.6), 0.01);
-  EXPECT_NEAR(along.mean(), 0.8 / kEta, 0.05);
+  EXPECT_NEAR(power.mean(), 2.0 * RoughBoundary(0.2, kRoughEta).transmittance(0.6), 0.01);
+  EXPECT_NEAR(along.mean(), 0.8 / kRoughEta, 0.05);
 }
 
 }  // namespace

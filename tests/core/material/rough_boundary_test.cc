@@ -83,9 +83,9 @@ TEST(RoughBoundaryStatistics, AnOvenStaysEvenToATenthOfAPerCent) {
 // the opposite way: eta_i^2 f(i -> o) = eta_o^2 f(o -> i), for any number of facets.
 TEST(RoughBoundary, IsReciprocal) {
   constexpr int kN = 1'000'000;
-  constexpr double kEta = 1.4;
+  constexpr double kRoughEta = 1.4;
   for (const double alpha : {0.1, 0.5}) {
-    const RoughBoundary boundary(alpha, kEta);
+    const RoughBoundary boundary(alpha, kRoughEta);
     RandomStream random(3, 1);
     // In by steep or flat directions outside, to steep or flat ones inside; and out.
     double in[2][2] = {}, out[2][2] = {}, back[2][2] = {};
@@ -95,12 +95,13 @@ TEST(RoughBoundary, IsReciprocal) {
       const auto from_outside = boundary.meet(-up, kUp, random);
       (from_outside.passed ? in : back)[flat(up)][flat(from_outside.direction)] += 1.0 / kN;
       const auto from_inside = boundary.meet(up, kUp, random);
-      if (from_inside.passed) out[flat(from_inside.direction)][flat(up)] += kEta * kEta / kN;
+      if (from_inside.passed)
+        out[flat(from_inside.direction)][flat(up)] += kRoughEta * kRoughEta / kN;
     }
     for (int outside = 0; outside < 2; ++outside) {
       for (int inside = 0; inside < 2; ++inside) {
         const double flux = in[outside][inside];
-        EXPECT_NEAR(out[outside][inside], flux, 4.0 * kEta * std::sqrt(2.0 * flux / kN));
+        EXPECT_NEAR(out[outside][inside], flux, 4.0 * kRoughEta * std::sqrt(2.0 * flux / kN));
       }
     }
     EXPECT_NEAR(back[0][1], back[1][0], 4.0 * std::sqrt(2.0 * back[0][1] / kN));
@@ -110,14 +111,14 @@ TEST(RoughBoundary, IsReciprocal) {
 // Towards alpha = 0 the shares are Fresnel's, and directions Snell's.
 TEST(RoughBoundary, BecomesSmooth) {
   constexpr int kN = 40'000;
-  constexpr double kEta = 1.5;
-  const RoughBoundary boundary(1e-4, kEta);
+  constexpr double kRoughEta = 1.5;
+  const RoughBoundary boundary(1e-4, kRoughEta);
   RandomStream random(5, 1);
   for (const double cosine : {0.2, 0.5, 0.8, 1.0}) {
     for (const bool inside : {false, true}) {
       const Eigen::Vector3d before = at_angle(inside ? cosine : -cosine);
       const Eigen::Vector3d normal = inside ? Eigen::Vector3d(-kUp) : kUp;
-      const double eta = inside ? 1.0 / kEta : kEta;
+      const double eta = inside ? 1.0 / kRoughEta : kRoughEta;
       int passed = 0;
       for (int i = 0; i < kN; ++i) {
         const auto met = boundary.meet(before, kUp, random);
@@ -131,16 +132,16 @@ TEST(RoughBoundary, BecomesSmooth) {
       const double t = fresnel_transmittance(eta, cosine);
       EXPECT_NEAR(passed / static_cast<double>(kN), t, 4.0 * std::sqrt(t * (1.0 - t) / kN) + 1e-3);
     }
-    EXPECT_NEAR(boundary.transmittance(cosine), fresnel_transmittance(kEta, cosine), 1e-3);
+    EXPECT_NEAR(boundary.transmittance(cosine), fresnel_transmittance(kRoughEta, cosine), 1e-3);
   }
 }
 
 // The closed forms of one facet against the walk: by direction inside, and in all.
 TEST(RoughBoundary, OneFacetIsTheWalksFirst) {
   constexpr int kN = 300'000;
-  constexpr double kEta = 1.4;
+  constexpr double kRoughEta = 1.4;
   for (const double alpha : {0.1, 0.3, 0.5}) {
-    const RoughBoundary boundary(alpha, kEta);
+    const RoughBoundary boundary(alpha, kRoughEta);
     RandomStream random(11, 1);
     for (const double cosine : {0.25, 0.7, 1.0}) {
       const Eigen::Vector3d to_viewer = at_angle(cosine);
@@ -175,9 +176,9 @@ TEST(RoughBoundary, OneFacetIsTheWalksFirst) {
 // much several of them add.
 TEST(RoughBoundary, ReflectsByOneFacetWhatItsDensitySays) {
   constexpr int kN = 400'000;
-  constexpr double kEta = 1.4;
+  constexpr double kRoughEta = 1.4;
   for (const double alpha : {0.1, 0.3, 0.5}) {
-    const RoughBoundary boundary(alpha, kEta);
+    const RoughBoundary boundary(alpha, kRoughEta);
     RandomStream random(13, 1);
     for (const double cosine : {0.4, 0.9}) {
       const Eigen::Vector3d to_light = at_angle(cosine);

@@ -81,13 +81,13 @@ TEST(CameraConnection, SeesSingleScatteringThroughManyFacets) {
 // The same through a rough face: l is pi / (eta^2 Ft) times the mean over microfacets of share
 // sigma_s p E / (sigma_t (1 + cos)), each with its own cos.
 TEST(CameraConnection, SeesSingleScatteringThroughARoughFace) {
-  constexpr double kEta = 1.4;
+  constexpr double kRoughEta = 1.4;
   const RayScene scene(test_support::make_box({-12, -12, -12}, {12, 12, 0}));
   const PathBoundary boundary(scene);
   const Eigen::Vector3d eye(0, -600, 400);
   const auto source = beam_entry({{-10, -10, 0}, {20, 0, 0}, {0, 20, 0}, {0, 0, -1}});
   for (const double alpha : {0.02, 0.3}) {
-    const ScatteringMedium medium{1.5, 0.5, 0.4, kEta, alpha};
+    const ScatteringMedium medium{1.5, 0.5, 0.4, kRoughEta, alpha};
     const CameraConnection camera(boundary, eye, medium);
     test_support::BlockMean seen;
     PathOptions options;
@@ -95,7 +95,7 @@ TEST(CameraConnection, SeesSingleScatteringThroughARoughFace) {
     trace_blocks<FirstScatterings>(
         {boundary, medium, *source, &camera}, options, 0, 120, [] { return FirstScatterings(); },
         [&](const FirstScatterings& s, const PathAudit&) { seen.add(s.middle); });
-    const RoughBoundary rough(alpha, kEta);
+    const RoughBoundary rough(alpha, kRoughEta);
     RandomStream random(1, 0);
     double expected = 0.0;
     constexpr int kDraws = 100'000;
@@ -107,7 +107,7 @@ TEST(CameraConnection, SeesSingleScatteringThroughARoughFace) {
       if (!passage) continue;
       const double cosine = passage->cos_inside;
       expected += rough.share(to_eye, facet, *passage) * 64.0 / kDraws * std::numbers::pi /
-                  (kEta * kEta * fresnel_transmittance(kEta, to_eye.z())) * 1.5 *
+                  (kRoughEta * kRoughEta * fresnel_transmittance(kRoughEta, to_eye.z())) * 1.5 *
                   HenyeyGreenstein(0.4).per_sr(-cosine) / 400.0 / (2.0 * (1.0 + cosine));
     }
     EXPECT_LT(std::abs(seen.z(expected)), test_support::kSigmas) << seen.mean() << " " << expected;

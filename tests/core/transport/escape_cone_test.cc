@@ -47,27 +47,27 @@ TEST(EscapeCone, IsTheMeanOverDirections) {
 
 // Of a rough boundary, for the l of the axis: in either cone by its own transmittance.
 TEST(EscapeCone, IsTheMeanOfARoughBoundary) {
-  constexpr double kEta = 1.4;
-  const RoughBoundary boundary(0.3, kEta);
-  const EscapeCone cone(kEta, 0.3);
+  constexpr double kRoughEta = 1.4;
+  const RoughBoundary boundary(0.3, kRoughEta);
+  const EscapeCone cone(kRoughEta, 0.3);
   EXPECT_NEAR(std::cos(EscapeCone::kWideHalfAngle), EscapeCone::kCosWideHalf, 1e-12);
   constexpr double kAxis = 0.75;
-  constexpr int kSteps = 200;
+  constexpr int kGrid = 200;
   const double sin_axis = std::sqrt(1.0 - kAxis * kAxis);
   double sr = 0.0, by_several_sr = 0.0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double z = (i + 0.5) / kSteps;
+  for (int i = 0; i < kGrid; ++i) {
+    const double z = (i + 0.5) / kGrid;
     const double t = boundary.transmittance(z);
     const double by_several = boundary.transmittance_by_several(z);
-    for (int j = 0; j < kSteps; ++j) {
-      const double x = std::sqrt(1.0 - z * z) * std::cos(2.0 * std::numbers::pi * j / kSteps);
+    for (int j = 0; j < kGrid; ++j) {
+      const double x = std::sqrt(1.0 - z * z) * std::cos(2.0 * std::numbers::pi * j / kGrid);
       const double along = x * sin_axis + z * kAxis;
-      const double flux_sr = 2.0 * std::numbers::pi * z / (kSteps * kSteps);
+      const double flux_sr = 2.0 * std::numbers::pi * z / (kGrid * kGrid);
       if (along > EscapeCone::kCosHalf) sr += t * flux_sr;
       if (along > EscapeCone::kCosWideHalf) by_several_sr += by_several * flux_sr;
     }
   }
-  const double ft = fresnel_transmittance(kEta, kAxis);
+  const double ft = fresnel_transmittance(kRoughEta, kAxis);
   EXPECT_NEAR(cone.transmitting_sr(kAxis), sr * ft / boundary.transmittance(kAxis), 0.01 * sr);
   EXPECT_NEAR(cone.transmitting_by_several_sr(kAxis) / ft,
               by_several_sr / boundary.transmittance_by_several(kAxis),
