@@ -8,14 +8,14 @@
 namespace scattermeter::apps {
 namespace {
 
-struct Pair {
+struct LabPair {
   Eigen::Vector3d lab1, lab2;
   double difference;
 };
 
 // Pairs of table 1 of Sharma, Wu and Dalal (2005), chosen there to reach every branch.
 TEST(ColourDifference, MeetsThePublishedPairs) {
-  const std::array<Pair, 15> pairs = {{
+  const std::array<LabPair, 15> pairs = {{
       {{50, 2.6772, -79.7751}, {50, 0, -82.7485}, 2.0425},
       {{50, 3.1571, -77.2803}, {50, 0, -82.7485}, 2.8615},
       {{50, 2.8361, -74.0200}, {50, 0, -82.7485}, 3.4412},
@@ -32,7 +32,7 @@ TEST(ColourDifference, MeetsThePublishedPairs) {
       {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082},
       {{50, 2.5, 0}, {50, 2.5, 0}, 0.0},
   }};
-  for (const Pair& p : pairs) {
+  for (const LabPair& p : pairs) {
     EXPECT_NEAR(ciede2000(p.lab1, p.lab2), p.difference, 5e-5) << p.lab1.transpose();
     EXPECT_NEAR(ciede2000(p.lab2, p.lab1), p.difference, 5e-5) << p.lab1.transpose();
   }

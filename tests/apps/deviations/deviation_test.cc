@@ -99,9 +99,9 @@ TEST(Deviation, EveryRowChangesSomething) {
         const DeviationDraw draw{kind.sizes[s], sign, 7};
         const Rig stated = stated_rig(run_of(kind, s), 320);
         if (kind.truth) {
-          TrueSetup truth = true_setup(stated, "cube");
+          TrueSetup truth = true_setup(stated, stated_mesh("cube"));
           kind.truth(truth, draw);
-          EXPECT_NE(numbers(truth), numbers(true_setup(stated, "cube"))) << kind.name;
+          EXPECT_NE(numbers(truth), numbers(true_setup(stated, stated_mesh("cube")))) << kind.name;
           EXPECT_EQ(mesh_problem(truth.mesh), "") << kind.name;
         }
         if (kind.frames) {

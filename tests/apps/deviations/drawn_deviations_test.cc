@@ -17,7 +17,7 @@ namespace {
 TEST(DrawnDeviations, SpreadIsAsStated) {
   const DeviationRun run{.kind = &deviation_named("rig drawn as stated"), .body = "cube"};
   const Rig stated = stated_rig(run, 320);
-  const TrueSetup plain = true_setup(stated, "cube");
+  const TrueSetup plain = true_setup(stated, stated_mesh("cube"));
   constexpr int kDraws = 400;
   std::vector<double> eta, responsivity, focal_length, mark_px, left_mm;
   for (int i = 0; i < kDraws; ++i) {

@@ -7,7 +7,7 @@ namespace {
 
 TrueSetup deviating_mesh(const char* kind, const std::string& body, const DeviationDraw& draw) {
   const DeviationRun run{.kind = &deviation_named(kind), .body = body};
-  TrueSetup setup = true_setup(stated_rig(run, 320), body);
+  TrueSetup setup = true_setup(stated_rig(run, 320), stated_mesh(body));
   run.kind->truth(setup, draw);
   return setup;
 }
