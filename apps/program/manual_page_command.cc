@@ -1,5 +1,6 @@
 #include <memory>
 #include <ostream>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -39,13 +40,15 @@ std::vector<std::string> flags_of(const CLI::Option& option) {
   return out;
 }
 
-// The values of an option with a choice, whose type is written TEXT:{a,b,c}, as a|b|c.
+// The values of an option with a choice, whose type is written TEXT:{a,b,c} or {a->0,b->1}, as
+// a|b|c or a|b.
 std::string choices_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t begin = type.find('{');
   const std::size_t end = type.find('}');
   if (begin == std::string::npos || end == std::string::npos) return "";
-  return replace_all(type.substr(begin + 1, end - begin - 1), ",", "|");
+  const std::string listed = replace_all(type.substr(begin + 1, end - begin - 1), ",", "|");
+  return std::regex_replace(listed, std::regex("->[^|]*"), "");
 }
 
 // Text for roff: escapes are disabled, and no line can be taken for a request.
@@ -182,8 +185,12 @@ std::string bench_manual_page(const CLI::App& app) {
   std::string page = manual_head("SCATTERMETER-BENCH",
                                  "scattermeter-bench - how accurate, how fast and how honest "
                                  "scattermeter is on this machine",
-                                 "\\fBbench\\fR \\fIbenchmark\\fR [\\fIoptions\\fR]");
-  page += roff(found.front()->get_description()) + "\n.SH BENCHMARKS\n";
+                                 "\\fBbench\\fR [\\fIoptions\\fR] \\fIbenchmark\\fR ...");
+  page += roff(found.front()->get_description()) + "\n.SH OPTIONS\n";
+  for (const CLI::Option* option : shown_options(*found.front(), false)) {
+    manual_option(*option, page);
+  }
+  page += ".SH BENCHMARKS\n";
   for (const CLI::App* command :
        found.front()->get_subcommands([](const CLI::App*) { return true; })) {
     manual_command(*command, "scattermeter bench", page);

@@ -57,6 +57,7 @@ TEST(ManualPageCommand, HoldsEveryOptionOfEveryCommand) {
   EXPECT_THAT(man, HasSubstr(".TH SCATTERMETER 1"));
   EXPECT_THAT(man, HasSubstr(".SS \"scattermeter calibrate led"));
   EXPECT_THAT(answer.out, ::testing::Not(HasSubstr("bench deviations")));
+  EXPECT_THAT(of_bench.out, HasSubstr("both|dipole|volume"));
   EXPECT_THAT(of_bench.out, HasSubstr(".SS \"scattermeter bench deviations"));
   for (const char* section : {"EXIT STATUS", "EXAMPLES", "FILES", "SEE ALSO"}) {
     EXPECT_THAT(answer.out, HasSubstr(std::string("\n.SH ") + section + "\n"));
