@@ -60,7 +60,9 @@ double diffuse_mean(const F& f) {
   return sum / kSteps;
 }
 
-const auto kDown = [] { return beam_entry({{0.1, 0.2, 1.0}, {0, 0, 0}, {0, 0, 0}, {0, 0, -1}}); };
+const auto kBeamDown = [] {
+  return beam_entry({{0.1, 0.2, 1.0}, {0, 0, 0}, {0, 0, 0}, {0, 0, -1}});
+};
 const TriangleMesh kWideSlab = test_support::make_box({-400, -400, 0}, {400, 400, 1});
 constexpr double kClear = 1e-7;  // sigma_s per mm: nothing is scattered
 
@@ -71,7 +73,7 @@ TEST(PathPlane, ClearSlabInOpticalContactIsAGeometricSeries) {
   constexpr double kAlbedo = 0.6;
   const double r =
       1.0 - diffuse_mean([](double c) { return fresnel_transmittance(1.0 / kEta, c); });
-  const PlaneResult result = run(kWideSlab, {kClear, 0.0, 0.0, kEta}, *kDown(),
+  const PlaneResult result = run(kWideSlab, {kClear, 0.0, 0.0, kEta}, *kBeamDown(),
                                  DiffusePlane{0.0, kAlbedo, PlaneContact::kOptical}, 40, 2000);
   EXPECT_LT(std::abs(result.in_plane.z((1.0 - kAlbedo) / (1.0 - kAlbedo * r))),
             test_support::kSigmas);
@@ -90,7 +92,7 @@ TEST(PathPlane, ClearSlabAboveAGapIsAGeometricSeries) {
   const double first = 1.0 / (2.0 - fresnel_transmittance(kEta, 1.0));
   const double expected = first * (1.0 - kAlbedo) / (1.0 - kAlbedo * (1.0 - leaves));
   for (const double z_mm : {0.0, -1.0}) {
-    const PlaneResult result = run(kWideSlab, {kClear, 0.0, 0.0, kEta}, *kDown(),
+    const PlaneResult result = run(kWideSlab, {kClear, 0.0, 0.0, kEta}, *kBeamDown(),
                                    DiffusePlane{z_mm, kAlbedo, PlaneContact::kAir}, 40, 2000);
     EXPECT_LT(std::abs(result.in_plane.z(expected)), test_support::kSigmas)
         << z_mm << ": " << result.in_plane.mean() << " for " << expected;
@@ -100,7 +102,7 @@ TEST(PathPlane, ClearSlabAboveAGapIsAGeometricSeries) {
 
 // What leaves towards a black spot is absorbed; a white plane around it gives all back.
 TEST(PathPlane, BlackContactAbsorbsWhatLeavesThroughIt) {
-  const PlaneResult result = run(kWideSlab, {kClear, 0.0, 0.0, 1.5}, *kDown(),
+  const PlaneResult result = run(kWideSlab, {kClear, 0.0, 0.0, 1.5}, *kBeamDown(),
                                  DiffusePlane{0.0, 1.0, PlaneContact::kBlack}, 40, 2000);
   EXPECT_LT(std::abs(result.in_plane.z(1.0 / (2.0 - fresnel_transmittance(1.5, 1.0)))),
             test_support::kSigmas);
