@@ -160,14 +160,14 @@ class Writer {
   void truth() {
     add("\n# For `simulate` and `plan`.");
     add("truth:");
-    // Board and piece fill the frame's height.
+    // Board and piece fill the frame's height. A camera never stands exactly in line with them.
     const Box3d& box = draft_.objects[0].box;
     const double front_mm = board_in_world_mm_.y();
     const double extent_mm =
         std::max(board_.squares_x * board_.square_mm, box.max_mm.y() - front_mm);
     const Eigen::Vector3d at(box.center_mm().x(), 0.5 * (box.max_mm.y() + front_mm),
                              0.25 * box.max_mm.z());
-    const Eigen::Vector3d from = at + extent_mm * Eigen::Vector3d(0.0, -3.3, 2.4);
+    const Eigen::Vector3d from = at + extent_mm * Eigen::Vector3d(-0.2, -3.3, 2.4);
     add(fmt::format("  pose: {{position_mm: {}, look_at_mm: {}}}", list(from), list(at)));
     add("  materials:");
     add(

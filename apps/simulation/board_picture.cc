@@ -1,5 +1,6 @@
 #include "apps/simulation/board_picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -13,7 +14,25 @@ namespace {
 
 constexpr double kWhite = 0.9;
 constexpr double kBlack = 0.04;
-constexpr int kSide = 3;  // sub-samples per side of a pixel
+// Sub-samples per side of a pixel; at edges, which may run along the pixels' rows and would then
+// all be off by the same part of a sample, more.
+constexpr int kSide = 3;
+constexpr int kEdgeSide = 12;
+
+// Of one pixel, on the board.
+struct PixelSamples {
+  double sum = 0.0, least = 1.0, most = 0.0;            // reflectances
+  Eigen::Vector3d points_mm = Eigen::Vector3d::Zero();  // their sum, in the board's frame
+  int hits = 0;
+
+  void add(double reflectance, const Eigen::Vector3d& at_mm) {
+    sum += reflectance;
+    least = std::min(least, reflectance);
+    most = std::max(most, reflectance);
+    points_mm += at_mm;
+    ++hits;
+  }
+};
 
 // A mesh of the board's four corners.
 TriangleMesh outline(const calib::CharucoBoard& board) {
@@ -55,25 +74,26 @@ void add_board(const CameraView& view, const calib::CharucoBoard& board,
         x + 1 < rays.width ? (direction(x + 1, y) - d).eval() : d - direction(x - 1, y);
     const Eigen::Vector3d per_y =
         y + 1 < rays.height ? (direction(x, y + 1) - d).eval() : d - direction(x, y - 1);
-    double reflectance = 0.0;
-    Eigen::Vector3d center_in_board = Eigen::Vector3d::Zero();
-    int hits = 0;
-    for (int i = 0; i < kSide * kSide; ++i) {
-      const int row = i / kSide;
-      const int column = i % kSide;
-      const double fx = (column + 0.5) / kSide - 0.5;
-      const double fy = (row + 0.5) / kSide - 0.5;
-      const Eigen::Vector3d w = board_from_world.rotation * (d + fx * per_x + fy * per_y);
-      if (!(origin.z() > 0.0) || !(w.z() < 0.0)) continue;
-      const Eigen::Vector3d p = origin - origin.z() / w.z() * w;
-      const double print = pattern.reflectance(p.x(), p.y());
-      if (!std::isfinite(print)) continue;
-      reflectance += kBlack + (kWhite - kBlack) * print;
-      center_in_board += p;
-      ++hits;
+    const auto sampled = [&](int side) {
+      PixelSamples out;
+      for (int i = 0; i < side * side; ++i) {
+        const double fx = (i % side + 0.5) / side - 0.5;
+        const double fy = (static_cast<int>(i / side) + 0.5) / side - 0.5;
+        const Eigen::Vector3d w = board_from_world.rotation * (d + fx * per_x + fy * per_y);
+        if (!(origin.z() > 0.0) || !(w.z() < 0.0)) continue;
+        const Eigen::Vector3d p = origin - origin.z() / w.z() * w;
+        const double print = pattern.reflectance(p.x(), p.y());
+        if (std::isfinite(print)) out.add(kBlack + (kWhite - kBlack) * print, p);
+      }
+      out.sum /= side * side;
+      return out;
+    };
+    PixelSamples samples = sampled(kSide);
+    if (samples.hits > 0 && (samples.hits < kSide * kSide || samples.least < samples.most)) {
+      samples = sampled(kEdgeSide);
     }
-    if (hits == 0) return;
-    const Eigen::Vector3d point = board.world_from_board * (center_in_board / hits);
+    if (samples.hits == 0) return;
+    const Eigen::Vector3d point = board.world_from_board * (samples.points_mm / samples.hits);
     const int xx = rays.x0 + x;
     const int yy = rays.y0 + y;
     const int channel = static_cast<int>(cfa.at(xx, yy));
@@ -86,7 +106,7 @@ void add_board(const CameraView& view, const calib::CharucoBoard& board,
     }
     radiance[static_cast<std::size_t>(yy) * static_cast<std::size_t>(view.intrinsics.width_px) +
              static_cast<std::size_t>(xx)] +=
-        static_cast<float>(irradiance / std::numbers::pi * reflectance / (kSide * kSide));
+        static_cast<float>(irradiance / std::numbers::pi * samples.sum);
   };
   tbb::parallel_for(tbb::blocked_range<int>(0, rays.height, 8),
                     [&](const tbb::blocked_range<int>& range) {
