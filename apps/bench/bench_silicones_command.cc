@@ -1,4 +1,6 @@
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "apps/bench/bench_command.h"
 #include "apps/deviations/silicones_report.h"
@@ -24,8 +26,10 @@ void add_silicones_bench(CLI::App& bench, CommandContext& context,
       ->capture_default_str();
   command->add_option("--body", options->bodies, "only this body (may be repeated)")
       ->check(CLI::IsMember({"cube", "bust"}));
+  std::vector<std::string> names;
+  for (const Silicone& silicone : silicones()) names.emplace_back(silicone.name);
   command->add_option("--silicone", options->silicones, "only this silicone (may be repeated)")
-      ->check(CLI::IsMember({"translucent", "white", "red"}));
+      ->check(CLI::IsMember(names));
   command->add_option("--images", options->images, "only this number of images (may be repeated)")
       ->check(CLI::Range(1, 3));
   command

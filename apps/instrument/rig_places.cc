@@ -22,6 +22,8 @@ RigPlaces::Camera camera_place(const CameraIntrinsics& k, const PoseResult& pose
   return out;
 }
 
+}  // namespace
+
 std::array<Eigen::Vector3d, 4> board_corners(const calib::CharucoBoard& board) {
   const double width_mm = board.squares_x * board.square_mm;
   const double height_mm = board.squares_y * board.square_mm;
@@ -30,8 +32,6 @@ std::array<Eigen::Vector3d, 4> board_corners(const calib::CharucoBoard& board) {
   };
   return {at(0, 0), at(width_mm, 0), at(width_mm, height_mm), at(0, height_mm)};
 }
-
-}  // namespace
 
 RigPlaces rig_places(const Rig& rig, const ObjectScenes& objects,
                      const std::vector<ObservedShot>& shots) {

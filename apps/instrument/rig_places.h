@@ -39,10 +39,13 @@ struct RigPlaces {
   std::vector<Led> leds;     // lights of another kind have no place
   std::vector<Body> bodies;  // those that shots show
   std::vector<Eigen::Vector3d> marks;
-  // Outer corners of the board: lower left, lower right, upper right, upper left of the print.
+  // board_corners()
   std::optional<std::array<Eigen::Vector3d, 4>> board;
   std::optional<double> plane_z_mm;  // of the plane below the objects
 };
+
+// Outer corners of a board: lower left, lower right, upper right, upper left of the print.
+std::array<Eigen::Vector3d, 4> board_corners(const calib::CharucoBoard& board);
 
 // The poses are those of the shots. Corners without a ray (a lens's model ends there) point where
 // the lens without distortion would see them.

@@ -7,6 +7,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "apps/instrument/rig_places.h"
 #include "core/camera/cfa_samples.h"
 
 namespace scattermeter::apps {
@@ -34,24 +35,14 @@ struct PixelSamples {
   }
 };
 
-// A mesh of the board's four corners.
-TriangleMesh outline(const calib::CharucoBoard& board) {
-  const double w = board.squares_x * board.square_mm;
-  const double h = board.squares_y * board.square_mm;
-  TriangleMesh mesh;
-  for (const Eigen::Vector3d& p : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(w, 0, 0),
-                                   Eigen::Vector3d(w, h, 0), Eigen::Vector3d(0, h, 0)}) {
-    mesh.vertices_mm.push_back(board.world_from_board * p);
-  }
-  return mesh;
-}
-
 }  // namespace
 
 void add_board(const CameraView& view, const calib::CharucoBoard& board,
                const std::vector<Led>& leds, const Eigen::Array3d& ambient_W_per_mm2,
                const RayScene& object, const CfaPattern& cfa, std::vector<float>& radiance) {
-  const TriangleMesh corners = outline(board);
+  const auto corners_mm = board_corners(board);
+  TriangleMesh corners;
+  corners.vertices_mm.assign(corners_mm.begin(), corners_mm.end());
   const ViewCheck check = check_view(view, corners);
   if (!check.in_front || !check.in_frame) return;
   const RayGrid rays = rays_around(view, corners, 4);

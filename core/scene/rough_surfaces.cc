@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/light/gloss.h"
 #include "core/material/cosine_table.h"
@@ -94,6 +96,7 @@ RoughSurfaces::RoughSurfaces(const Scene& scene, std::size_t channel,
   Eigen::Index n = 0;
   for (const Rows& shot : rows) n += static_cast<Eigen::Index>(shot.rows.size());
   gloss_ = relative_ = log_mismatch_ = gloss_change_ = Eigen::VectorXd::Zero(n);
+  std::map<const SceneObject*, std::pair<Transmittances, Transmittances>> by_object;
   Eigen::Index at = 0;
   for (const Rows& shot : rows) {
     const SceneObject& object = *shot.seen->object->stated;
@@ -103,8 +106,16 @@ RoughSurfaces::RoughSurfaces(const Scene& scene, std::size_t channel,
     if (!(alpha > 0.0)) continue;
     const double more = std::min(RoughBoundary::kMostAlpha, (1.0 + kStep) * alpha);
     const double less = (1.0 - kStep) * alpha;
-    const Transmittances rougher(more, object.eta_int_over_ext);
-    const Transmittances smoother(less, object.eta_int_over_ext);
+    // The shots of an object share them.
+    auto found = by_object.find(&object);
+    if (found == by_object.end()) {
+      const double eta = object.eta_int_over_ext;
+      found = by_object
+                  .emplace(&object, std::pair{Transmittances(more, eta), Transmittances(less, eta)})
+                  .first;
+    }
+    const Transmittances& rougher = found->second.first;
+    const Transmittances& smoother = found->second.second;
     const auto gloss_at = [&](double a) {
       return row_gloss(scene, *shot.shot, *shot.seen, channel, a).l;
     };
