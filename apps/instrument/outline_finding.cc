@@ -16,7 +16,8 @@ std::string advice_for(const calib::OutlineExplanation& e, const std::string& ob
     case OutlineCause::kCamera:
       return "take the pose points again, or all shots";
     case OutlineCause::kShotMoved:
-      return "take this shot again";
+      return "take this shot again, or, if the piece was moved between its shots, have it found in "
+             "each of them (objects.NAME.pose: {from: silhouette, per_shot: true})";
     default:
       return fmt::format(
           "put the object back or place the mesh of objects.{} where it stands; if the camera was "

@@ -101,7 +101,7 @@ std::vector<std::string> place_pieces(Rig& rig, const std::string& shots_folder,
     if (!found.problem.empty()) {
       std::vector<std::string> names;
       for (const SceneShot* shot : shots) names.push_back(shot->file);
-      throw InputError(rig.at(object.line) + ": objects." + object.name + ".pose.from",
+      throw InputError(rig.at(object.line) + ": objects." + object.piece_name() + ".pose.from",
                        fmt::format("{}: {}", fmt::join(names, ", "), found.problem));
     }
     object.world_from_mesh = found.moved * object.world_from_mesh;

@@ -1,15 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
-#include <Eigen/Geometry>
 
 #include "apps/rig/rig.h"
 #include "apps/rig/rig_camera_reader.h"
 #include "apps/rig/rig_fields.h"
 #include "apps/rig/rig_light_reader.h"
+#include "apps/rig/rig_place_reader.h"
 #include "apps/rig/rig_pose_reader.h"
 #include "apps/rig/rig_roughness_reader.h"
 #include "apps/rig/rig_sensor_truth.h"
@@ -47,32 +46,6 @@ void read_phase(const YamlField& field, SceneObject& object) {
     object.phase = g.number(kLeast, kMost);
   }
   object.gamma_std = std ? std->number(0.0, 2.0) : default_uncertainty::kStatedGamma;
-}
-
-// Where the mesh stands, or about where.
-void read_place(const YamlField& field, SceneObject& object) {
-  field.only({"position_mm", "turn_deg", "from", "on_plane"});
-  if (const auto f = field.find("position_mm")) {
-    object.world_from_mesh.translation_mm = f->vector3();
-  }
-  if (const auto f = field.find("turn_deg")) {
-    const Eigen::Vector3d rad = std::numbers::pi / 180.0 * f->vector3();
-    object.world_from_mesh.rotation = Eigen::AngleAxisd(rad.z(), Eigen::Vector3d::UnitZ()) *
-                                      Eigen::AngleAxisd(rad.y(), Eigen::Vector3d::UnitY()) *
-                                      Eigen::AngleAxisd(rad.x(), Eigen::Vector3d::UnitX());
-  }
-  if (const auto f = field.find("from")) {
-    const std::string from = f->text();
-    if (from == "silhouette") {
-      object.to_be_found.emplace();
-    } else if (from != "stated") {
-      f->fail("expected stated or silhouette");
-    }
-  }
-  if (const auto f = field.find("on_plane")) {
-    if (!object.to_be_found) f->fail("is for from: silhouette only");
-    object.to_be_found->is_on_plane = f->boolean();
-  }
 }
 
 SceneObject read_object(const std::string& name, const YamlField& field,
@@ -266,6 +239,7 @@ Rig read_rig(const std::string& path, bool with_radiance) {
     }
   }
   require_lights_of_rough_objects(rig.scene);
+  separate_standings(rig.scene);
   if (rig.scene.shots.empty()) shots.fail("expected at least one shot");
   if (const auto f = top.find("surroundings")) rig.scene.surroundings = read_surroundings(*f);
   if (const auto f = top.find("calibration")) rig.calibration = read_calibration(*f, path);

@@ -108,7 +108,7 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
 // The effect of the object's position, orientation and size: what the samples see shifts along the
 // surface as if the camera moved, and every LED moves the other way. A larger object looks like the
 // mesh with camera and LEDs nearer to its centre, LEDs of less power, and coefficients that are
-// larger by as much (widen_by_mesh_scale()).
+// larger by as much (widen_by_mesh_scale()). The standings of one piece have one size.
 void SceneNuisances::add_place(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
                                Columns& columns) const {
   const SeenObject& seen = *shot.seen;
@@ -146,7 +146,8 @@ void SceneNuisances::add_place(const ObservedShot& shot, const Eigen::Matrix3Xd&
                 k < 3 ? std_mm : std_mm / seen.object->size_mm(), change.col(k));
   }
   if (stated.scale_relative_std > 0.0) {
-    columns.add(stated.name + ".size", "mesh scale", stated.scale_relative_std, change.col(6));
+    columns.add(stated.piece_name() + ".size", "mesh scale", stated.scale_relative_std,
+                change.col(6));
   }
 }
 

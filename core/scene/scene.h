@@ -53,10 +53,12 @@ struct SceneCamera {
 // How a piece is found in the shots of it (calib/pose/piece_pose.h).
 struct PieceSearch {
   bool is_on_plane = false;  // it stands as stated, but for x, y and a turn about the world's z
+  bool is_per_shot = false;  // it was moved between its shots
 };
 
 struct SceneObject {
   std::string name;
+  std::string piece;        // whose size it has, if that of several objects; "": its own
   std::string mesh_path;    // of a closed mesh, mm; for messages and for the code that reads it
   Rigid3d world_from_mesh;  // its position in the world
   std::optional<PieceSearch> to_be_found;  // that position is only about right
@@ -74,6 +76,8 @@ struct SceneObject {
   double edge_std_mm = 0;         // how far the edges may be cut back from those of the mesh, mm
   std::optional<double> patch_size_mm;  // absent: chosen
   int line = 0;
+
+  const std::string& piece_name() const { return piece.empty() ? name : piece; }
 };
 
 // A new kind of light is added here.

@@ -84,5 +84,43 @@ TEST_F(PiecePlacesTest, NothingToBeFoundOrNothingThere) {
   EXPECT_THROW(place_pieces(found, files_->out()), InputError);
 }
 
+// The cube was displaced and turned between its two shots.
+TEST(PieceMoved, BetweenItsShots) {
+  SmallRig files;
+  files.keep_shots("POM_cube");
+  const std::string text = files.text();
+  const std::string cube = "cube: {mesh: cube.obj, eta: 1.4";
+  const auto moved = [&](const std::string& to) {
+    return replaced(text, cube + "}", cube + ", pose: " + to);
+  };
+  files.write(
+      replaced(moved("{position_mm: [2, -1, 0], turn_deg: [0, 0, 4]}}\n  " + cube.substr(0, 4) +
+                     "2" + cube.substr(4) + ", pose: {position_mm: [-1.5, 1, 0]}}"),
+               "POM_cube_2.dng, object: cube", "POM_cube_2.dng, object: cube2"));
+  files.simulate();
+  files.write(moved("{from: silhouette, on_plane: true}}"));
+  for (const ChannelResult& r : measure(read_rig(files.rig()), files.shots(), {}).results) {
+    ASSERT_TRUE(r.refused()) << r.channel;
+    EXPECT_THAT(r.estimate.reasons.front(), HasSubstr("moved in POM_cube_"));
+    EXPECT_THAT(r.estimate.reasons.front(), HasSubstr("per_shot: true"));
+  }
+  files.write(moved("{from: silhouette, on_plane: true, per_shot: true}}"));
+  const Rig rig = read_rig(files.rig());
+  const Measurement m = measure(rig, files.shots(), {});
+  ASSERT_THAT(m.results, SizeIs(3));
+  for (std::size_t c = 0; c < 3; ++c) {
+    const ChannelResult& r = m.results[c];
+    const Medium& truth = rig.truth.materials.at("POM")[c];
+    EXPECT_FALSE(r.refused()) << r.channel;
+    const auto& s = r.estimate.sigma_s_prime_per_mm;
+    EXPECT_NEAR(s.value, truth.sigma_s_prime_per_mm, 4.0 * s.std) << r.channel;
+    const auto& a = r.estimate.sigma_a_per_mm;
+    EXPECT_NEAR(a.value, truth.sigma_a_per_mm, 4.0 * a.std) << r.channel;
+  }
+  ASSERT_GE(m.notes.size(), 2U);
+  EXPECT_THAT(m.notes[0], HasSubstr("cube in POM_cube_1.dng was found by its outline [2.0"));
+  EXPECT_THAT(m.notes[1], HasSubstr("cube in POM_cube_2.dng was found by its outline [-1.5"));
+}
+
 }  // namespace
 }  // namespace scattermeter::apps
