@@ -1,6 +1,8 @@
 // The few planes on which a body's facets lie.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +22,13 @@ struct BodyPlanes {
   std::vector<BodyPlane> planes;    // empty: more than were allowed
   std::vector<int> plane_of_facet;  // index; empty with the planes
   bool convex = false;              // the body is what lies behind all planes
+
+  // Below the nearest of the planes; infinite without planes.
+  double least_depth_mm(const Eigen::Vector3d& x) const {
+    double least_mm = std::numeric_limits<double>::infinity();
+    for (const BodyPlane& p : planes) least_mm = std::min(least_mm, p.depth_mm(x));
+    return least_mm;
+  }
 };
 
 // Facets belong to one plane where normals agree to 1e-9 and offsets to 1e-9 of the body's size.

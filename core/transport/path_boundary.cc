@@ -36,10 +36,8 @@ PathBoundary::Flight PathBoundary::fly_by_planes(Eigen::Vector3d& x,
                                                  const Eigen::Vector3d& direction, double& step_mm,
                                                  double& clearance_mm, Crossing& crossing) const {
   const Eigen::Vector3d end = x + step_mm * direction;
-  double least_mm = std::numeric_limits<double>::infinity();
-  for (const BodyPlane& p : body_.planes) least_mm = std::min(least_mm, p.depth_mm(end));
-  clearance_mm = least_mm;
-  if (least_mm > 0.0) {
+  clearance_mm = body_.least_depth_mm(end);
+  if (clearance_mm > 0.0) {
     x = end;
     step_mm = 0.0;
     return Flight::kInside;

@@ -44,9 +44,9 @@ class PathBoundary {
   const BodyPlanes& body() const { return body_; }
   bool by_planes() const { return by_planes_; }
   bool convex() const { return convex_; }
-  // A lower bound of the distance from a point inside to the surface; 0 if by_planes().
+  // A lower bound of the distance from a point inside to the surface; exact if by_planes().
   double clearance_mm(const Eigen::Vector3d& x) const {
-    return grid_ ? std::max(0.0, grid_->at(x)) : 0.0;
+    return std::max(0.0, grid_ ? grid_->at(x) : body_.least_depth_mm(x));
   }
   const Eigen::Vector3d& facet_normal(int facet) const {
     return normal_[static_cast<std::size_t>(facet)];

@@ -1,6 +1,7 @@
 // Monte Carlo tracing of light paths in a scattering body.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -9,41 +10,17 @@
 #include <Eigen/Core>
 
 #include "core/base/random_stream.h"
-#include "core/light/diffuse_plane.h"
 #include "core/light/entry_source.h"
 #include "core/material/fresnel.h"
 #include "core/material/phase_function.h"
 #include "core/material/rough_boundary.h"
-#include "core/material/scattering_medium.h"
 #include "core/material/smooth_boundary.h"
-#include "core/transport/camera_connection.h"
-#include "core/transport/path_boundary.h"
-#include "core/transport/path_peers.h"
+#include "core/transport/deep_scattering.h"
 #include "core/transport/path_plane.h"
 #include "core/transport/path_score.h"
+#include "core/transport/path_world.h"
 
 namespace scattermeter {
-
-struct PathOptions {
-  std::uint64_t seed = 1;
-  int paths_per_block = 4096;        // >= 1
-  double roulette_weight = 0.1;      // relative to the initial weight; below it, roulette
-  int max_scatterings = 10'000'000;  // of one path; its remaining power counts as lost
-  // Processes that share the blocks (in trace_blocks with a SentTally); null: all are traced here.
-  PathPeers* peers = nullptr;
-};
-
-// The body, medium, source, camera and surroundings of the paths. Pointers and references must
-// outlive it.
-struct PathWorld {
-  const PathBoundary& boundary;
-  ScatteringMedium medium;
-  const EntrySource& source;
-  const CameraConnection* camera = nullptr;  // null: no connections
-  // Below the body (precondition). Light of the source that meets the plane first belongs to the
-  // source (plane_entry()).
-  std::optional<DiffusePlane> plane = std::nullopt;
-};
 
 // Traces one block of paths, with the same digits wherever and whenever. Weights are such that the
 // scores of one block add up to an estimate of the whole; blocks are independent.
@@ -53,6 +30,11 @@ struct PathWorld {
 // Absorption lowers its weight (albedo at each scattering) and ends it by roulette only. Light that
 // leaves a non-convex body may enter it again, and light that meets the plane is reflected
 // diffusely, with its albedo as a factor; otherwise it is an escape.
+//
+// Deep inside (isotropic_beyond) a path may take the few steps of an isotropic medium in place of
+// the many of a phase function of forward peak: light that comes back to the surface from there has
+// forgotten by which function it was turned. The scatterings of such a path's score count those
+// steps as one each, so that it cannot be weighted for another sigma_s.
 //
 // Sink has escape(const PathScore&): power that leaves for good; and camera(const PathScore&): see
 // CameraConnection. With a plane, the camera sees what leaves the body towards it, whether or not
@@ -69,6 +51,9 @@ class PathTracer {
         albedo_(world.medium.albedo()),
         mean_free_path_mm_(1.0 / world.medium.sigma_t_per_mm()) {
     world.medium.check();
+    if (!phase_.is_isotropic() && std::isfinite(options.isotropic_beyond)) {
+      deep_.emplace(world.medium, options.isotropic_beyond);
+    }
     if (world.plane) plane_.emplace(*world.plane, world.boundary.size_mm());
     if (world.medium.surface_alpha > 0.0) rough_.emplace(world.medium.surface_alpha, eta_);
   }
@@ -87,18 +72,16 @@ class PathTracer {
 
  private:
   void trace(const Entry& entry, RandomStream& random) {
-    Path path{entry.position_mm,
-              entry.direction,
-              entry.power / options_.paths_per_block,
-              0,
-              0.0,
-              false,
-              false};
+    Path path{entry.position_mm, entry.direction, entry.power / options_.paths_per_block};
     audit_.entered += path.weight;
     const double roulette_below = options_.roulette_weight * path.weight;
     double clearance_mm = 0.0;
     Crossing crossing;
     for (;;) {
+      if (deep_ && clearance_mm > deep_->enters_mm &&
+          !walks_deep(roulette_below, random, path, clearance_mm)) {
+        return;
+      }
       double step_mm = -std::log(random.uniform()) * mean_free_path_mm_;
       path.length_mm += step_mm;
       while (step_mm > 0.0) {
@@ -113,28 +96,14 @@ class PathTracer {
           path.length_mm += step_mm;
         }
       }
-      if (++path.scatterings > options_.max_scatterings) return lose(path);
-      ++audit_.scatterings;
-      audit_.absorbed += (1.0 - albedo_) * path.weight;
-      path.weight *= albedo_;
+      if (!scatters(albedo_, path)) return;
       if (world_.camera != nullptr) {
         world_.camera->connect(
             {path.x, path.direction, path.weight, path.scatterings, path.length_mm}, random,
             scores_);
         for (const PathScore& score : scores_) sink_.camera(score);
       }
-      path.direction = phase_.sample(path.direction, random);
-      path.straight = true;
-      path.by_plane = false;
-      if (path.weight < roulette_below) {
-        constexpr double kSurvives = 0.1;
-        if (random.uniform() >= kSurvives) {
-          audit_.roulette += path.weight;
-          return;
-        }
-        audit_.roulette -= path.weight * (1.0 / kSurvives - 1.0);
-        path.weight /= kSurvives;
-      }
+      if (!turns(phase_, roulette_below, random, path)) return;
     }
   }
 
@@ -142,12 +111,56 @@ class PathTracer {
     Eigen::Vector3d x;
     Eigen::Vector3d direction;
     double weight;
-    int scatterings;
-    double length_mm;  // up to the end of the current step
-    bool straight;     // as in PathScore
-    bool by_plane;
+    int scatterings = 0;
+    double length_mm = 0.0;  // up to the end of the current step
+    bool straight = false;   // as in PathScore
+    bool by_plane = false;
     bool by_several = false;  // as it last met the surface
   };
+
+  // Until it comes near the surface (true) or its power is gone.
+  bool walks_deep(double roulette_below, RandomStream& random, Path& path, double& clearance_mm) {
+    for (;;) {
+      clearance_mm = world_.boundary.clearance_mm(path.x);
+      if (clearance_mm < deep_->enters_mm) return true;
+      const double step_mm = -std::log(random.uniform()) * deep_->mean_free_path_mm;
+      const double within_mm = std::min(step_mm, clearance_mm - deep_->least_mm);
+      path.x += within_mm * path.direction;
+      path.length_mm += within_mm;
+      clearance_mm -= within_mm;
+      if (within_mm < step_mm) return true;
+      if (!scatters(deep_->albedo, path)) return false;
+      if (!turns(PhaseFunction(), roulette_below, random, path)) return false;
+    }
+  }
+
+  // Counts a scattering and its absorption; false: one too many.
+  bool scatters(double albedo, Path& path) {
+    if (++path.scatterings > options_.max_scatterings) {
+      lose(path);
+      return false;
+    }
+    ++audit_.scatterings;
+    audit_.absorbed += (1.0 - albedo) * path.weight;
+    path.weight *= albedo;
+    return true;
+  }
+
+  // Takes a new direction; false: ended by roulette.
+  bool turns(const PhaseFunction& phase, double roulette_below, RandomStream& random, Path& path) {
+    path.direction = phase.sample(path.direction, random);
+    path.straight = true;
+    path.by_plane = false;
+    if (path.weight >= roulette_below) return true;
+    constexpr double kSurvives = 0.1;
+    if (random.uniform() >= kSurvives) {
+      audit_.roulette += path.weight;
+      return false;
+    }
+    audit_.roulette -= path.weight * (1.0 / kSurvives - 1.0);
+    path.weight /= kSurvives;
+    return true;
+  }
 
   // At the surface from inside: reflects (false) or refracts out (true).
   bool leaves(const Crossing& at, RandomStream& random, Path& path) const {
@@ -277,6 +290,7 @@ class PathTracer {
   double mean_free_path_mm_;
   std::optional<PathPlane> plane_;
   std::optional<RoughBoundary> rough_;
+  std::optional<DeepScattering> deep_;
   PathAudit audit_;
   std::vector<PathScore> scores_;
 };

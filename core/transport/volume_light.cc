@@ -76,6 +76,7 @@ VolumeLight volume_radiosity(const SurfaceField& field, const PatchMesh& patches
   }
   PathOptions path_options;
   path_options.seed = options.seed;
+  path_options.isotropic_beyond = kIsotropicBeyond;
   path_options.paths_per_block = static_cast<int>((options.paths + kBlocks - 1) / kBlocks);
   path_options.peers = options.peers;
   const auto n_nodes = static_cast<Eigen::Index>(field.nodes_mm().size());

@@ -71,6 +71,7 @@ void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
                                    world.medium.phase, world.medium.surface_alpha);
   PathOptions options;
   options.seed = seed;
+  options.isotropic_beyond = kIsotropicBeyond;
   options.paths_per_block = static_cast<int>((paths_of(levels() + 1) - paths()) / kBatches);
   const int first = levels() * kBatches;
   int batch = 0;

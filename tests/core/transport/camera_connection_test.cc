@@ -93,7 +93,7 @@ TEST(CameraConnection, SeesSingleScatteringThroughARoughFace) {
     PathOptions options;
     options.paths_per_block = 2000;
     trace_blocks<FirstScatterings>(
-        {boundary, medium, *source, &camera}, options, 0, 120, [] { return FirstScatterings(); },
+        {boundary, medium, *source, &camera}, options, 0, 160, [] { return FirstScatterings(); },
         [&](const FirstScatterings& s, const PathAudit&) { seen.add(s.middle); });
     const RoughBoundary rough(alpha, kRoughEta);
     RandomStream random(1, 0);
