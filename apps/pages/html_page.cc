@@ -48,6 +48,12 @@ summary { cursor: pointer; font-weight: 600; }
 meter { width: 6rem; }
 .swatch { display: inline-block; width: 4rem; height: 1.6rem; vertical-align: middle;
   border: 1px solid var(--line); border-radius: 4px; }
+img.look { display: block; width: 6rem; height: auto; background: #000000; border-radius: 4px; }
+td img.look { width: 3rem; }
+.aside { display: flex; flex-wrap: wrap; gap: 0.8rem; align-items: start; }
+.aside > figure { width: 15rem; max-width: 100%; }
+.aside > figure img.look { width: 100%; }
+.aside > .scroll { margin: 0; flex: 1 1 22rem; min-width: 0; }
 @media (max-width: 30rem) { body { padding: 0.6rem; } th, td { padding: 0.25rem 0.4rem; } }
 )css";
 
@@ -190,6 +196,10 @@ Html html_figures(const std::vector<Html>& figures) {
   Html all;
   for (const Html& f : figures) all += f;
   return {"<div class=\"figures\">\n" + all.markup + "</div>\n"};
+}
+
+Html html_aside(const Html& figure, const Html& table) {
+  return {"<div class=\"aside\">\n" + figure.markup + table.markup + "</div>\n"};
 }
 
 Html html_details(const std::string& summary, const Html& inner) {

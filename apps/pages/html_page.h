@@ -55,6 +55,9 @@ Html html_widget(const std::string& kind, const std::string& json, const Html& c
 // Figures side by side as far as the width of the page allows.
 Html html_figures(const std::vector<Html>& figures);
 
+// A figure with its picture beside a table, below it where the page is narrow.
+Html html_aside(const Html& figure, const Html& table);
+
 // A section that opens on a click.
 Html html_details(const std::string& summary, const Html& inner);
 

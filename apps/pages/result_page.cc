@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,27 +40,56 @@ HtmlTable::Cell verdict(const Estimate& e) {
   return e.reasons.empty() ? text_cell("ok", "pass") : text_cell("refused", "fail");
 }
 
-Html overview(const Measurement& m) {
+// The channels of a material, and how it looks.
+struct MaterialPart {
+  std::vector<const ChannelResult*> channels;
+  std::optional<MaterialLook> look;
+};
+
+std::vector<MaterialPart> parts_of(const Measurement& m) {
+  std::vector<MaterialPart> parts;
+  for (const ChannelResult& r : m.results) {
+    if (parts.empty() || parts.back().channels.front()->material != r.material) {
+      parts.emplace_back();
+    }
+    parts.back().channels.push_back(&r);
+  }
+  for (MaterialPart& part : parts) part.look = material_look(part.channels);
+  return parts;
+}
+
+Html overview(const std::vector<MaterialPart>& parts) {
   HtmlTable table;
   table.header = {
       "material",     "",         "verdict", "sigma_s' [1/mm]", "sigma_a [1/mm]", "sigma_s' 95 %",
       "sigma_a 95 %", "residual", "chi2/n",  "model",           "shots",          "shots agree"};
-  for (const ChannelResult& r : m.results) {
+  const auto add = [&](const ChannelResult& r, const Html& picture) {
     const Estimate& e = r.estimate;
     const bool known = e.converged;
+    Html name = html_text(r.material);
+    name += picture;
     table.rows.push_back(
-        {text_cell(r.material), text_cell(std::string(1, r.channel)), verdict(e),
+        {{name, false, ""},
+         text_cell(std::string(1, r.channel)),
+         verdict(e),
          number_cell(known ? value_with_deviation(e.sigma_s_prime_per_mm) : "–"),
          number_cell(known ? value_with_deviation(e.sigma_a_per_mm) : "–"),
          number_cell(interval(e.sigma_s_prime_per_mm, known)),
          number_cell(interval(e.sigma_a_per_mm, known)),
          number_cell(known ? fmt::format("{:.2f} %", 100.0 * e.rms_relative) : "–"),
-         number_cell(known ? fmt::format("{:.2f}", e.reduced_chi2) : "–"), text_cell(r.model),
+         number_cell(known ? fmt::format("{:.2f}", e.reduced_chi2) : "–"),
+         text_cell(r.model),
          number_cell(std::to_string(r.shots.size())),
          r.agreement.dof == 0 ? text_cell("–")
          : r.agreement.disagree()
              ? text_cell(fmt::format("no (p = {:.1g})", r.agreement.p_value), "fail")
              : text_cell("yes", "pass")});
+  };
+  for (const MaterialPart& part : parts) {
+    for (const ChannelResult* r : part.channels) {
+      const bool is_first = r == part.channels.front();
+      add(*r, part.look && is_first ? look_picture(*part.look, r->material) : Html{});
+    }
   }
   return html_table(table);
 }
@@ -156,10 +186,10 @@ Html maps(const std::vector<const ChannelResult*>& channels, double full_scale_p
   return out;
 }
 
-Html material_section(const std::vector<const ChannelResult*>& channels, double full_scale_percent,
-                      std::size_t most_bytes) {
+Html material_section(const MaterialPart& part, double full_scale_percent, std::size_t most_bytes) {
+  const std::vector<const ChannelResult*>& channels = part.channels;
   Html out = html_element("h2", html_text(channels.front()->material));
-  out += swatches(channels);
+  if (part.look) out += swatches(channels, *part.look);
   std::vector<PagePlot> plots;
   for (const ChannelResult* r : channels) {
     for (PagePlot& plot : reflectance_plots(*r)) plots.push_back(std::move(plot));
@@ -204,10 +234,9 @@ Html material_section(const std::vector<const ChannelResult*>& channels, double 
 std::string result_page(const Measurement& m, const std::string& command_line) {
   const auto refused =
       std::count_if(m.results.begin(), m.results.end(), [](const auto& r) { return r.refused(); });
+  const std::vector<MaterialPart> parts = parts_of(m);
   std::vector<std::string> materials;
-  for (const ChannelResult& r : m.results) {
-    if (materials.empty() || materials.back() != r.material) materials.push_back(r.material);
-  }
+  for (const MaterialPart& part : parts) materials.push_back(part.channels.front()->material);
   const std::string title =
       fmt::format("Scattering and absorption of {}", fmt::join(materials, ", "));
   Html body = html_element("h1", html_text(title));
@@ -220,7 +249,7 @@ std::string result_page(const Measurement& m, const std::string& command_line) {
     if (!sentence.empty()) body += html_element("p", html_text(sentence));
   }
   body += reasons(m);
-  body += overview(m);
+  body += overview(parts);
   double total_s = 0.0;
   for (const auto& [stage, seconds] : m.timing_s) {
     if (stage == "total") total_s = seconds;
@@ -244,13 +273,8 @@ std::string result_page(const Measurement& m, const std::string& command_line) {
       full_scale_percent = std::max(full_scale_percent, difference_scale_percent(rows));
     }
   }
-  for (std::size_t i = 0; i < m.results.size();) {
-    std::vector<const ChannelResult*> channels;
-    const std::string& material = m.results[i].material;
-    for (; i < m.results.size() && m.results[i].material == material; ++i) {
-      channels.push_back(&m.results[i]);
-    }
-    body += material_section(channels, full_scale_percent, kMostMapBytes / materials.size());
+  for (const MaterialPart& part : parts) {
+    body += material_section(part, full_scale_percent, kMostMapBytes / parts.size());
   }
   HtmlTable inputs;
   inputs.header = {"file", "sha256"};

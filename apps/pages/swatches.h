@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/instrument/measure.h"
@@ -16,9 +18,23 @@ inline constexpr double kSwatchThickness_mm = 10.0;
 Quantity plate_reflectance(const ChannelResult& result, double thickness_mm,
                            double background_albedo);
 
-// Reflectances of a plate over black and over white and of a thick block, with the colours on a
-// screen: the camera's R, G, B as those of sRGB, white light as its white (D65). Empty unless all
-// three channels were measured.
-Html swatches(const std::vector<const ChannelResult*>& channels);
+// A measured material on the standard body (apps/simulation/standard_body.h).
+struct MaterialLook {
+  std::string picture;  // data: address of a PNG in sRGB: white light (D65) as its white
+  // R, G, B at the two places, 1 for a white matt surface that faces the light; the standard
+  // deviation is that of the coefficients.
+  std::array<Quantity, kRgb> lit, shadow;
+};
+
+// Empty unless all three channels were measured.
+std::optional<MaterialLook> material_look(const std::vector<const ChannelResult*>& channels);
+
+// The picture, for a page; `material`: for the alternative text.
+Html look_picture(const MaterialLook& look, const std::string& material);
+
+// The look, and reflectances of a plate over black and over white and of a thick block, with the
+// colours on a screen: the camera's R, G, B as those of sRGB, white light as its white (D65).
+// Precondition: `look` is that of the channels.
+Html swatches(const std::vector<const ChannelResult*>& channels, const MaterialLook& look);
 
 }  // namespace scattermeter::apps

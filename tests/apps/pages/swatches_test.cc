@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/simulation/standard_body.h"
 #include "core/material/slab_reflectance.h"
 #include "tests/fixtures/apps/html_check.h"
 #include "tests/fixtures/apps/made_measurement.h"
@@ -42,7 +43,10 @@ TEST(Swatches, DeviationIsThatOfTheCoefficients) {
 
 TEST(Swatches, AllChannelsMakeAColour) {
   ChannelResult r = pom();
-  const Html html = swatches({&r, &r, &r});
+  const std::vector<const ChannelResult*> channels = {&r, &r, &r};
+  const std::optional<MaterialLook> look = material_look(channels);
+  ASSERT_TRUE(look.has_value());
+  const Html html = swatches(channels, *look);
   EXPECT_EQ(html_problem(html_document("t", html)), "");
   EXPECT_THAT(html.markup, HasSubstr("10 mm over white"));
   // The approximation's 1 % beside the little that the coefficients leave.
@@ -57,12 +61,33 @@ TEST(Swatches, AllChannelsMakeAColour) {
   EXPECT_EQ(code.substr(0, 2), code.substr(4, 2));
 }
 
+// Against pictures of media a quarter of a deviation to either side, along both coefficients.
+TEST(Swatches, TheLooksDeviationIsThatOfTheCoefficients) {
+  ChannelResult r = pom();
+  r.estimate.correlation = -0.4;
+  const MaterialLook look = material_look({&r, &r, &r}).value();
+  const Estimate& e = r.estimate;
+  const auto shadow = [&](double by_s, double by_a) {
+    std::array<Medium, 3> media;
+    media.fill({e.sigma_s_prime_per_mm.value + by_s * e.sigma_s_prime_per_mm.std,
+                e.sigma_a_per_mm.value + by_a * e.sigma_a_per_mm.std, r.eta_int_over_ext});
+    return standard_bodies({media})[0].at(StandardPlace::kShadow)[1];
+  };
+  const double by_s = 2.0 * (shadow(0.25, 0) - shadow(-0.25, 0));
+  const double by_a = 2.0 * (shadow(0, 0.25) - shadow(0, -0.25));
+  EXPECT_NEAR(look.shadow[1].value, shadow(0, 0), 1e-6);
+  EXPECT_NEAR(look.shadow[1].std, std::sqrt(by_s * by_s + by_a * by_a - 2.0 * 0.4 * by_s * by_a),
+              0.03 * look.shadow[1].std);
+}
+
 TEST(Swatches, NoneWhereAChannelIsMissing) {
   ChannelResult r = pom();
-  ChannelResult refused = r;
+  ChannelResult refused = r, denser = r;
   refused.estimate.reasons = {"dark"};
-  EXPECT_EQ(swatches({&r, &r}).markup, "");
-  EXPECT_EQ(swatches({&r, &refused, &r}).markup, "");
+  denser.eta_int_over_ext = 1.6;
+  EXPECT_FALSE(material_look({&r, &r}));
+  EXPECT_FALSE(material_look({&r, &refused, &r}));
+  EXPECT_FALSE(material_look({&r, &denser, &r}));
 }
 
 }  // namespace
