@@ -149,7 +149,7 @@ const std::vector<ManualEntry> kFiles = {
      "found relative to it. Its keys are described by share/scattermeter/rig.schema.json."},
     {"OUT/result.json, OUT/result.html",
      "The answers with uncertainties, budgets, and reasons for what is refused; described by "
-     "share/scattermeter/result.schema.json."},
+     "share/scattermeter/result.schema.json, whose $id it names as its $schema."},
     {"OUT/cache",
      "What the raw files decode to. It may be deleted at any time (measure --no-cache keeps "
      "none)."},

@@ -167,6 +167,7 @@ Json channel_json(const ChannelResult& r) {
 
 std::string result_json(const Measurement& m, const std::string& command_line) {
   Json j;
+  j["$schema"] = kResultSchema;
   j["results"] = Json::array();
   for (const ChannelResult& r : m.results) j["results"].push_back(channel_json(r));
   j["patch_size_mm"] = Json::object();

@@ -82,6 +82,11 @@ class Schema(unittest.TestCase):
             result = json.loads(Path(f"{home}/result/result.json").read_text(encoding="utf-8"))
             jsonschema.Draft7Validator.check_schema(RESULT)
             jsonschema.validate(result, RESULT)
+            # It names its schema, as results of earlier versions do not.
+            self.assertEqual(result["$schema"], RESULT["$id"])
+            jsonschema.validate({key: value for key, value in result.items() if key != "$schema"}, RESULT)
+            with self.assertRaises(jsonschema.ValidationError):
+                jsonschema.validate({**result, "$schema": "urn:scattermeter:result:2"}, RESULT)
             # Every key of a channel is described.
             self.assertLessEqual(set(result["results"][0]), set(RESULT["definitions"]["channel"]["properties"]))
             del result["results"][0]["verdict"]

@@ -27,6 +27,7 @@ TEST(ResultJson, HoldsTheContractsFields) {
   EXPECT_EQ(j["timing_s"]["total"], 1.5);
   EXPECT_EQ(j["command"], "scattermeter measure x");
   EXPECT_TRUE(j["version"].is_string());
+  EXPECT_EQ(j["$schema"], kResultSchema);
 }
 
 TEST(ResultJson, EveryNumberOfAChannel) {
