@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <ostream>
@@ -29,11 +30,23 @@ struct NewFile {
   std::string path, text;
 };
 
-std::string free_path(const fs::path& path) {
+struct Draft {
+  ShotListing listing;
+  std::vector<NewFile> meshes;
+  DraftedRig rig;
+};
+
+// Throws InputError for a file that there is already.
+void require_free(const std::string& path, const std::string& otherwise) {
   if (fs::exists(path)) {
-    throw InputError(path.string(), "exists already; init replaces no file: choose another --out");
+    throw InputError(path, "exists already; init replaces no file: " + otherwise);
   }
-  return path.string();
+}
+
+void require_free(const std::vector<NewFile>& meshes) {
+  for (const NewFile& mesh : meshes) {
+    require_free(mesh.path, "name it as the piece, if it is its mesh, or choose another --out");
+  }
 }
 
 // rig.schema.json as it stands beside the program, installed or built; "": it does not.
@@ -52,54 +65,9 @@ DraftedObject object_of(const std::string& body, const fs::path& folder,
   if (body.ends_with(".obj")) {
     mesh = fs::relative(body, folder.empty() ? fs::path(".") : folder).string();
   } else {
-    files.push_back({free_path(folder / mesh), obj_text(drafted.mesh)});
+    files.push_back({(folder / mesh).string(), obj_text(drafted.mesh)});
   }
   return {drafted.name, mesh, bounds(drafted.mesh)};
-}
-
-RigDraft draft_of(const InitArguments& a, std::vector<NewFile>& files) {
-  RigDraft draft;
-  if (!a.is_example) draft.listing = list_shots(a.shots);
-  draft.material = a.material;
-  draft.is_example = a.is_example;
-  draft.schema_path = schema_path();
-  if (!a.board.empty()) draft.board = drafted_board(a.board);
-  for (const std::string& led : a.leds) draft.leds.push_back(drafted_led(led));
-  for (const std::string& body : a.bodies) {
-    draft.objects.push_back(object_of(body, fs::path(a.out).parent_path(), files));
-  }
-  if (a.is_example) draft.listing = example_listing(draft.leds);
-  return draft;
-}
-
-// Asks for what the command line leaves open.
-void ask_for_the_rest(const CLI::App& command, std::ostream& out, InitArguments& a) {
-  Questions questions(std::cin, out);
-  const auto given = [&](const char* option) { return command.count(option) > 0; };
-  if (!given("--body")) {
-    a.bodies = questions.ask(
-        "Which piece? A body with sizes in mm (cube:20, box:30x20x10, slab:40x40x10, "
-        "pyramid:20x20x15, cylinder:20x20x30, sphere:20), or a mesh file",
-        a.bodies, [](const std::string& word) { drafted_body(word); });
-  }
-  if (!given("--material")) {
-    a.material = fmt::format("{}", fmt::join(questions.ask("Of which material?", {a.material},
-                                                           [](const std::string&) {}),
-                                             " "));
-  }
-  if (!given("--led")) {
-    a.leds = questions.ask(
-        "Which LEDs? Their names, each with its position in mm if you know it "
-        "(left:-60,-80,120)",
-        a.leds, [](const std::string& word) { drafted_led(word); });
-  }
-  if (!given("--board")) {
-    const auto board =
-        questions.ask("Which ChArUco board? Squares, mm of a square and of a marker", {kUsualBoard},
-                      [](const std::string& word) { drafted_board(word); });
-    // What is only taken for granted stays a placeholder.
-    if (board[0] != kUsualBoard) a.board = board[0];
-  }
 }
 
 template <class Named>
@@ -110,21 +78,79 @@ void require_distinct(const std::vector<Named>& all, const char* option) {
   }
 }
 
+// Everything that is to be written. Throws InputError for what the arguments name and cannot be
+// drafted; whether files are in the way is not looked at.
+Draft draft_of(const InitArguments& a, const ShotListing& listing) {
+  Draft out;
+  RigDraft draft;
+  draft.material = a.material;
+  draft.is_example = a.is_example;
+  draft.schema_path = schema_path();
+  if (!a.board.empty()) draft.board = drafted_board(a.board);
+  for (const std::string& led : a.leds) draft.leds.push_back(drafted_led(led));
+  for (const std::string& body : a.bodies) {
+    draft.objects.push_back(object_of(body, fs::path(a.out).parent_path(), out.meshes));
+  }
+  require_distinct(draft.objects, "--body");
+  require_distinct(draft.leds, "--led");
+  draft.listing = a.is_example ? example_listing(draft.leds) : listing;
+  out.rig = drafted_rig(draft);
+  out.listing = std::move(draft.listing);
+  return out;
+}
+
+// Asks for what the command line leaves open, each question until the draft with its answer can be
+// written.
+void ask_for_the_rest(const CLI::App& command, const ShotListing& listing, std::ostream& out,
+                      InitArguments& a) {
+  using Words = std::vector<std::string>;
+  Questions questions(std::cin, out);
+  const auto ask = [&](const char* option, const std::string& question, const Words& otherwise,
+                       const std::function<void(InitArguments&, const Words&)>& take) {
+    if (command.count(option) > 0) return;
+    take(a, questions.ask(question, otherwise, [&](const Words& words) {
+      InitArguments with = a;
+      take(with, words);
+      const Draft draft = draft_of(with, listing);
+      if (option == std::string("--body")) require_free(draft.meshes);
+    }));
+  };
+  ask("--body",
+      "Which piece? A body with sizes in mm (cube:20, box:30x20x10, slab:40x40x10, "
+      "pyramid:20x20x15, cylinder:20x20x30, sphere:20), or a mesh file",
+      a.bodies, [](InitArguments& with, const Words& words) { with.bodies = words; });
+  ask("--material", "Of which material?", {a.material},
+      [](InitArguments& with, const Words& words) {
+        with.material = fmt::format("{}", fmt::join(words, " "));
+      });
+  ask("--led",
+      "Which LEDs? Their names, each with its position in mm if you know it "
+      "(left:-60,-80,120)",
+      a.leds, [](InitArguments& with, const Words& words) { with.leds = words; });
+  ask("--board", "Which ChArUco board? Squares, mm of a square and of a marker", {kUsualBoard},
+      [](InitArguments& with, const Words& words) {
+        // What is only taken for granted stays a placeholder.
+        with.board = words[0] == kUsualBoard ? "" : words[0];
+      });
+}
+
 int run_init(InitArguments a, const CLI::App& command, CommandContext& context) {
   if (a.shots.empty() != a.is_example) {
     throw InputError("init", "needs the folder of the shots, or --example without one");
   }
+  // What can fail does so before a question is asked, whose answer would be lost.
   capture::require_output_file(a.out);
-  free_path(a.out);
+  require_free(a.out, "choose another --out");
+  const ShotListing listing = a.is_example ? ShotListing{} : list_shots(a.shots);
   if (!a.is_example && !a.asks_nothing && !context.quiet && at_a_terminal()) {
-    ask_for_the_rest(command, context.out, a);
+    const Draft given = draft_of(a, listing);
+    if (command.count("--body") > 0) require_free(given.meshes);
+    ask_for_the_rest(command, listing, context.out, a);
   }
-  std::vector<NewFile> files;
-  const RigDraft draft = draft_of(a, files);
-  require_distinct(draft.objects, "--body");
-  require_distinct(draft.leds, "--led");
-  const DraftedRig rig = drafted_rig(draft);
-  files.push_back({a.out, rig.yaml});
+  const Draft draft = draft_of(a, listing);
+  require_free(draft.meshes);
+  std::vector<NewFile> files = draft.meshes;
+  files.push_back({a.out, draft.rig.yaml});
   for (const NewFile& file : files) capture::write_text_file(file.path, file.text);
   read_rig(a.out);  // what it does not accept is a defect, told as such
   for (const std::string& skipped : draft.listing.skipped) {
@@ -134,12 +160,12 @@ int run_init(InitArguments a, const CLI::App& command, CommandContext& context) 
   context.out << draft.listing.shots.size() << " shots by a " << draft.listing.model << ", "
               << draft.listing.width_px << " x " << draft.listing.height_px << " px\n";
   for (const NewFile& file : files) context.out << "written: " << file.path << "\n";
-  if (rig.to_measure.empty()) {
+  if (draft.rig.to_measure.empty()) {
     context.out << "try: scattermeter simulate " << a.out << " --out shots\n";
     return 0;
   }
   context.out << "still to be measured (marked MEASURE in " << a.out << "):\n";
-  for (const std::string& what : rig.to_measure) context.out << "  - " << what << "\n";
+  for (const std::string& what : draft.rig.to_measure) context.out << "  - " << what << "\n";
   context.out << "then: scattermeter check " << a.shots << " --rig " << a.out << "\n";
   return 0;
 }

@@ -12,18 +12,18 @@
 
 namespace scattermeter::apps {
 
-std::vector<std::string> Questions::ask(const std::string& question,
-                                        const std::vector<std::string>& otherwise,
-                                        const std::function<void(const std::string&)>& check) {
+std::vector<std::string> Questions::ask(
+    const std::string& question, const std::vector<std::string>& otherwise,
+    const std::function<void(const std::vector<std::string>&)>& check) {
   for (;;) {
     out_ << question << " [" << fmt::format("{}", fmt::join(otherwise, " ")) << "]: " << std::flush;
     std::string line;
     if (!std::getline(in_, line)) return otherwise;
     std::istringstream typed(line);
-    const std::vector<std::string> words{std::istream_iterator<std::string>(typed), {}};
-    if (words.empty()) return otherwise;
+    std::vector<std::string> words{std::istream_iterator<std::string>(typed), {}};
+    if (words.empty()) words = otherwise;
     try {
-      for (const std::string& word : words) check(word);
+      check(words);
       return words;
     } catch (const InputError& e) {
       out_ << e.what() << "\n";

@@ -13,10 +13,11 @@ class Questions {
   Questions(std::istream& in, std::ostream& out) : in_(in), out_(out) {}
 
   // The words of the line that is typed; `otherwise` for an empty line and at the end of the input.
-  // Asks again, with the message, while `check` throws InputError for one of the words.
+  // Asks again, with the message, while `check` throws InputError for the words; they are not
+  // checked at the end of the input.
   std::vector<std::string> ask(const std::string& question,
                                const std::vector<std::string>& otherwise,
-                               const std::function<void(const std::string&)>& check);
+                               const std::function<void(const std::vector<std::string>&)>& check);
 
  private:
   std::istream& in_;

@@ -36,7 +36,7 @@ class FirstHour(unittest.TestCase):
         self.assertEqual(done.returncode, status, f"{words}\n{done.stdout}\n{done.stderr}")
         return done.stdout
 
-    def answer(self, lines, *words):
+    def answer(self, lines, *words, status=0):
         """Runs a command on a terminal, with these lines typed; returns what the terminal shows."""
         ours, theirs = pty.openpty()
         with subprocess.Popen([PROGRAM, *words], cwd=self.home, stdin=theirs, stdout=theirs, stderr=theirs) as process:
@@ -49,7 +49,7 @@ class FirstHour(unittest.TestCase):
             except OSError:  # the other end is closed
                 pass
             os.close(ours)
-        self.assertEqual(process.returncode, 0, shown.decode())
+        self.assertEqual(process.returncode, status, shown.decode())
         return shown.decode()
 
     def write(self, name, text):
@@ -92,9 +92,21 @@ class FirstHour(unittest.TestCase):
     def begin_rig(self):
         """What `init` writes, with the calibrations in place of what is marked MEASURE."""
         leds = " ".join(f"{name}:{position}" for name, position in LEDS.items())
-        asked = self.answer(["brick:20", "cube:20", "PE", leds, ""], "init", "first", "--out", "rig.yaml")
-        self.assertIn("--body: ", asked)  # the first answer is no body: asked again
-        self.assertEqual(asked.count("Which piece?"), 2)
+        # Asked again: no body, a body whose mesh is there already, two LEDs of one name.
+        self.write("sphere.obj", "another's\n")
+        asked = self.answer(["brick:20", "sphere:20", "cube:20", "PE", "led1 led1", leds, ""],
+                            "init", "first", "--out", "rig.yaml")
+        for problem in ("--body: ", "sphere.obj: exists already", "--led: names led1 twice"):
+            self.assertIn(problem, asked)
+        self.assertEqual((asked.count("Which piece?"), asked.count("Which LEDs?")), (3, 2))
+        self.assertEqual(self.read("sphere.obj"), "another's\n")
+        # What the options say wrongly is told before anything is asked.
+        for options, problem in ((["--out", "rig.yaml"], "rig.yaml: exists already"),
+                                 (["--out", "other.yaml", "--body", "cube:20"], "cube.obj: exists already"),
+                                 (["--out", "other.yaml", "--led", "led1:1,2"], "--led: ")):
+            asked = self.answer([], "init", "first", *options, status=2)
+            self.assertIn(problem, asked)
+            self.assertNotIn("?", asked)
         rig = self.read("rig.yaml")
         rig = self.replaced(rig, r"  intrinsics: .*?\n(?=\npose)", "  intrinsics: camera.yaml\n  radiance: radiance.yaml\n")
         rig = self.replaced(rig, r"pose:\n.*?\n\n", f"pose:\n  {self.charuco}\n  shot: pose.dng\n\n")

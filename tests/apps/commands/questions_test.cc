@@ -13,9 +13,11 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-void only_numbers(const std::string& word) {
-  if (word.find_first_not_of("0123456789") != std::string::npos) {
-    throw InputError("--n", "expected a number, got " + word);
+void only_numbers(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (word.find_first_not_of("0123456789") != std::string::npos) {
+      throw InputError("--n", "expected a number, got " + word);
+    }
   }
 }
 
@@ -35,6 +37,14 @@ TEST(Questions, AsksAgainAndEndsWithTheInput) {
   EXPECT_THAT(questions.ask("Which?", {"1"}, only_numbers), ElementsAre("5"));
   EXPECT_THAT(out.str(), HasSubstr("got four"));
   EXPECT_THAT(questions.ask("Which?", {"1"}, only_numbers), ElementsAre("1"));
+}
+
+TEST(Questions, ChecksTheDefaultAsWell) {
+  std::istringstream in("\n5\n");
+  std::ostringstream out;
+  Questions questions(in, out);
+  EXPECT_THAT(questions.ask("Which?", {"one"}, only_numbers), ElementsAre("5"));
+  EXPECT_THAT(out.str(), HasSubstr("got one"));
 }
 
 }  // namespace
