@@ -7,6 +7,7 @@
 #include "apps/commands/commands.h"
 #include "apps/instrument/calibration_inputs.h"
 #include "apps/pages/calibration_page.h"
+#include "apps/pages/led_plots.h"
 #include "apps/report/calibration_tables.h"
 #include "apps/results/result_json.h"
 #include "apps/rig/led_calibration_file.h"
@@ -77,9 +78,7 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
           path,
           calibration_page({"Calibration of " + light,
                             "Position, axis, lobe and intensity of the LED are known as below.",
-                            true,
-                            table,
-                            {}},
+                            true, table, led_fit_plots(calibration)},
                            context.command_line));
       if (!context.quiet) context.out << "written: " << path << "\n" << page;
     }

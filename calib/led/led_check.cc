@@ -75,31 +75,18 @@ void hold_planes(const Led& led, const LedShots& shots, const LedFit& fit, LedCh
     median[static_cast<Eigen::Index>(c)] = middle;
     check.power_change_percent[static_cast<Eigen::Index>(c)] = 100.0 * (middle - 1.0);
   }
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    ratio[i] = ratio[i] / median[cells[i].channel] - 1.0;
+  }
   double sum = 0.0, n = 0.0;
   for (const LedPlaneGrid& grid : shots.grids) {
-    LedPlaneMap map{grid.file, grid.columns, grid.rows, {}, {}};
-    const auto size = static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
-    std::vector<double> total(size, 0.0), variance(size, 0.0), count(size, 0.0);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const ShadedCell& cell = cells[i];
-      if (cell.shot != grid.shot || !std::isfinite(ratio[i])) continue;
-      const double percent = 100.0 * (ratio[i] / median[cell.channel] - 1.0);
-      const auto at = static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(grid.columns) +
-                      static_cast<std::size_t>(cell.column);
-      total[at] += percent;
-      variance[at] += std::pow(
-          100.0 * cell.std_W_per_mm2_sr / cell.radiance_W_per_mm2_sr * (1.0 + percent / 100.0), 2);
-      count[at] += 1.0;
-    }
-    for (std::size_t i = 0; i < size; ++i) {
-      map.percent.push_back(count[i] > 0.0 ? total[i] / count[i] : kNotSeen);
-      map.std_percent.push_back(count[i] > 0.0 ? std::sqrt(variance[i]) / count[i] : kNotSeen);
-      if (!(count[i] > 0.0)) continue;
-      sum += map.percent.back() * map.percent.back();
+    check.maps.push_back(plane_map(grid, cells, ratio));
+    for (const double percent : check.maps.back().percent) {
+      if (std::isnan(percent)) continue;
+      sum += percent * percent;
       n += 1.0;
-      check.plane_worst_percent = std::max(check.plane_worst_percent, std::abs(map.percent.back()));
+      check.plane_worst_percent = std::max(check.plane_worst_percent, std::abs(percent));
     }
-    check.maps.push_back(std::move(map));
   }
   check.plane_rms_percent = n > 0.0 ? std::sqrt(sum / n) : kNotSeen;
   if (n == 0.0) check.plane_worst_percent = kNotSeen;

@@ -9,18 +9,9 @@
 
 #include "calib/led/led_calibration_input.h"
 #include "calib/led/led_shots.h"
+#include "calib/led/plane_map.h"
 
 namespace scattermeter::calib {
-
-// The shading of a plane compared with the prediction from the rig, cell by cell.
-struct LedPlaneMap {
-  std::string file;
-  int columns = 0, rows = 0;
-  // Measured over predicted radiance minus one, in percent, averaged over the channels after
-  // subtracting the median of each (power_change_percent); row by row, NaN where there is no cell.
-  // Then its standard deviation from the noise of the samples.
-  std::vector<double> percent, std_percent;
-};
 
 struct LedCheck {
   std::string light;
@@ -36,6 +27,7 @@ struct LedCheck {
   // is the change of the product of power and responsivity: in a rig without a responsivity only
   // comparisons between lights have a meaning.
   Eigen::Array3d power_change_percent;
+  // The shading of each plane shot, after subtracting the median of each channel.
   std::vector<LedPlaneMap> maps;
   std::vector<std::string> highlight_names;
   std::vector<Eigen::Vector2d> highlights_px;           // measured

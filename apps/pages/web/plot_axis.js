@@ -15,7 +15,8 @@ export function plotAxis(stated, side, scale) {
     values: (u, ticks) => stated.log ? ticks.map(tickText) : linearTickTexts(ticks),
   };
   if (side === 3) {
-    out.size = (u, values) => 16 + 7 * Math.max(3, ...(values ?? []).map(v => v.length));
+    // Room for ticks and gap, and for the widest number in a wide font.
+    out.size = (u, values) => 20 + 8 * Math.max(3, ...(values ?? []).map(v => v.length));
   } else {
     out.space = 60;
     out.size = 34;

@@ -29,5 +29,6 @@ export function scaleBar(colours) {
   bar.style.background = `linear-gradient(to right, ${stops.join(',')})`;
   const [name, unit] = labelAndUnit(colours.label);
   const low = numberText(scale.low, 3), high = numberText(scale.high, 3);
-  return element('span', {class: 'entry'}, `${name}${unit ? ` [${unit}]` : ''}: ${low}`, bar, high);
+  return element('span', {class: 'entry'}, `${name}${unit ? ` [${unit}]` : ''}: `,
+                 element('span', {class: 'scale'}, low, bar, high));
 }

@@ -50,5 +50,43 @@ TEST(LedPlots, NoCellNoMap) {
   EXPECT_TRUE(led_plane_plots({}).empty());
 }
 
+// Two cells, seen at 0 and at 45 degrees from the axis of an LED of exponent 1, the second one 2 %
+// brighter than the fit, and two highlights, one of them left out.
+TEST(LedPlots, FitAgainstWhatWasMeasured) {
+  calib::LedCalibration c;
+  c.light = "led1";
+  c.fit.led.position_mm = {0, 0, 50};
+  c.fit.highlight_residuals_px = {{0.25, -0.5}, {7.0, 0.0}};
+  c.fit.highlight_used = {true, false};
+  c.fit.cell_residuals = {0.0, 0.02};
+  c.fit.cell_used = {true, true};
+  c.shots.grids = {{"plane.dng", 0, 2, 1}};
+  c.shots.scene.planes.resize(1);
+  for (const int column : {0, 1}) {
+    calib::ShadedCell& cell = c.shots.scene.cells.emplace_back();
+    cell.column = column;
+    cell.radiance_W_per_mm2_sr = 1.0;
+    cell.std_W_per_mm2_sr = 0.001;
+  }
+  c.shots.scene.planes[0].origin_mm = {0, 0, 0};
+  c.shots.scene.cells[1].on_plane_mm = {50.0, 0.0};
+  const std::vector<PagePlot> plots = led_fit_plots(c);
+  ASSERT_EQ(plots.size(), 5U);  // highlights, lobe, difference, two maps
+  EXPECT_EQ(plots[0].plot.series[0].y, (std::vector<double>{-0.5}));
+  EXPECT_EQ(plots[0].plot.series[1].x, (std::vector<double>{7.0}));
+  const PlotSeries& measured = plots[1].plot.series[0];
+  const PlotSeries& fitted = plots[1].plot.series[1];
+  ASSERT_EQ(measured.x.size(), 2U);
+  EXPECT_NEAR(measured.x[0], 0.0, 1e-9);
+  EXPECT_NEAR(measured.x[1], 45.0, 1e-9);
+  EXPECT_NEAR(fitted.y[1], 100.0 * std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(measured.y[1], 1.02 * fitted.y[1], 1e-9);
+  EXPECT_NEAR(plots[2].plot.series[0].y[1], 2.0, 1e-9);
+  EXPECT_NEAR(plots[2].plot.series[0].y_std[0], 0.1, 1e-9);
+  EXPECT_THAT(plots[3].caption, HasSubstr("plane.dng under led1: rms 1.41 %, worst 2 %."));
+  c.fit.cell_used.clear();
+  EXPECT_EQ(led_fit_plots(c).size(), 1U);
+}
+
 }  // namespace
 }  // namespace scattermeter::apps
