@@ -173,6 +173,47 @@ async function maps() {
   await page.waitForFunction(n => document.querySelector('[data-widget="maps"] select').value === n, last.file);
 }
 
+// Two fingers take hold of a map, part, come together again, and one of them moves on.
+async function fingers() {
+  const widget = page.locator('[data-widget="maps"]').first();
+  const difference = widget.locator('.panel canvas').nth(2);
+  await difference.scrollIntoViewIfNeeded();
+  await widget.getByLabel('show all').click();
+  const zoom = async () => Number(await widget.locator('.panels').getAttribute('data-zoom'));
+  const box = await difference.boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const readInTheMiddle = async () => {
+    await page.mouse.move(x + 1, y + 1);
+    return (await widget.locator('output').textContent()).match(/^x (\d+) y (\d+) px/).slice(1).map(Number);
+  };
+  const session = await page.context().newCDPSession(page);
+  const touch = (type, ...at) => session.send('Input.dispatchTouchEvent', {
+    type, touchPoints: at.map(([dx, dy], id) => ({x: x + dx, y: y + dy, id})),
+  });
+  const middle = await readInTheMiddle();
+  await touch('touchStart', [-20, 0], [20, 0]);
+  for (const apart of [25, 30, 40, 50, 60]) await touch('touchMove', [-apart, 0], [apart, 0]);
+  await page.waitForFunction(() => Number(document.querySelector('.panels').dataset.zoom) > 2.9);
+  assert.ok(isNear(await zoom(), 3), `two fingers zoom by ${await zoom()}`);
+  await touch('touchEnd');
+  for (const [i, v] of (await readInTheMiddle()).entries()) {
+    assert.ok(Math.abs(v - middle[i]) <= 3, `what is between the fingers has moved from ${middle} to ${v}`);
+  }
+  // The whole grip moves the map, and so does one finger.
+  for (const start of [[[-20, 0], [20, 0]], [[0, 0]]]) {
+    const before = await seen(difference);
+    await touch('touchStart', ...start);
+    await touch('touchMove', ...start.map(([dx, dy]) => [dx + 12, dy + 12]));
+    await touch('touchEnd');
+    assert.notEqual(await seen(difference), before);
+    assert.ok(isNear(await zoom(), 3));
+  }
+  await touch('touchStart', [-60, 0], [60, 0]);
+  for (const apart of [40, 20, 10]) await touch('touchMove', [-apart, 0], [apart, 0]);
+  await touch('touchEnd');
+  assert.equal(await zoom(), 1);
+}
+
 async function rig() {
   const widget = page.locator('[data-widget="rig"]').first();
   await widget.scrollIntoViewIfNeeded();
@@ -197,7 +238,7 @@ async function rig() {
   assert.equal(await page.locator('summary', {hasText: /^positions$/}).count(), 1);
 }
 
-for (const [name, look] of [['result', [plots, maps, rig]], ['check', [rig]], ['plan', [rig, ledMap]], ['compare', []]]) {
+for (const [name, look] of [['result', [plots, maps, fingers, rig]], ['check', [rig]], ['plan', [rig, ledMap]], ['compare', []]]) {
   await open(name);
   for (const part of look) await part();
   await lookAtAll(name);

@@ -1,34 +1,51 @@
-// Reading, zooming and moving of maps by pointer, wheel and keys.
+// Reading, zooming and moving of maps by pointer, two fingers, wheel and keys.
 
 function listenToPointer(canvas, view, maps) {
-  let drag = null;
-  const place = event => {
+  const held = new Map();  // where the pointers that are down are on the canvas, by their ids
+  const onCanvas = event => {
     const box = canvas.getBoundingClientRect();
-    return view.placeAt(event.clientX - box.left, event.clientY - box.top, box.width);
+    return [event.clientX - box.left, event.clientY - box.top];
+  };
+  const place = at => view.placeAt(...at, canvas.clientWidth);
+  // The middle of what is held, and how far apart two fingers are.
+  const grip = () => {
+    const at = [...held.values()];
+    return {
+      middle: [0, 1].map(i => at.reduce((sum, p) => sum + p[i], 0) / at.length),
+      apart: at.length > 1 ? Math.hypot(at[0][0] - at[1][0], at[0][1] - at[1][1]) : 0,
+    };
   };
   canvas.addEventListener('pointermove', event => {
     if (!maps.ready()) return;
-    if (drag) {
-      const perPixel = view.width / (canvas.clientWidth * view.zoom);
-      view.moveTo(drag.x - (event.clientX - drag.left) * perPixel, drag.y - (event.clientY - drag.top) * perPixel);
-    } else {
-      maps.read(...place(event));
+    if (!held.has(event.pointerId)) {
+      maps.read(...place(onCanvas(event)));
       maps.draw();
+      return;
     }
+    // The place in the middle of the grip goes with it.
+    const before = grip();
+    held.set(event.pointerId, onCanvas(event));
+    const after = grip();
+    if (before.apart && after.apart) view.zoomAbout(after.apart / before.apart, ...place(before.middle));
+    const [x, y] = place(after.middle);
+    const [x0, y0] = place(before.middle);
+    view.moveTo(view.x + x0 - x, view.y + y0 - y);
   });
   canvas.addEventListener('pointerdown', event => {
-    if (event.button !== 0 || !maps.ready()) return;
-    maps.read(...place(event));
-    drag = {left: event.clientX, top: event.clientY, x: view.x, y: view.y};
+    if (event.button !== 0 || !maps.ready() || held.size === 2) return;
+    if (held.size === 0) maps.read(...place(onCanvas(event)));
+    held.set(event.pointerId, onCanvas(event));
     canvas.setPointerCapture(event.pointerId);
     maps.draw();
   });
-  for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, () => { drag = null; });
+  for (const end of ['pointerup', 'pointercancel']) {
+    canvas.addEventListener(end, event => held.delete(event.pointerId));
+  }
   canvas.addEventListener('wheel', event => {
     // Out of the whole map, the wheel scrolls the page.
     if (!maps.ready() || (view.zoom === 1 && event.deltaY > 0)) return;
     event.preventDefault();
-    view.zoomAbout(Math.exp(-event.deltaY / 400), ...place(event));
+    view.zoomAbout(Math.exp(-event.deltaY / 400), ...place(onCanvas(event)));
   }, {passive: false});
   canvas.addEventListener('dblclick', () => view.reset());
 }
