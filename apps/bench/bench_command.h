@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -25,6 +26,18 @@ void take_common(const BenchOptions& common, const CommandContext& context, Opti
   options.seed = common.seed;
   options.image_width_px = common.image_width_px.value_or(options.image_width_px);
   options.progress = context.progress;
+}
+
+// Adds an option whose value is given by its name in `values`; --help lists the names alone.
+// `value` must outlive the command.
+template <class Value>
+void add_named_option(CLI::App& command, const std::string& option, Value& value,
+                      const std::map<std::string, Value>& values, const std::string& description) {
+  command
+      .add_option_function<std::string>(
+          option, [&value, values](const std::string& name) { value = values.at(name); },
+          description)
+      ->check(CLI::IsMember(values));
 }
 
 // Prints tables and writes CSV files and plots (PNG and SVG) to a folder.

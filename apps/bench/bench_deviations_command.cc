@@ -1,4 +1,3 @@
-#include <map>
 #include <memory>
 #include <string>
 
@@ -32,14 +31,12 @@ void declare(CLI::App& command, DeviationArguments& a) {
           return std::string(e.what());
         }
       });
-  command
-      .add_option("--rendering", o.rendering,
-                  "shots rendered by the dipole and measured by it, by volume and transport, or "
-                  "both")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, DeviationRendering>{{"dipole", DeviationRendering::kDipole},
-                                                    {"volume", DeviationRendering::kVolume},
-                                                    {"both", DeviationRendering::kBoth}}));
+  add_named_option(command, "--rendering", o.rendering,
+                   {{"dipole", DeviationRendering::kDipole},
+                    {"volume", DeviationRendering::kVolume},
+                    {"both", DeviationRendering::kBoth}},
+                   "shots rendered by the dipole and measured by it, by volume and transport, or "
+                   "both");
   command
       .add_option("--rendered-paths", o.rendered_paths,
                   "light paths of a volume rendering, for each light and channel")

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -76,10 +75,8 @@ void declare_options(CLI::App& command, ModelsArguments& a) {
                   "relative standard deviation of the scale: stated, and its error drawn from it")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command
-      .add_option("--noise", a.bench.noise,
-                  "on: samples with the noise of one exposure; off: ideal samples. No rounding")
-      ->transform(CLI::Transformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
+  add_named_option(command, "--noise", a.bench.noise, {{"on", true}, {"off", false}},
+                   "on: samples with the noise of one exposure; off: ideal samples. No rounding");
 }
 
 int run_models_bench(ModelsArguments& a, const BenchOptions& common, CommandContext& context) {

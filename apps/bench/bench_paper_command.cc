@@ -1,4 +1,3 @@
-#include <map>
 #include <utility>
 
 #include "apps/bench/bench_command.h"
@@ -27,17 +26,13 @@ void add_paper_bench(CLI::App& bench, CommandContext& context, const SharedBench
       "truth_per_mm2.");
   command->add_option("--probe", options->probe,
                       "light probe, .hdr or .exr (default: a computed sky with sun)");
-  command
-      ->add_option("--projection", options->projection,
-                   "projection of the probe: equirectangular, angular_map or mirror_ball")
-      ->transform(CLI::Transformer(std::map<std::string, ProbeProjection>{
-          {"equirectangular", ProbeProjection::kEquirectangular},
-          {"angular_map", ProbeProjection::kAngularMap},
-          {"mirror_ball", ProbeProjection::kMirrorBall}}));
-  command
-      ->add_option("--noise", options->noise,
-                   "on: one 12-bit exposure with noise; off: ideal samples")
-      ->transform(CLI::Transformer(std::map<std::string, bool>{{"on", true}, {"off", false}}));
+  add_named_option(*command, "--projection", options->projection,
+                   {{"equirectangular", ProbeProjection::kEquirectangular},
+                    {"angular_map", ProbeProjection::kAngularMap},
+                    {"mirror_ball", ProbeProjection::kMirrorBall}},
+                   "projection of the probe");
+  add_named_option(*command, "--noise", options->noise, {{"on", true}, {"off", false}},
+                   "on: one 12-bit exposure with noise; off: ideal samples");
   run_if_named(*command, context, [options, common, &context] {
     PaperBenchOptions bench_options;
     take_common(*common, context, bench_options);
