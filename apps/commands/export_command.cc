@@ -38,9 +38,10 @@ void add_export_command(CLI::App& app, CommandContext& context) {
   command->add_option("--material", options->materials,
                       "only this material; may be repeated (default: all)");
   command
-      ->add_option("--mm-per-unit", options->exported.mm_per_unit,
-                   "length of a scene unit in mm (default: 1; materialx: 1000, as its unit is the "
-                   "metre)")
+      ->add_option(
+          "--mm-per-unit", options->exported.mm_per_unit,
+          "length of a scene unit in mm (default: 1; blender and materialx: 1000, as their "
+          "unit is the metre)")
       ->check(CLI::Range(1e-6, 1e9));
   command
       ->add_option(

@@ -67,7 +67,8 @@ std::string blender_file(const ReadResult& result, const std::vector<MeasuredMat
   out += python_comments(
       {"Blender 4.0 and later, renderer Cycles: open in the Text Editor and run; it adds a "
        "material "
-       "of each name. Blender's own scene unit is 1 m: export with --mm-per-unit 1000 for it.",
+       "of each name. A unit of Blender's own scene is 1 m; for a scene whose lengths are in mm, "
+       "such as a mesh in mm imported as it stands, export with --mm-per-unit 1.",
        "radius_mm = 4 pi / sigma_t': Cycles' Random Walk takes radius / (4 pi) as the mean free "
        "path (kernel/closure/bssrdf.h). Light enters diffusely and leaves without refraction: the "
        "interior is the measured one, the smooth surface is an approximation."});

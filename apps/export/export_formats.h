@@ -60,7 +60,7 @@ struct ExportFormat {
 inline constexpr ExportFormat kExportFormats[] = {
     {"mitsuba", "Mitsuba 3 medium (XML)", 1, false, mitsuba_file},
     {"pbrt", "pbrt-v4 medium and material", 1, false, pbrt_file},
-    {"blender", "script that makes Principled materials", 1, false, blender_file},
+    {"blender", "script that makes Principled materials", 1000, false, blender_file},
     {"openpbr", "OpenPBR surface (MaterialX 1.39)", 1, false, openpbr_file},
     {"materialx", "physically based nodes", 1000, false, materialx_file},
     {"csv", "values with uncertainties", 1, true, csv_file}};

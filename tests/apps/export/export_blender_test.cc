@@ -56,9 +56,11 @@ Triple cycles_medium(float colour, float radius) {
 
 TEST(ExportBlender, ScriptMakesTheMedium) {
   const Exported exported;
-  for (double mm_per_unit : {1.0, 1000.0}) {
-    const std::string script =
-        exported.text("blender", {"--mm-per-unit", std::to_string(mm_per_unit)});
+  // Without the option in Blender's own unit, the metre.
+  const std::pair<double, std::vector<std::string>> units[] = {{1.0, {"--mm-per-unit", "1"}},
+                                                               {1000.0, {}}};
+  for (const auto& [mm_per_unit, options] : units) {
+    const std::string script = exported.text("blender", options);
     write_file(exported / "bpy.py", std::string(kFakeBpy));
     write_file(exported / "made.py", script);
     const std::string out = exported / "made.json";
