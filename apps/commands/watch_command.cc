@@ -78,9 +78,11 @@ class Watching {
       say(fmt::format("{}: {} under another name", n.name, n.other), "dim");
     } else if (n.event == FolderEvent::kDoubled) {
       say(fmt::format("{}: the same as {}, left out", n.name, n.other), "dim");
-    } else if (const std::string shot = shots_.release(path); !shot.empty()) {
-      state_.taken.erase(shot);
-      say(fmt::format("{}: is gone; {} is awaited again", n.name, shot), "fail");
+    } else if (const std::string shot = shots_.keep(path); !shot.empty()) {
+      say(fmt::format("{}: is gone; what was taken as {} is kept (to take it again, put a file of "
+                      "that name there)",
+                      n.name, shot),
+          "dim");
     }
   }
 

@@ -245,7 +245,7 @@ std::optional<TakenShot> WatchedShots::take(const std::string& path) {
   return other ? take_as(*other, path) : taken;
 }
 
-std::string WatchedShots::release(const std::string& path) {
+void WatchedShots::release(const std::string& path) {
   for (AwaitedFile& f : files_) {
     if (f.taken_from != path) continue;
     f.taken_from.clear();
@@ -253,6 +253,15 @@ std::string WatchedShots::release(const std::string& path) {
     fs::remove(path_of(f.rig_name), ignored);
     digests_.forget(path);
     off_px_.erase(f.rig_name);
+    return;
+  }
+}
+
+std::string WatchedShots::keep(const std::string& path) {
+  for (AwaitedFile& f : files_) {
+    if (f.taken_from != path) continue;
+    f.taken_from = path_of(f.rig_name);
+    digests_.forget(path);  // the name may come again with other contents
     return f.rig_name;
   }
   return "";

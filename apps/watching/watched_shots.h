@@ -57,9 +57,9 @@ class WatchedShots {
   // lists for its calibrations. Throws InputError for one that cannot be read as a shot, and where
   // nothing is awaited.
   std::optional<TakenShot> take(const std::string& path);
-  // The file is gone or has other contents: what it was accepted for is awaited again. Returns the
-  // rig's name of that; "" if there is none.
-  std::string release(const std::string& path);
+  // The file is gone: what it was accepted for keeps its copy in the folder of accepted shots.
+  // Returns the rig's name of that; "" if there is none.
+  std::string keep(const std::string& path);
   void rename(const std::string& from, const std::string& to);
 
   // Of the shot of that name; nothing for the board's.
@@ -69,6 +69,8 @@ class WatchedShots {
 
  private:
   std::size_t slot_for(const std::string& name) const;
+  // What the file was accepted for is awaited again.
+  void release(const std::string& path);
   TakenShot take_as(std::size_t slot, const std::string& path);
   void take_board(TakenShot& taken);
   void look_at(std::size_t slot, TakenShot& taken);

@@ -81,10 +81,21 @@ TEST_F(WatchedShotsTest, FollowsNamesAndRemovals) {
   const std::string other = files_ / "card/other.dng";
   fs::rename(path, other);
   shots_->rename(path, other);
-  EXPECT_EQ(shots_->release(path), "");
-  EXPECT_EQ(shots_->release(other), "PP_cube_1.dng");
-  EXPECT_EQ(shots_->still_awaited(), 2U);
-  EXPECT_FALSE(is_kept("PP_cube_1.dng"));
+  // The card is emptied: what was accepted stays, and the same name may come again.
+  fs::remove(other);
+  EXPECT_EQ(shots_->keep(path), "");
+  EXPECT_EQ(shots_->keep(other), "PP_cube_1.dng");
+  EXPECT_EQ(shots_->still_awaited(), 1U);
+  EXPECT_TRUE(is_kept("PP_cube_1.dng"));
+  const auto second = shots_->take(arrived("PP_cube_2.dng", "other.dng"));
+  ASSERT_TRUE(second->verdict.is_accepted());
+  EXPECT_EQ(second->rig_name, "PP_cube_2.dng");
+  EXPECT_EQ(shots_->answer("PP_cube_2.dng").channels[0].shots.size(), 2U);
+  // A file of the rig's name replaces what was kept.
+  const auto again = shots_->take(arrived("PP_cube_1.dng", "PP_cube_1.dng"));
+  EXPECT_TRUE(again->verdict.is_accepted());
+  EXPECT_EQ(shots_->still_awaited(), 0U);
+  EXPECT_TRUE(is_kept("PP_cube_1.dng"));
 }
 
 TEST_F(WatchedShotsTest, WhatIsNoShotIsNotTaken) {
