@@ -189,7 +189,7 @@ Html maps(const std::vector<const ChannelResult*>& channels, double full_scale_p
 Html material_section(const MaterialPart& part, double full_scale_percent, std::size_t most_bytes) {
   const std::vector<const ChannelResult*>& channels = part.channels;
   Html out = html_element("h2", html_text(channels.front()->material));
-  if (part.look) out += swatches(channels, *part.look);
+  out += swatches(channels, part.look);
   std::vector<PagePlot> plots;
   for (const ChannelResult* r : channels) {
     for (PagePlot& plot : reflectance_plots(*r)) plots.push_back(std::move(plot));

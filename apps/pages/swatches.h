@@ -26,15 +26,17 @@ struct MaterialLook {
   std::array<Quantity, kRgb> lit, shadow;
 };
 
-// Empty unless all three channels were measured.
+// Empty unless all three channels were measured, with one eta and mean free paths of at most 3 mm:
+// beyond, the dipole does not show a body of this size.
 std::optional<MaterialLook> material_look(const std::vector<const ChannelResult*>& channels);
 
 // The picture, for a page; `material`: for the alternative text.
 Html look_picture(const MaterialLook& look, const std::string& material);
 
-// The look, and reflectances of a plate over black and over white and of a thick block, with the
-// colours on a screen: the camera's R, G, B as those of sRGB, white light as its white (D65).
-// Precondition: `look` is that of the channels.
-Html swatches(const std::vector<const ChannelResult*>& channels, const MaterialLook& look);
+// The look, if there is one, and reflectances of a plate over black and over white and of a thick
+// block, with the colours on a screen: the camera's R, G, B as those of sRGB, white light as its
+// white (D65). Empty unless all three channels were measured.
+Html swatches(const std::vector<const ChannelResult*>& channels,
+              const std::optional<MaterialLook>& look);
 
 }  // namespace scattermeter::apps

@@ -55,5 +55,23 @@ TEST(ResultPage, AllMeasured) {
   EXPECT_THAT(page, Not(HasSubstr("Single shots")));
 }
 
+// Beside the values, and with the colours of the material.
+TEST(ResultPage, ShowsAMeasuredMaterialTwice) {
+  Measurement m = two_channels();
+  m.results = {m.results[0], m.results[0], m.results[0]};
+  m.results[1].channel = 'G';
+  m.results[2].channel = 'B';
+  const std::string page = result_page(m, "");
+  EXPECT_EQ(html_problem(page), "");
+  const std::string picture = "<img class=\"look\" src=\"data:image/png;base64,";
+  const std::size_t first = page.find(picture);
+  ASSERT_NE(first, std::string::npos);
+  const std::size_t second = page.find(picture, first + 1);
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_LT(page.find("<td>POM"), first);
+  EXPECT_LT(page.find("What it looks like"), second);
+  EXPECT_EQ(page.find(picture, second + 1), std::string::npos);
+}
+
 }  // namespace
 }  // namespace scattermeter::apps

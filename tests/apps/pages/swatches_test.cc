@@ -46,7 +46,7 @@ TEST(Swatches, AllChannelsMakeAColour) {
   const std::vector<const ChannelResult*> channels = {&r, &r, &r};
   const std::optional<MaterialLook> look = material_look(channels);
   ASSERT_TRUE(look.has_value());
-  const Html html = swatches(channels, *look);
+  const Html html = swatches(channels, look);
   EXPECT_EQ(html_problem(html_document("t", html)), "");
   EXPECT_THAT(html.markup, HasSubstr("10 mm over white"));
   // The approximation's 1 % beside the little that the coefficients leave.
@@ -82,12 +82,26 @@ TEST(Swatches, TheLooksDeviationIsThatOfTheCoefficients) {
 
 TEST(Swatches, NoneWhereAChannelIsMissing) {
   ChannelResult r = pom();
-  ChannelResult refused = r, denser = r;
+  ChannelResult refused = r;
   refused.estimate.reasons = {"dark"};
-  denser.eta_int_over_ext = 1.6;
   EXPECT_FALSE(material_look({&r, &r}));
   EXPECT_FALSE(material_look({&r, &refused, &r}));
-  EXPECT_FALSE(material_look({&r, &denser, &r}));
+  EXPECT_EQ(swatches({&r, &r}, std::nullopt).markup, "");
+  EXPECT_EQ(swatches({&r, &refused, &r}, std::nullopt).markup, "");
+}
+
+// The cube is not shown by a model that does not know its edges; plates are.
+TEST(Swatches, NoCubeOfAMaterialThatItIsTooSmallFor) {
+  ChannelResult r = pom();
+  ChannelResult denser = r, clear = r;
+  denser.eta_int_over_ext = 1.6;
+  clear.estimate.sigma_s_prime_per_mm.value = 0.3;
+  for (const ChannelResult* other : {&denser, &clear}) {
+    EXPECT_FALSE(material_look({&r, other, &r}));
+    const Html html = swatches({&r, other, &r}, std::nullopt);
+    EXPECT_THAT(html.markup, HasSubstr("10 mm over white"));
+    EXPECT_THAT(html.markup, ::testing::Not(HasSubstr("cube")));
+  }
 }
 
 }  // namespace
