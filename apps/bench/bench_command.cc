@@ -50,6 +50,7 @@ void add_bench_command(CLI::App& app, CommandContext& context) {
   add_materials_bench(*bench, context, common);
   add_models_bench(*bench, context, common);
   add_transport_bench(*bench, context, common);
+  add_atlas_bench(*bench, context, common);
   add_shots_bench(*bench, context, common);
   add_deviations_bench(*bench, context, common);
   add_silicones_bench(*bench, context, common);

@@ -63,6 +63,7 @@ void add_paper_bench(CLI::App& bench, CommandContext& context, const SharedBench
 void add_patches_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_transport_bench(CLI::App& bench, CommandContext& context,
                          const SharedBenchOptions& common);
+void add_atlas_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_models_bench(CLI::App& bench, CommandContext& context, const SharedBenchOptions& common);
 void add_materials_bench(CLI::App& bench, CommandContext& context,
                          const SharedBenchOptions& common);

@@ -83,9 +83,10 @@ ModelsBenchRow empty_row(const std::string& body, const ListedMaterial& material
   row.body = body;
   row.material = material;
   row.sigma_s_prime_per_mm = row.sigma_a_per_mm = kNoQuantity;
-  for (double* number : {&row.truth_std_sigma_s_prime_per_mm, &row.truth_std_sigma_a_per_mm,
-                         &row.truth_patch_std, &row.error_sigma_s_prime, &row.error_sigma_a,
-                         &row.z_sigma_s_prime, &row.z_sigma_a, &row.seconds, &row.cpu_seconds}) {
+  for (double* number :
+       {&row.truth_std_sigma_s_prime_per_mm, &row.truth_std_sigma_a_per_mm, &row.truth_patch_std,
+        &row.error_sigma_s_prime, &row.error_sigma_a, &row.monte_carlo_share, &row.z_sigma_s_prime,
+        &row.z_sigma_a, &row.seconds, &row.cpu_seconds}) {
     *number = kMissing;
   }
   return row;
@@ -102,6 +103,13 @@ void judge(const ChannelResult& result, ModelsBenchRow& row) {
   row.sigma_a_per_mm = result.estimate.sigma_a_per_mm;
   row.error_sigma_s_prime = row.sigma_s_prime_per_mm.value / truth.sigma_s_prime_per_mm - 1.0;
   row.error_sigma_a = row.sigma_a_per_mm.value / truth.sigma_a_per_mm - 1.0;
+  for (const BudgetLine& line : result.estimate.budget) {
+    if (line.cause != "Monte Carlo") continue;
+    row.monte_carlo_share =
+        std::pow(std::max(line.std_sigma_s_prime_per_mm / row.sigma_s_prime_per_mm.std,
+                          line.std_sigma_a_per_mm / row.sigma_a_per_mm.std),
+                 2);
+  }
   const auto z = [](const Quantity& q, double t, double truth_std) {
     return (q.value - t) / std::hypot(q.std, truth_std);
   };
@@ -164,6 +172,7 @@ std::vector<ModelsBenchRow> rows_of_case(const std::string& body, const ListedMa
       MeasureOptions measure_options;
       measure_options.estimate.model = model;
       measure_options.estimate.time_limit_s = options.time_limit_s;
+      measure_options.atlas_folder = options.atlas_folder;
       try {
         const Clocks clocks;
         Instrument instrument(c.stated, c.objects, measure_options);

@@ -38,6 +38,9 @@ struct ModelsBenchRow {
   double truth_patch_std = 0;
   double error_sigma_s_prime = 0;  // estimate / truth - 1
   double error_sigma_a = 0;
+  // Share of the stated variance that is Monte Carlo's own, the larger one of both coefficients;
+  // transport only.
+  double monte_carlo_share = 0;
   // (estimate - truth) / sqrt(stated variance + that from the Monte Carlo error of the shots)
   double z_sigma_s_prime = 0;
   double z_sigma_a = 0;
@@ -54,6 +57,7 @@ struct ModelsBenchOptions {
   double time_limit_s = 50;        // of transport
   double scale_std = 0;            // relative, >= 0; stated, and its error drawn from it
   bool noise = false;              // of the sensor; off: ideal samples. No rounding in both cases
+  std::string atlas_folder;        // MeasureOptions::atlas_folder of transport
   Progress* progress = nullptr;
   // Called with all rows so far after each case: a material and channel of a body.
   std::function<void(const std::vector<ModelsBenchRow>&)> after_case = {};

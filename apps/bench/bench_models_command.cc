@@ -111,7 +111,8 @@ void add_models_bench(CLI::App& bench, CommandContext& context, const SharedBenc
       "(ok, refused, failed, left out), *_per_mm (estimate), *_std_per_mm (stated), "
       "*_truth_std_per_mm (effect of the Monte Carlo error of the shots on the estimate, from "
       "eight renderings and thus known to 27 %), *_error (estimate / truth - 1), *_z (error over "
-      "both deviations), truth_patch_std (relative, of a patch's light), seconds and cpu_seconds "
+      "both deviations), monte_carlo_share (of transport's stated variance), truth_patch_std "
+      "(relative, of a patch's light), seconds and cpu_seconds "
       "(of one channel alone, geometry and light included), reason.");
   const auto arguments = std::make_shared<ModelsArguments>();
   declare_options(*command, *arguments);

@@ -69,6 +69,7 @@ std::string rows_text(const std::vector<ModelsBenchRow>& rows) {
                    {"truth ±"},
                    {"error 1/mm"},
                    {"z"},
+                   {"Monte Carlo %"},
                    {"s"},
                    {"CPU s"},
                    {"status", Align::kLeft}});
@@ -90,7 +91,8 @@ std::string rows_text(const std::vector<ModelsBenchRow>& rows) {
          cell("{:+.2f} ± {:.2f}", 100.0 * r.error_sigma_a, 100.0 * r.sigma_a_per_mm.std / a),
          cell("{:.2f}", 100.0 * r.truth_std_sigma_a_per_mm / a),
          cell("{:+.6f}", a * r.error_sigma_a), cell("{:+.1f}", r.z_sigma_a),
-         cell("{:.1f}", r.seconds), cell("{:.1f}", r.cpu_seconds), status_text(r)});
+         cell("{:.1f}", 100.0 * r.monte_carlo_share), cell("{:.1f}", r.seconds),
+         cell("{:.1f}", r.cpu_seconds), status_text(r)});
   }
   const std::string noise =
       most == 0.0
@@ -101,7 +103,8 @@ std::string rows_text(const std::vector<ModelsBenchRow>& rows) {
   return table.text() + noise +
          "error: estimate / truth - 1, ± as stated by the model; truth ±: effect of the Monte "
          "Carlo "
-         "error of the shots on the estimate; z: error over both\n";
+         "error of the shots on the estimate; z: error over both; Monte Carlo: its share of the "
+         "stated variance\n";
 }
 
 // Estimates of one model on one body; the lists include refused ones.
@@ -249,6 +252,7 @@ std::string models_bench_csv(const std::vector<ModelsBenchRow>& rows) {
            "sigma_a_error",
            "sigma_a_error_per_mm",
            "sigma_a_z",
+           "monte_carlo_share",
            "truth_patch_std",
            "seconds",
            "cpu_seconds",
@@ -274,6 +278,7 @@ std::string models_bench_csv(const std::vector<ModelsBenchRow>& rows) {
                  csv_number(r.error_sigma_a),
                  csv_number(r.error_sigma_a * m.sigma_a_per_mm),
                  csv_number(r.z_sigma_a),
+                 csv_number(r.monte_carlo_share),
                  csv_number(r.truth_patch_std),
                  csv_number(r.seconds),
                  csv_number(r.cpu_seconds),

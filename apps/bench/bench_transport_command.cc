@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "apps/bench/bench_command.h"
-#include "apps/bench/bench_transport.h"
+#include "apps/bench_transport/bench_transport.h"
 
 namespace scattermeter::apps {
 
@@ -13,8 +13,9 @@ void add_transport_bench(CLI::App& bench, CommandContext& context,
       "Speed of the volumetric Monte Carlo: scatterings per second of one core, in a 20 mm cube "
       "or sphere, over the mean free path and the number of triangles.\n"
       "transport.csv: body, triangles, by (planes of the convex body, or rays), mean_free_path_mm, "
-      "connections (to the camera), scatterings_per_path, scatterings_per_s_and_core, escaped (of "
-      "what entered), audit_error, lost_paths.");
+      "connections (to the camera), scatterings_per_path, scatterings_per_s_and_core, "
+      "connections_per_s_and_core (that reach it), escaped (of what entered), audit_error, "
+      "lost_paths.");
   command->add_option("--seconds", options->seconds, "processor time of a row, about")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

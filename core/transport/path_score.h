@@ -36,12 +36,13 @@ struct PathAudit {
   std::int64_t paths = 0;
   std::int64_t lost_paths = 0;
   std::int64_t scatterings = 0;
+  std::int64_t connections = 0;  // scored, to the camera
 
   // Calls f for each of the above. Counts below 2^53 are exact as double.
   template <class F>
   void numbers(const F& f) {
     for (double* power : {&entered, &absorbed, &in_plane, &escaped, &roulette, &lost}) f(*power);
-    for (std::int64_t* count : {&paths, &lost_paths, &scatterings}) f(*count);
+    for (std::int64_t* count : {&paths, &lost_paths, &scatterings, &connections}) f(*count);
   }
 
   PathAudit& operator+=(const PathAudit& o) {
@@ -54,6 +55,7 @@ struct PathAudit {
     paths += o.paths;
     lost_paths += o.lost_paths;
     scatterings += o.scatterings;
+    connections += o.connections;
     return *this;
   }
 };

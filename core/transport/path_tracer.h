@@ -101,6 +101,7 @@ class PathTracer {
         world_.camera->connect(
             {path.x, path.direction, path.weight, path.scatterings, path.length_mm}, random,
             scores_);
+        audit_.connections += static_cast<std::int64_t>(scores_.size());
         for (const PathScore& score : scores_) sink_.camera(score);
       }
       if (!turns(phase_, roulette_below, random, path)) return;

@@ -1,4 +1,4 @@
-#include "apps/bench/bench_transport.h"
+#include "apps/bench_transport/bench_transport.h"
 
 #include <cmath>
 

@@ -23,6 +23,7 @@ struct TransportBenchRow {
   bool connections = false;  // of every scattering to the camera
   double scatterings_per_path = 0;
   double scatterings_per_s = 0;  // per second of processor time
+  double connections_per_s = 0;  // that reach the camera
   double escaped = 0;            // of the light that entered
   double audit_error = 0;        // entered minus accounted light, relative
   std::int64_t lost_paths = 0;

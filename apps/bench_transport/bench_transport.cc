@@ -1,4 +1,4 @@
-#include "apps/bench/bench_transport.h"
+#include "apps/bench_transport/bench_transport.h"
 
 #include <cmath>
 #include <ctime>
@@ -64,6 +64,7 @@ TransportBenchRow measure(const Body& body, double mean_free_path_mm, bool conne
   row.scatterings_per_path =
       static_cast<double>(audit.scatterings) / static_cast<double>(audit.paths);
   row.scatterings_per_s = static_cast<double>(audit.scatterings) / seconds;
+  row.connections_per_s = static_cast<double>(audit.connections) / seconds;
   row.escaped = audit.escaped / audit.entered;
   row.audit_error = (audit.entered - audit.absorbed - audit.escaped - audit.roulette - audit.lost) /
                     audit.entered;
@@ -105,6 +106,7 @@ std::string transport_bench_table(const std::vector<TransportBenchRow>& rows) {
                    {"connections", Align::kLeft},
                    {"scatterings/path"},
                    {"million/s and core"},
+                   {"connections million/s"},
                    {"escaped %"},
                    {"audit error"},
                    {"lost"}});
@@ -113,6 +115,7 @@ std::string transport_bench_table(const std::vector<TransportBenchRow>& rows) {
                    fmt::format("{:.3f}", r.mean_free_path_mm), r.connections ? "on" : "off",
                    fmt::format("{:.1f}", r.scatterings_per_path),
                    fmt::format("{:.1f}", 1e-6 * r.scatterings_per_s),
+                   fmt::format("{:.2f}", 1e-6 * r.connections_per_s),
                    fmt::format("{:.2f}", 100.0 * r.escaped), fmt::format("{:.0e}", r.audit_error),
                    std::to_string(r.lost_paths)});
   }
@@ -121,12 +124,14 @@ std::string transport_bench_table(const std::vector<TransportBenchRow>& rows) {
 
 std::string transport_bench_csv(const std::vector<TransportBenchRow>& rows) {
   Csv csv({"body", "triangles", "by", "mean_free_path_mm", "connections", "scatterings_per_path",
-           "scatterings_per_s_and_core", "escaped", "audit_error", "lost_paths"});
+           "scatterings_per_s_and_core", "connections_per_s_and_core", "escaped", "audit_error",
+           "lost_paths"});
   for (const TransportBenchRow& r : rows) {
     csv.add_row({r.body, std::to_string(r.triangles), r.by_rays ? "rays" : "planes",
                  csv_number(r.mean_free_path_mm), r.connections ? "on" : "off",
                  csv_number(r.scatterings_per_path), csv_number(r.scatterings_per_s),
-                 csv_number(r.escaped), csv_number(r.audit_error), std::to_string(r.lost_paths)});
+                 csv_number(r.connections_per_s), csv_number(r.escaped), csv_number(r.audit_error),
+                 std::to_string(r.lost_paths)});
   }
   return csv.text();
 }
