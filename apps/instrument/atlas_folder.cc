@@ -66,8 +66,9 @@ std::optional<Eigen::Vector3d> center_of(std::string_view name) {
   return at == end ? std::optional(out) : std::nullopt;
 }
 
-// The file: six counts, the sums, the batches. Bytes as in memory.
-constexpr std::int64_t kFormat = 1;
+// The file: six counts, the sums, and of each tilt the steps' sizes and the batches in steps. Bytes
+// as in memory.
+constexpr std::int64_t kFormat = 2;
 using Counts = std::array<std::int64_t, 6>;
 
 template <class T>
@@ -76,16 +77,20 @@ void append(std::string& out, const T* values, Eigen::Index n) {
 }
 
 std::string packed(const WhiteSums& sums) {
+  const PackedBatches& batches = sums.batches;
   const Counts counts = {kFormat,
                          sums.levels,
                          sums.sum.rows(),
                          sums.sum.cols(),
-                         static_cast<std::int64_t>(sums.batch.size()),
-                         sums.batch.empty() ? 0 : sums.batch.front().rows()};
+                         static_cast<std::int64_t>(batches.steps.size()),
+                         batches.steps.empty() ? 0 : batches.steps.front().rows()};
   std::string out;
   append(out, counts.data(), static_cast<Eigen::Index>(counts.size()));
   append(out, sums.sum.data(), sums.sum.size());
-  for (const Eigen::MatrixXf& b : sums.batch) append(out, b.data(), b.size());
+  for (std::size_t t = 0; t < batches.steps.size(); ++t) {
+    append(out, batches.step_of[t].data(), batches.step_of[t].size());
+    append(out, batches.steps[t].data(), batches.steps[t].size());
+  }
   return out;
 }
 
@@ -102,20 +107,23 @@ std::optional<WhiteSums> unpacked(std::string_view bytes) {
   const auto n_rows = static_cast<double>(rows);
   const double expected =
       sizeof counts + 8.0 * static_cast<double>(tilts) * n_rows +
-      4.0 * static_cast<double>(batches) * static_cast<double>(batch_rows) * n_rows;
+      (4.0 + static_cast<double>(batch_rows)) * static_cast<double>(batches) * n_rows;
   if (static_cast<double>(bytes.size()) != expected) return std::nullopt;
   WhiteSums out;
   out.levels = static_cast<int>(levels);
   const char* at = bytes.data() + sizeof counts;
   const auto fill = [&](auto& matrix) {
-    const std::size_t size = static_cast<std::size_t>(matrix.size()) * sizeof(matrix(0, 0));
+    const std::size_t size = static_cast<std::size_t>(matrix.size()) * sizeof *matrix.data();
     std::memcpy(matrix.data(), at, size);
     at += size;
   };
   out.sum.resize(tilts, rows);
   fill(out.sum);
-  out.batch.assign(static_cast<std::size_t>(batches), Eigen::MatrixXf(batch_rows, rows));
-  for (Eigen::MatrixXf& b : out.batch) fill(b);
+  out.batches = PackedBatches(static_cast<std::size_t>(batches), batch_rows, rows);
+  for (std::size_t t = 0; t < out.batches.steps.size(); ++t) {
+    fill(out.batches.step_of[t]);
+    fill(out.batches.steps[t]);
+  }
   return out;
 }
 

@@ -1,8 +1,10 @@
 #include "capture/files/checked_file.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <system_error>
 
 #include "capture/files/digest.h"
 #include "capture/files/pending_file.h"
@@ -19,11 +21,17 @@ std::string digest_of(std::string_view content) {
 }  // namespace
 
 std::optional<std::string> read_checked_file(const std::string& path) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  if (none || size < kDigestLength) return std::nullopt;
   std::ifstream in(path, std::ios::binary);
   std::string digest(kDigestLength, '\0');
-  if (!in || !in.read(digest.data(), kDigestLength)) return std::nullopt;
-  std::string content((std::istreambuf_iterator<char>(in)), {});
-  if (digest_of(content) != digest) return std::nullopt;
+  std::string content(static_cast<std::size_t>(size) - kDigestLength, '\0');
+  if (!in.read(digest.data(), kDigestLength) ||
+      !in.read(content.data(), static_cast<std::streamsize>(content.size())) ||
+      digest_of(content) != digest) {
+    return std::nullopt;
+  }
   return content;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/base/random_stream.h"
@@ -152,6 +153,10 @@ WhiteRows& TransportAtlas::LitView::known_node(int idx) const {
   const auto [at, is_new] =
       nodes_.try_emplace(idx, view_->rows, sigma_s_per_mm(idx), view_->boundary->size_mm());
   if (is_new && store_ != nullptr) {
+    while (nodes_.size() > kHeldNodes) {
+      const bool first_is_farthest = idx - nodes_.begin()->first > nodes_.rbegin()->first - idx;
+      nodes_.erase(first_is_farthest ? nodes_.begin() : std::prev(nodes_.end()));
+    }
     if (auto sums = store_->find(body_, view_->center_mm, idx)) at->second.take(std::move(*sums));
   }
   return at->second;

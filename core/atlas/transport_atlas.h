@@ -44,6 +44,9 @@ class TransportAtlas {
   static double sigma_s_per_mm(int node);  // sigma_s'
   // rad
   static constexpr double kNearViews = 1e-3;
+  // With a store, so many nodes of a light and view are in memory: the four of a point, and some
+  // to move among. Others are read again.
+  static constexpr std::size_t kHeldNodes = 6;
 
   // store: of nodes, null: only in memory.
   explicit TransportAtlas(std::shared_ptr<AtlasStore> store = nullptr) : store_(std::move(store)) {}
@@ -56,7 +59,7 @@ class TransportAtlas {
       return view_->rows.row_of_patch[static_cast<std::size_t>(patch)];
     }
     double size_mm() const { return view_->boundary->size_mm(); }
-    // The node with at least so many levels. levels >= 1.
+    // The node with at least so many levels. levels >= 1. Valid until the next call.
     const WhiteRows& node(int idx, int levels);
     // Paths to be traced for that.
     std::int64_t missing_paths(int idx, int levels) const;

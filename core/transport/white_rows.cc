@@ -51,16 +51,18 @@ WhiteRows::WhiteRows(const ScatteringView& view, double sigma_s_per_mm, double s
       sigma_s_per_mm_(sigma_s_per_mm),
       tilts_(sigma_s_per_mm, size_mm),
       sums_{0, Eigen::MatrixXd::Zero(tilts_.count(), view.n_rows),
-            std::vector<Eigen::MatrixXf>(kept_tilts(),
-                                         Eigen::MatrixXf::Zero(kBatches, view.n_rows))} {}
+            PackedBatches(kept_tilts(), kBatches, view.n_rows)} {}
 
 bool WhiteRows::take(WhiteSums sums) {
   const auto has_shape_of = [](const auto& a, const auto& b) {
     return a.rows() == b.rows() && a.cols() == b.cols();
   };
+  const auto have_shapes_of = [&](const auto& a, const auto& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), has_shape_of);
+  };
   const bool fits = sums.levels > levels() && has_shape_of(sums.sum, sums_.sum) &&
-                    std::equal(sums.batch.begin(), sums.batch.end(), sums_.batch.begin(),
-                               sums_.batch.end(), has_shape_of);
+                    have_shapes_of(sums.batches.steps, sums_.batches.steps) &&
+                    have_shapes_of(sums.batches.step_of, sums_.batches.step_of);
   if (fits) sums_ = std::move(sums);
   return fits;
 }
@@ -75,19 +77,21 @@ void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
   options.paths_per_block = static_cast<int>((paths_of(levels() + 1) - paths()) / kBatches);
   const int first = levels() * kBatches;
   int batch = 0;
+  std::vector<Eigen::MatrixXf> further(kept_tilts(), Eigen::MatrixXf::Zero(kBatches, view_.n_rows));
   trace_blocks<TiltTally>(
       white, options, first, first + kBatches,
       [&] { return TiltTally(view_, white.boundary.scene().mesh(), tilts_); },
       [&](const TiltTally& block, const PathAudit&) {
         // A block estimates the whole from its own paths.
         sums_.sum += options.paths_per_block * block.sum;
-        for (std::size_t j = 0; j < sums_.batch.size(); ++j) {
-          sums_.batch[j].row(batch) +=
+        for (std::size_t j = 0; j < further.size(); ++j) {
+          further[j].row(batch) =
               (options.paths_per_block * block.sum.row(static_cast<Eigen::Index>(j) * kBatchStep))
                   .cast<float>();
         }
         ++batch;
       });
+  sums_.batches.add(further);
   ++sums_.levels;
 }
 
@@ -101,17 +105,16 @@ WhiteRows::Light WhiteRows::light(double sigma_a_per_mm) const {
 WhiteRows::Departures WhiteRows::departures(double sigma_a_per_mm) const {
   constexpr Eigen::Index kHalf = kBatches / 2;
   const AbsorptionTilts::Combination c = tilts_.at(sigma_a_per_mm, kBatchStep);
-  Eigen::MatrixXf sums = Eigen::MatrixXf::Zero(kBatches, view_.n_rows);
-  Eigen::RowVectorXf per_sigma_a = Eigen::RowVectorXf::Zero(view_.n_rows);
-  for (std::size_t j = 0; j < sums_.batch.size(); ++j) {
-    const Eigen::Index tilt = static_cast<Eigen::Index>(j) * kBatchStep;
-    const Eigen::MatrixXf& batch = sums_.batch[j];
-    sums += static_cast<float>(c.l[tilt]) * batch;
-    per_sigma_a += static_cast<float>(c.per_sigma_a[tilt]) *
-                   (batch.bottomRows(kHalf).colwise().sum() - batch.topRows(kHalf).colwise().sum());
-  }
+  const auto kept = [&](const Eigen::VectorXd& weights) {
+    Eigen::VectorXd of_kept(static_cast<Eigen::Index>(kept_tilts()));
+    for (Eigen::Index j = 0; j < of_kept.size(); ++j) of_kept[j] = weights[j * kBatchStep];
+    return of_kept;
+  };
+  const Eigen::MatrixXf per_batch = sums_.batches.combined(kept(c.per_sigma_a));
+  const Eigen::RowVectorXf per_sigma_a =
+      per_batch.bottomRows(kHalf).colwise().sum() - per_batch.topRows(kHalf).colwise().sum();
   const Eigen::VectorXd per_area = (static_cast<double>(paths()) * view_.area_mm2).cwiseInverse();
-  Departures out{sums.cast<double>(), {}};
+  Departures out{sums_.batches.combined(kept(c.l)).cast<double>(), {}};
   auto first = out.of_batch.topRows(kHalf), second = out.of_batch.bottomRows(kHalf);
   const Eigen::RowVectorXd first_mean = first.colwise().mean(),
                            second_mean = second.colwise().mean();

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/transport/absorption_tilts.h"
+#include "core/transport/packed_batches.h"
 #include "core/transport/path_tracer.h"
 #include "core/transport/scattering_view.h"
 
@@ -15,8 +15,8 @@ namespace scattermeter {
 // Scores of the paths so far.
 struct WhiteSums {
   int levels = 0;
-  Eigen::MatrixXd sum;                 // tilts x rows: scores of all paths
-  std::vector<Eigen::MatrixXf> batch;  // by kept tilt: kBatches x rows
+  Eigen::MatrixXd sum;    // tilts x rows: scores of all paths
+  PackedBatches batches;  // kBatches parts of them, by kept tilt
 };
 
 // White Monte Carlo (Alerstam, Svensson & Andersson-Engels 2008): paths are traced without

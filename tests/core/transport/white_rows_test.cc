@@ -98,7 +98,7 @@ TEST(WhiteRows, TakesMorePaths) {
   const WhiteRows more = s.rows(2);
   EXPECT_FALSE(rows.take(rows.sums()));
   WhiteSums other = more.sums();
-  other.batch.pop_back();
+  other.batches.steps.pop_back();
   EXPECT_FALSE(rows.take(other));
   EXPECT_EQ(rows.levels(), 1);
   EXPECT_TRUE(rows.take(more.sums()));
