@@ -138,7 +138,7 @@ class Killed(unittest.TestCase):
     def test_atlas(self):
         """Killed 50 times while paths are traced, which go on where they were, with the same digits."""
         self.simulate()
-        words = ["measure", self.shots, "--rig", self.rig, "--model", "transport", "--material", "PE", "--channels",
+        words = ["measure", self.shots, "--rig", self.rig, "--model", "transport", "--material", "PP", "--channels",
                  "G", "--paths", "300000", "--time-limit", "1000"]
         began = time.monotonic()
         first = self.run_program(*words, "--out", self.home / "fresh")

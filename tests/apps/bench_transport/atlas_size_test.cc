@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(AtlasSize, GrowsWithTheRows) {
-  const test_support::TemporaryFolder folder;
+  const TemporaryFolder folder;
   AtlasSizeOptions options;
   options.image_width_px = 240;
   options.rows = 300;
@@ -27,7 +27,10 @@ TEST(AtlasSize, GrowsWithTheRows) {
   const AtlasSizeRow& many = rows.front();
   EXPECT_NEAR(many.disk_bytes / few.disk_bytes,
               static_cast<double>(many.rows) / static_cast<double>(few.rows), 0.05);
-  EXPECT_GT(many.all_bytes, 0.5 * many.disk_bytes);
+  // Four of the nodes, and those that are held at a time; what else the program takes is little.
+  EXPECT_GT(many.medium_bytes, 0.1 * many.disk_bytes);
+  EXPECT_GE(many.all_bytes, many.medium_bytes);
+  EXPECT_LT(many.all_bytes, many.disk_bytes);
   EXPECT_THAT(atlas_size_table(rows), HasSubstr("10^5 rows"));
   EXPECT_THAT(atlas_size_csv(rows), HasSubstr("\ncube,"));
   EXPECT_THROW(atlas_size(options), std::invalid_argument);  // the folder is not new
