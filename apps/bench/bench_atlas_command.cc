@@ -124,6 +124,10 @@ int run_atlas_bench(AtlasArguments& a, const BenchOptions& common, CommandContex
     const std::vector<AtlasInterpolationRow> rows = atlas_interpolation(a.interpolation);
     files.table("\nInterpolation\n" + atlas_interpolation_table(rows));
     files.csv("atlas_interpolation", atlas_interpolation_csv(rows));
+    const std::vector<AtlasInterpolationRow> nodes = atlas_interpolation_of_nodes(a.interpolation);
+    files.table("\nInterpolation at twice the spacing, over 2^4\n" +
+                atlas_interpolation_table(nodes));
+    files.csv("atlas_nodes", atlas_interpolation_csv(nodes));
   }
   if (a.has("answers")) bench_answers(a, common, files);
   return 0;
@@ -139,14 +143,17 @@ void add_atlas_bench(CLI::App& bench, CommandContext& context, const SharedBench
       "Size: of the nodes for sigma_s' of 0.2 to 10 per mm, one light and view. Tracer: variance "
       "of a patch's light, relative to the square of the mean, times processor time. "
       "Interpolation: light at random media against paths of the very medium, relative to the "
-      "image's mean, without the Monte Carlo error (±) of either. Answers: shots rendered by "
+      "image's mean, without the Monte Carlo error (±) of either; and at nodes, from others at "
+      "twice "
+      "the spacing, divided by the 2^4 by which that is worse. Answers: shots rendered by "
       "volumetric Monte Carlo, measured from one atlas in OUT/answers_atlas.\n"
       "atlas_size.csv: body, rows, nodes, disk_bytes, medium_bytes and all_bytes (in memory, of "
       "the nodes of one medium and of all). atlas_tracer.csv: body, sigma_s_prime_per_mm, "
       "patches, paths, cpu_seconds, scatterings_per_s, connections_per_s, variance_seconds. "
       "atlas_interpolation.csv: body, sigma_s_prime_per_mm, sigma_a_per_mm, paths, atlas_paths, "
       "then of patches and of cells (dozens of patches) their number, mean_square (of the "
-      "interpolation error), monte_carlo (deviation), largest. atlas_answers_*.csv: as "
+      "interpolation error), monte_carlo (deviation), largest; atlas_nodes.csv the same at nodes. "
+      "atlas_answers_*.csv: as "
       "models.csv of bench models.");
   const auto arguments = std::make_shared<AtlasArguments>();
   arguments->answers.time_limit_s = 20;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <Eigen/SparseCore>
 #include <fmt/core.h>
@@ -20,12 +21,16 @@ namespace {
 // Seeds of the atlas are below this.
 constexpr std::uint64_t kOwnSeeds = 1'000'000'000;
 
+// Evenly in its logarithm.
+double between(double low, double high, RandomStream& random) {
+  return low * std::pow(high / low, random.uniform());
+}
+
+double random_absorbed(RandomStream& random) { return between(3e-4, 0.5, random); }
+
 Medium random_medium(RandomStream& random) {
-  const auto between = [&](double low, double high) {
-    return low * std::pow(high / low, random.uniform());
-  };
-  const double sigma_s = between(0.2, 10.0);
-  const double absorbed = between(3e-4, 0.5);
+  const double sigma_s = between(0.2, 10.0, random);
+  const double absorbed = random_absorbed(random);
   return {sigma_s, sigma_s * absorbed / (1.0 - absorbed), LitBody::kEta};
 }
 
@@ -43,6 +48,22 @@ AtlasDifference difference(const std::array<Eigen::VectorXd, 2>& halves) {
   return out;
 }
 
+// differences: of the rows' light, by half; l: the light that they are of.
+AtlasInterpolationRow row_from(const LitBody& body, const Medium& medium,
+                               std::array<Eigen::VectorXd, 2> differences,
+                               const Eigen::VectorXd& l) {
+  const Eigen::VectorXd& area = body.area_mm2();
+  const double mean = area.dot(l) / area.sum();
+  for (Eigen::VectorXd& d : differences) d /= mean;
+  AtlasInterpolationRow row;
+  row.medium = medium;
+  row.patches = difference(differences);
+  const std::vector<double> areas(area.begin(), area.end());
+  const ShotParts parts({l.size()}, body.center_mm(), areas, Eigen::VectorXd::Ones(l.size()));
+  row.cells = difference({parts.cells() * differences[0], parts.cells() * differences[1]});
+  return row;
+}
+
 AtlasInterpolationRow compared(LitBody& body, const ChannelSimulation& simulation,
                                const Medium& medium, std::uint64_t seed, int blocks) {
   const ScatteringPoint at{medium.sigma_s_prime_per_mm, medium.sigma_a_per_mm, 1.0};
@@ -54,23 +75,38 @@ AtlasInterpolationRow compared(LitBody& body, const ChannelSimulation& simulatio
     traced[half] = body.traced(medium, seed + half, blocks / 2).image.l;
     differences[half] = look.halves[half].l - traced[half];
   }
-  const Eigen::VectorXd& area = body.area_mm2();
-  const Eigen::VectorXd l = 0.5 * (traced[0] + traced[1]);
-  const double mean = area.dot(l) / area.sum();
-  for (Eigen::VectorXd& d : differences) d /= mean;
-
-  AtlasInterpolationRow row;
-  row.medium = medium;
-  row.patches = difference(differences);
-  const std::vector<double> areas(area.begin(), area.end());
-  const ShotParts parts({l.size()}, body.center_mm(), areas, Eigen::VectorXd::Ones(l.size()));
-  std::array<Eigen::VectorXd, 2> of_cells;
-  for (std::size_t half = 0; half < 2; ++half) {
-    of_cells[half] = parts.cells() * differences[half];
-  }
-  row.cells = difference(of_cells);
+  AtlasInterpolationRow row = row_from(body, medium, differences, 0.5 * (traced[0] + traced[1]));
   row.paths = static_cast<std::int64_t>(ChannelSimulation::kBlockPaths) * 2 * (blocks / 2);
   row.atlas_paths = static_cast<std::int64_t>(ChannelSimulation::kBlockPaths) * look.blocks;
+  return row;
+}
+
+// At a node, from the first and third on either side of it.
+AtlasInterpolationRow compared_with_node(LitBody& body, TransportAtlas& atlas, int node,
+                                         double absorbed, std::int64_t paths) {
+  constexpr std::array<std::pair<int, double>, 4> kWeights{
+      {{-3, -1.0 / 16.0}, {-1, 9.0 / 16.0}, {1, 9.0 / 16.0}, {3, -1.0 / 16.0}}};
+  // A cubic's error grows with the fourth power of the spacing.
+  constexpr double kFiner = 16.0;
+  const double sigma_s = TransportAtlas::sigma_s_per_mm(node);
+  const double sigma_a = sigma_s * absorbed / (1.0 - absorbed);
+  const auto control = [&](int at) {
+    return body.dipole({TransportAtlas::sigma_s_per_mm(at), sigma_a, 1.0}).l;
+  };
+  const Eigen::VectorXd here = control(node);
+  const std::array<Eigen::VectorXd, 2> light = body.halves_at_node(atlas, node, sigma_a, paths);
+  std::array<Eigen::VectorXd, 2> differences{-light[0], -light[1]};
+  for (const auto& [offset, weight] : kWeights) {
+    const Eigen::VectorXd carried = weight * here.cwiseQuotient(control(node + offset));
+    const auto there = body.halves_at_node(atlas, node + offset, sigma_a, paths);
+    for (std::size_t half = 0; half < 2; ++half) {
+      differences[half] += carried.cwiseProduct(there[half]);
+    }
+  }
+  for (Eigen::VectorXd& d : differences) d /= kFiner;
+  AtlasInterpolationRow row =
+      row_from(body, {sigma_s, sigma_a, LitBody::kEta}, differences, 0.5 * (light[0] + light[1]));
+  row.paths = row.atlas_paths = paths;
   return row;
 }
 
@@ -95,6 +131,25 @@ std::vector<AtlasInterpolationRow> atlas_interpolation(const AtlasInterpolationO
       const Medium medium = random_medium(random);
       const std::uint64_t seed = kOwnSeeds * (options.seed + 1) + 2 * static_cast<std::uint64_t>(i);
       rows.push_back(compared(body, simulation, medium, seed, blocks));
+      rows.back().body = name;
+      stage.step();
+    }
+  }
+  return rows;
+}
+
+std::vector<AtlasInterpolationRow> atlas_interpolation_of_nodes(
+    const AtlasInterpolationOptions& options) {
+  constexpr std::array<int, 5> kNodes = {-3, -1, 1, 3, 5};
+  std::vector<AtlasInterpolationRow> rows;
+  ProgressStage stage(options.progress, "nodes of the atlas",
+                      options.bodies.size() * kNodes.size());
+  for (const std::string& name : options.bodies) {
+    LitBody body(name, {.image_width_px = options.image_width_px, .g = options.g});
+    TransportAtlas atlas;
+    RandomStream random(options.seed, 1);
+    for (const int node : kNodes) {
+      rows.push_back(compared_with_node(body, atlas, node, random_absorbed(random), options.paths));
       rows.back().body = name;
       stage.step();
     }

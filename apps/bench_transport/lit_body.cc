@@ -65,6 +65,24 @@ ScatteringImage LitBody::dipole(const ScatteringPoint& at) {
   return dipole_pilot(weights_, smooth_knots(*lit_), at, channel_.eta_int_over_ext);
 }
 
+std::array<Eigen::VectorXd, 2> LitBody::halves_at_node(TransportAtlas& atlas, int node,
+                                                       double sigma_a_per_mm,
+                                                       std::int64_t paths) const {
+  TransportAtlas::LitView& lit = in(atlas);
+  const WhiteRows& at = lit.node(node, WhiteRows::levels_for(static_cast<double>(paths)));
+  const Eigen::VectorXd l = at.light(sigma_a_per_mm).l;
+  const Eigen::VectorXd off = at.departures(sigma_a_per_mm).second_half.l;
+  const double power =
+      rig_.scene.lights.front()->power()[static_cast<Eigen::Index>(channel_.channel)];
+  std::array<Eigen::VectorXd, 2> out{Eigen::VectorXd(n_rows()), Eigen::VectorXd(n_rows())};
+  for (Eigen::Index row = 0; row < n_rows(); ++row) {
+    const Eigen::Index of_view = lit.row_of_patch(patches_[static_cast<std::size_t>(row)]);
+    out[0][row] = power * (l[of_view] - off[of_view]);
+    out[1][row] = power * (l[of_view] + off[of_view]);
+  }
+  return out;
+}
+
 LitBody::Traced LitBody::traced(const Medium& medium, std::uint64_t seed, int blocks) const {
   const SeenObject& seen = *shots_.front().seen;
   const SceneLight& light = rig_.scene.lights.front();

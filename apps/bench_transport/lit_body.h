@@ -1,8 +1,8 @@
 // A body under one LED, as the camera of the simulated rigs sees it, for paths of any medium.
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,6 +51,10 @@ class LitBody {
   // What it interpolates over.
   ScatteringImage dipole(const ScatteringPoint& at);
 
+  // The light at a node of the atlas, as the simulation's image has it, from either half of at
+  // least so many paths.
+  std::array<Eigen::VectorXd, 2> halves_at_node(TransportAtlas& atlas, int node,
+                                                double sigma_a_per_mm, std::int64_t paths) const;
   // Paths of the very medium, as the simulation's image.
   struct Traced {
     ScatteringImage image;

@@ -41,6 +41,23 @@ TEST(AtlasInterpolation, DrawsMediaAndTellsNoiseFromError) {
   EXPECT_THROW(atlas_interpolation(options), std::invalid_argument);
 }
 
+// The Monte Carlo error counts a sixteenth there.
+TEST(AtlasInterpolation, SeesMoreAtTwiceTheSpacing) {
+  AtlasInterpolationOptions options;
+  options.media = 1;
+  options.paths = 32'768;
+  options.image_width_px = 240;
+  const AtlasInterpolationRow medium = atlas_interpolation(options).front();
+  const std::vector<AtlasInterpolationRow> nodes = atlas_interpolation_of_nodes(options);
+  ASSERT_EQ(nodes.size(), 5U);
+  for (const AtlasInterpolationRow& r : nodes) {
+    EXPECT_LT(r.cells.monte_carlo, 0.25 * medium.cells.monte_carlo);
+    EXPECT_LT(r.cells.mean_square, 1e-5);
+    EXPECT_GT(r.patches.monte_carlo, r.cells.monte_carlo);
+  }
+  EXPECT_NEAR(nodes[2].medium.sigma_s_prime_per_mm, std::exp(0.35), 1e-9);
+}
+
 // 4 and 0: mean 2, deviation of the mean 2; a negative mean is no error, but has a limit.
 TEST(AtlasInterpolation, LimitsTheError) {
   const AtlasInterpolationError two = interpolation_error({4.0, 0.0});
