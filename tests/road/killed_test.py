@@ -24,6 +24,7 @@ from small_rig import write_small_rig
 
 PROGRAM, SAMPLES = (Path(p).resolve() for p in sys.argv[1:3])
 KILLS = int(sys.argv[4 if "SCATTERMETER_LONG" in os.environ else 3])
+KILLS_OF_ATLAS = 50
 LED = """
 calibration:
   led:
@@ -136,7 +137,7 @@ class Killed(unittest.TestCase):
 
     @unittest.skipUnless("SCATTERMETER_LONG" in os.environ, "only with --long")
     def test_atlas(self):
-        """Killed 50 times while paths are traced, which go on where they were, with the same digits."""
+        """Killed many times while paths are traced, which go on where they were, with the same digits."""
         self.simulate()
         words = ["measure", self.shots, "--rig", self.rig, "--model", "transport", "--material", "PP", "--channels",
                  "G", "--paths", "300000", "--time-limit", "1000"]
@@ -147,21 +148,22 @@ class Killed(unittest.TestCase):
         alone = self.paths_of_transport(self.home / "fresh" / "atlas")
         self.assertTrue(alone)
         draw = random.Random(8)
-        levels, killed = {}, 0
-        for i in range(50):
-            # Every tenth begins anew.
-            out = self.home / f"again{i // 10}"
+        levels, killed, folder = {}, 0, 0
+        while killed < KILLS_OF_ATLAS:
+            out = self.home / f"again{folder}"
             run = subprocess.Popen([PROGRAM, "-q", *words, "--out", out], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL)
             time.sleep(draw.uniform(0, takes))
             run.kill()
-            killed += run.wait() < 0
+            if run.wait() < 0:
+                killed += 1
+            else:  # all is traced: begin anew
+                folder += 1
             for path, (level, content) in self.paths_of_transport(out / "atlas").items() if out.exists() else []:
                 self.assertGreaterEqual(level, levels.get((out, path), 0), path)  # nothing is lost
                 levels[out, path] = level
                 if path in alone and alone[path][0] == level:
                     self.assertEqual(alone[path][1], content, path)
-        self.assertGreater(killed, 10)
         equal = 0
         for out in {out for out, _ in levels}:
             last = self.run_program(*words, "--out", out)
