@@ -5,7 +5,7 @@
 namespace scattermeter {
 namespace {
 
-constexpr Eigen::Index kBatches = 16, kRows = 5;
+constexpr Eigen::Index kBatches = 16, kPackedRows = 5;
 
 Eigen::MatrixXf about_mean(Eigen::MatrixXf sums) {
   const Eigen::RowVectorXf mean = sums.colwise().mean();
@@ -16,14 +16,14 @@ Eigen::MatrixXf about_mean(Eigen::MatrixXf sums) {
 // Two additions, three tilts that are nearly alike: any combination departs by a few half steps of
 // the differences.
 TEST(PackedBatches, CombinesWhatWasAdded) {
-  PackedBatches packed(3, kBatches, kRows);
-  std::vector<Eigen::MatrixXf> all(3, Eigen::MatrixXf::Zero(kBatches, kRows));
+  PackedBatches packed(3, kBatches, kPackedRows);
+  std::vector<Eigen::MatrixXf> all(3, Eigen::MatrixXf::Zero(kBatches, kPackedRows));
   for (int addition = 0; addition < 2; ++addition) {
     std::vector<Eigen::MatrixXf> sums;
-    const Eigen::MatrixXf alike = Eigen::MatrixXf::Random(kBatches, kRows).array() + 20.0F;
+    const Eigen::MatrixXf alike = Eigen::MatrixXf::Random(kBatches, kPackedRows).array() + 20.0F;
     for (std::size_t t = 0; t < 3; ++t) {
-      sums.emplace_back(alike + 0.01F * Eigen::MatrixXf::Random(kBatches, kRows));
-      sums.back().col(kRows - 1).setConstant(4.0F);
+      sums.emplace_back(alike + 0.01F * Eigen::MatrixXf::Random(kBatches, kPackedRows));
+      sums.back().col(kPackedRows - 1).setConstant(4.0F);
       all[t] += sums.back();
     }
     packed.add(sums);
@@ -38,7 +38,7 @@ TEST(PackedBatches, CombinesWhatWasAdded) {
   EXPECT_LT((combined - exact).cwiseAbs().maxCoeff(), 2.0 * (0.5 * 2.2 / 127.0) * 1.2);
   EXPECT_GT(exact.cwiseAbs().maxCoeff(), 0.5);
   // A row in which all batches are alike.
-  EXPECT_EQ(combined.col(kRows - 1), Eigen::VectorXf::Zero(kBatches));
+  EXPECT_EQ(combined.col(kPackedRows - 1), Eigen::VectorXf::Zero(kBatches));
 }
 
 // Batches with normal errors: rounding hardly changes their variance.
