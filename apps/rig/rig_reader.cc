@@ -3,7 +3,6 @@
 #include <map>
 #include <utility>
 
-
 #include "apps/rig/rig.h"
 #include "apps/rig/rig_camera_reader.h"
 #include "apps/rig/rig_fields.h"

@@ -1,19 +1,26 @@
 // Scattering far from the surface, where its phase function no longer matters.
 #pragma once
 
+#include <algorithm>
+
 #include "core/material/scattering_medium.h"
 
 namespace scattermeter {
 
 // The isotropic medium that stands for another of the same sigma_s' and sigma_a deep inside a body
-// (similarity of first order).
+// (similarity of first order). It begins so deep that no light comes from there to the camera
+// without a further scattering: paths are not connected from it.
 struct DeepScattering {
   // beyond: PathOptions::isotropic_beyond.
   DeepScattering(const ScatteringMedium& medium, double beyond) {
     const double sigma_s_prime_per_mm = medium.sigma_s_per_mm * (1.0 - medium.phase.mean_cosine());
     mean_free_path_mm = 1.0 / (sigma_s_prime_per_mm + medium.sigma_a_per_mm);
     albedo = sigma_s_prime_per_mm * mean_free_path_mm;
-    least_mm = beyond / sigma_s_prime_per_mm;
+    // Of the light that the camera sees, 1e-3 comes from below 8 mean free paths where its source
+    // grows threefold down to there, as below a lit surface.
+    constexpr double kUnseenMeanFreePaths = 9.0;
+    least_mm =
+        std::max(beyond / sigma_s_prime_per_mm, kUnseenMeanFreePaths / medium.sigma_t_per_mm());
     constexpr double kWorthTheChange = 0.25;
     enters_mm = least_mm + kWorthTheChange / sigma_s_prime_per_mm;
   }

@@ -16,7 +16,7 @@ namespace scattermeter {
 
 // For PathOptions::isotropic_beyond. Of a 20 mm cube (1.3 and 0.004 per mm, g 0.8) all light that
 // leaves is then that of exact paths within 0.03 %, that of each of 46 cells of the surface within
-// the 0.5 % of the comparison, from half the scatterings.
+// the 0.5 % of the comparison, from 64 % of the scatterings (g 0.95: from 42 %).
 inline constexpr double kIsotropicBeyond = 1.0;
 
 struct PathOptions {

@@ -62,6 +62,9 @@ TEST(DeepScattering, IsOfTheSameReducedCoefficients) {
   EXPECT_NEAR(deep.mean_free_path_mm, 1.0 / 2.5, 1e-12);
   EXPECT_NEAR(deep.albedo, 2.0 / 2.5, 1e-12);
   EXPECT_NEAR(deep.least_mm, 1.5, 1e-12);
+  // Nine mean free paths of the medium itself, from where nothing is seen.
+  const DeepScattering seen(scattering_medium({2.0, 0.5, 1.4}, 0.5), 1.0);
+  EXPECT_NEAR(seen.least_mm, 9.0 / 4.5, 1e-12);
   EXPECT_GT(deep.enters_mm, deep.least_mm);
 }
 
