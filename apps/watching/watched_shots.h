@@ -11,6 +11,7 @@
 #include "apps/checking/checked_rig.h"
 #include "apps/instrument/instrument.h"
 #include "apps/rig/rig.h"
+#include "apps/watching/awaited_file.h"
 #include "apps/watching/running_answer.h"
 #include "apps/watching/shot_verdict.h"
 #include "capture/files/digest.h"
@@ -19,15 +20,6 @@
 #include "core/scene/object_scene.h"
 
 namespace scattermeter::apps {
-
-// A file that the rig lists: one exposure of a shot, or the shot of the board.
-struct AwaitedFile {
-  std::string rig_name;
-  std::size_t shot_idx = kBoard;  // into the rig's shots
-  std::size_t exposure_idx = 0;
-  std::string taken_from;  // the file that was accepted for it; "": still to be taken
-  static constexpr std::size_t kBoard = static_cast<std::size_t>(-1);
-};
 
 // What became of an arrived file.
 struct TakenShot {

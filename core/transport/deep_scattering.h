@@ -16,7 +16,7 @@ struct DeepScattering {
     const double sigma_s_prime_per_mm = medium.sigma_s_per_mm * (1.0 - medium.phase.mean_cosine());
     mean_free_path_mm = 1.0 / (sigma_s_prime_per_mm + medium.sigma_a_per_mm);
     albedo = sigma_s_prime_per_mm * mean_free_path_mm;
-    // Of the light that the camera sees, 1e-3 comes from below 8 mean free paths where its source
+    // Light from below goes unseen: 4e-4 of all that the camera sees (3 exp(-9)), where its source
     // grows threefold down to there, as below a lit surface.
     constexpr double kUnseenMeanFreePaths = 9.0;
     least_mm =

@@ -105,16 +105,12 @@ WhiteRows::Light WhiteRows::light(double sigma_a_per_mm) const {
 WhiteRows::Departures WhiteRows::departures(double sigma_a_per_mm) const {
   constexpr Eigen::Index kHalf = kBatches / 2;
   const AbsorptionTilts::Combination c = tilts_.at(sigma_a_per_mm, kBatchStep);
-  const auto kept = [&](const Eigen::VectorXd& weights) {
-    Eigen::VectorXd of_kept(static_cast<Eigen::Index>(kept_tilts()));
-    for (Eigen::Index j = 0; j < of_kept.size(); ++j) of_kept[j] = weights[j * kBatchStep];
-    return of_kept;
-  };
-  const Eigen::MatrixXf per_batch = sums_.batches.combined(kept(c.per_sigma_a));
+  const auto kept = Eigen::seqN(0, static_cast<Eigen::Index>(kept_tilts()), kBatchStep);
+  const Eigen::MatrixXf per_batch = sums_.batches.combined(c.per_sigma_a(kept));
   const Eigen::RowVectorXf per_sigma_a =
       per_batch.bottomRows(kHalf).colwise().sum() - per_batch.topRows(kHalf).colwise().sum();
   const Eigen::VectorXd per_area = (static_cast<double>(paths()) * view_.area_mm2).cwiseInverse();
-  Departures out{sums_.batches.combined(kept(c.l)).cast<double>(), {}};
+  Departures out{sums_.batches.combined(c.l(kept)).cast<double>(), {}};
   auto first = out.of_batch.topRows(kHalf), second = out.of_batch.bottomRows(kHalf);
   const Eigen::RowVectorXd first_mean = first.colwise().mean(),
                            second_mean = second.colwise().mean();
