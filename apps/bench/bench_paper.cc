@@ -71,7 +71,8 @@ PaperBench bench_paper(const PaperBenchOptions& options) {
   const PoseResult pose = calib::pose_from_points(rig.scene, rig.pose);
   LitObjects lit(rig.scene, objects, bench.patch_mm, 0.0);
   const std::vector<ObservedShot> opened = open_shots(
-      rig, source, objects, lit, see_all(rig.scene, objects, lit, pose), options.progress);
+      rig, source, objects, lit,
+      see_all(rig.scene, objects, lit, pose, {}, rig.scene.objects_in_shots()), options.progress);
   const std::vector<MaterialChannel> channels = material_channels(rig.scene, opened);
   const MaterialChannel& green = channels.at(kChannel);
   const DistanceKnots knots = smooth_knots(lit);

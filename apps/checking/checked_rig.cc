@@ -164,7 +164,8 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   geometry->lit = std::make_unique<LitObjects>(loose.scene, geometry->objects, std::nullopt, 0.0);
   std::optional<SharedView> view;
   if (out.shared_pose) {
-    view = see_all(loose.scene, geometry->objects, *geometry->lit, *out.shared_pose);
+    view = see_all(loose.scene, geometry->objects, *geometry->lit, *out.shared_pose, {},
+                   loose.scene.objects_in_shots());
   }
   const capture::ShotSource source =
       capture::shots_in_files(loose.scene, loose.decoding, folder.paths);

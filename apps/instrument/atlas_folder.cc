@@ -13,11 +13,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "apps/instrument/content_name.h"
 #include "capture/files/checked_file.h"
-#include "capture/files/digest.h"
 #include "capture/files/pending_file.h"
 #include "core/base/input_error.h"
-#include "core/base/version.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -130,8 +129,7 @@ std::optional<WhiteSums> unpacked(std::string_view bytes) {
 }  // namespace
 
 std::string AtlasFolder::name(const std::vector<double>& numbers) const {
-  constexpr std::size_t kDigits = 32;
-  return capture::Digest().text(kVersion).numbers(numbers).hex().substr(0, kDigits);
+  return content_name(numbers);
 }
 
 std::string AtlasFolder::folder_of(const std::string& body) const { return folder_ + "/" + body; }

@@ -13,10 +13,10 @@
 
 namespace scattermeter::apps {
 
-// FOLDER/BODY/CENTER/NODE.paths: BODY is the first 32 digits of the SHA-256 of the body's numbers
-// and of the program's version, CENTER "x,y,z" in mm. A file appears complete or not at all, and
-// one with a wrong digest is ignored; a lock per body keeps programs that write at once from
-// replacing many paths by fewer. Of a program that is killed, only the node in work is lost.
+// FOLDER/BODY/CENTER/NODE.paths: BODY is the content_name() of the body's numbers, CENTER "x,y,z"
+// in mm. A file appears complete or not at all, and one with a wrong digest is ignored; a lock per
+// body keeps programs that write at once from replacing many paths by fewer. Of a program that is
+// killed, only the node in work is lost.
 class AtlasFolder : public AtlasStore {
  public:
   explicit AtlasFolder(std::string folder) : folder_(std::move(folder)) {}

@@ -132,7 +132,13 @@ Instrument::Instrument(const Rig& rig, const ObjectScenes& objects, const Measur
     atlas_ = std::make_shared<AtlasFolder>(options.atlas_folder);
     kept_.atlas = std::make_shared<TransportAtlas>(atlas_);
   }
-  if (pose_ && !rig.pose.refine_by_silhouette) view_ = see_all(rig.scene, objects, lit_, *pose_);
+  if (!pose_ || rig.pose.refine_by_silhouette) return;
+  view_ = see_all(rig.scene, objects, lit_, *pose_, {}, rig.scene.objects_in_shots());
+  // A view that the shots determine is that of no other measurement.
+  if (!options.atlas_folder.empty()) {
+    weights_ = std::make_shared<WeightFolder>(options.atlas_folder + "/weights");
+    kept_.store = weights_;
+  }
 }
 
 Measurement Instrument::measure(const capture::ShotSource& source) {
@@ -161,7 +167,8 @@ std::optional<SharedView> Instrument::view_of(const capture::ShotSource& source)
   kept_ = {{}, {}, kept_.atlas};  // without the light of previous views
   if (!pose_ || rig_.pose.per_shot) return std::nullopt;
   return see_all(rig_.scene, objects_, lit_,
-                 calib::pose_from_silhouettes(rig_.scene, rig_.pose, objects_, *pose_, source));
+                 calib::pose_from_silhouettes(rig_.scene, rig_.pose, objects_, *pose_, source), {},
+                 rig_.scene.objects_in_shots());
 }
 
 FirstLook Instrument::look(const capture::ShotSource& source) {
@@ -248,6 +255,9 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   }
   if (atlas_ && !atlas_->problem().empty()) {
     out.notes.push_back("paths of transport are not kept: " + atlas_->problem());
+  }
+  if (weights_ && !weights_->problem().empty()) {
+    out.notes.push_back("light in each patch is not kept: " + weights_->problem());
   }
   opened = seen.shots();
   out.places = std::make_shared<RigPlaces>(rig_places(rig_, objects_, opened));

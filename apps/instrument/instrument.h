@@ -10,6 +10,7 @@
 #include "apps/instrument/atlas_folder.h"
 #include "apps/instrument/first_look.h"
 #include "apps/instrument/measure.h"
+#include "apps/instrument/weight_folder.h"
 #include "apps/rig/rig.h"
 #include "capture/shots/shot_source.h"
 #include "core/base/progress.h"
@@ -72,7 +73,8 @@ class Instrument {
   std::optional<PoseResult> pose_;  // from the rig's points
   LitObjects lit_;
   std::optional<SharedView> view_;
-  std::shared_ptr<AtlasFolder> atlas_;  // null: in memory only
+  std::shared_ptr<AtlasFolder> atlas_;     // null: in memory only
+  std::shared_ptr<WeightFolder> weights_;  // null: not kept
   KeptLight kept_;
 };
 

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include "apps/instrument/focus.h"
 #include "calib/pose/shot_pose.h"
@@ -109,13 +110,19 @@ class ShotOpener {
     shot.iso = exposures.front().iso;
     shot.f_number = exposures.front().f_number;
     if (!shared_) find_own_pose(i, exposures.front(), shot);
-    if (is_judged_by_blur(shot)) {
-      shot.edge_blur_mm = edge_blur_mm(rig_, objects_, *shot.stated, exposures.front(), shot.pose);
-    }
     const SampleMap& map = shot.seen->map;
-    capture::ShotSamples out =
-        capture::shot_samples(rig_.scene, rig_.decoding, *shot.stated, exposures, names, map.x0,
-                              map.y0, map.width, map.height);
+    capture::ShotSamples out;
+    // Neither needs the other.
+    tbb::parallel_invoke(
+        [&] {
+          if (!is_judged_by_blur(shot)) return;
+          shot.edge_blur_mm =
+              edge_blur_mm(rig_, objects_, *shot.stated, exposures.front(), shot.pose);
+        },
+        [&] {
+          out = capture::shot_samples(rig_.scene, rig_.decoding, *shot.stated, exposures, names,
+                                      map.x0, map.y0, map.width, map.height);
+        });
     for (const capture::RawFrame& f : exposures) {
       shot.samples_outside += f.samples.size() - static_cast<std::size_t>(map.width) *
                                                      static_cast<std::size_t>(map.height);

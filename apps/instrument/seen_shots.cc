@@ -32,7 +32,7 @@ void SeenShots::open_from(const std::map<std::string, PoseShift>& shifts) {
   if (!view_) return;
   shifted_ = {{}, {}, kept_->atlas};
   kept_ = &shifted_;
-  view_ = see_all(rig_.scene, objects_, lit_, view_->pose, shifts);
+  view_ = see_all(rig_.scene, objects_, lit_, view_->pose, shifts, rig_.scene.objects_in_shots());
   open();
 }
 
@@ -66,8 +66,9 @@ std::vector<ObservedShot> SeenShots::open_and_light(const capture::ShotSource& f
                 [&] { shots = open_shots(rig_, from, objects_, lit_, view_, progress_); });
       },
       [&] {
-        guarded(of_light,
-                [&] { add_smooth_weights(rig_.scene, unread, lit_, nullptr, kept_->weights); });
+        guarded(of_light, [&] {
+          add_smooth_weights(rig_.scene, unread, lit_, nullptr, kept_->weights, kept_->store.get());
+        });
       });
   for (const std::exception_ptr& error : {of_shots, of_light}) {
     if (error) std::rethrow_exception(error);

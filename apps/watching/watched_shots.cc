@@ -115,6 +115,21 @@ SceneObject& WatchedShots::object_of(Rig& rig, const SceneShot& shot) {
                        [&](const SceneObject& o) { return o.name == shot.object; });
 }
 
+void WatchedShots::forget_place(std::size_t shot_idx) {
+  const SceneShot& shot = rig_.scene.shots[shot_idx];
+  const SceneObject& stated = stated_.scene.object(shot.object);
+  if (!stated.to_be_found || object_of(rig_, shot).to_be_found) return;
+  for (const AwaitedFile& f : files_) {
+    if (f.shot_idx != AwaitedFile::kBoard && !f.taken_from.empty() &&
+        rig_.scene.shots[f.shot_idx].object == shot.object) {
+      return;
+    }
+  }
+  object_of(rig_, shot) = stated;
+  instrument_.reset();
+  objects_ = open_objects(rig_);
+}
+
 // Where the first shot of a piece shows it, which later shots are compared with.
 void WatchedShots::place_piece(const SceneShot& shot) {
   Rig one = rig_;
@@ -178,6 +193,7 @@ void WatchedShots::look_at(std::size_t slot, TakenShot& taken) {
 std::optional<std::size_t> WatchedShots::other_slot(std::size_t slot,
                                                     const std::vector<std::string>& lights) {
   const SceneShot& stated = rig_.scene.shots[files_[slot].shot_idx];
+  const std::string& piece = rig_.scene.object(stated.object).piece_name();
   for (std::size_t i = 0; i < files_.size(); ++i) {
     if (i == slot || files_[i].shot_idx == AwaitedFile::kBoard || !files_[i].taken_from.empty()) {
       continue;
@@ -185,7 +201,7 @@ std::optional<std::size_t> WatchedShots::other_slot(std::size_t slot,
     const SceneShot& shot = rig_.scene.shots[files_[i].shot_idx];
     std::vector<std::string> sorted = shot.lights;
     std::sort(sorted.begin(), sorted.end());
-    if (shot.object == stated.object && shot.material == stated.material &&
+    if (rig_.scene.object(shot.object).piece_name() == piece && shot.material == stated.material &&
         shot.more_files.empty() && sorted == lights) {
       return i;
     }
@@ -242,6 +258,7 @@ void WatchedShots::release(const std::string& path) {
     fs::remove(path_of(f.rig_name), ignored);
     digests_.forget(path);
     off_px_.erase(f.rig_name);
+    if (f.shot_idx != AwaitedFile::kBoard) forget_place(f.shot_idx);
     return;
   }
 }

@@ -44,10 +44,10 @@ class WatchedShots {
   std::string next() const;
 
   // Takes the file for the shot of its name or, if the rig does not name it, for the next one that
-  // is awaited; where the image shows the lights of another awaited shot of the same object, for
-  // that one. A shot that was rejected is awaited again. Returns nothing for a file that the rig
-  // lists for its calibrations. Throws InputError for one that cannot be read as a shot, and where
-  // nothing is awaited.
+  // is awaited; where the image shows the lights of another awaited shot of the same piece and
+  // material, for that one. A shot that was rejected is awaited again. Returns nothing for a file
+  // that the rig lists for its calibrations. Throws InputError for one that cannot be read as a
+  // shot, and where nothing is awaited.
   std::optional<TakenShot> take(const std::string& path);
   // The file is gone: what it was accepted for keeps its copy in the folder of accepted shots.
   // Returns the rig's name of that; "" if there is none.
@@ -68,6 +68,9 @@ class WatchedShots {
   void look_at(std::size_t slot, TakenShot& taken);
   static SceneObject& object_of(Rig& rig, const SceneShot& shot);
   void place_piece(const SceneShot& shot);
+  // Puts the piece of the shot back to where it is stated to stand, to be found again, unless
+  // another accepted shot shows it.
+  void forget_place(std::size_t shot_idx);
   Instrument& instrument();
   std::string path_of(const std::string& rig_name) const;
   bool is_complete(std::size_t shot_idx) const;

@@ -127,6 +127,7 @@ void for_smooth_rows(const std::vector<ExitSite>& sites, const SourceCloud& sour
           add_pair_sums(sources, some, knots.fine_bins(), options, fine.data());
           for (std::size_t j = 0; j < some.size(); ++j) {
             knots.fold(fine.data() + j * bins, w.data());
+            w = w.cast<float>().eval().cast<double>();
             use(static_cast<Eigen::Index>(first + j), w);
           }
         }

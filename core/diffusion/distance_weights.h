@@ -27,11 +27,6 @@ class DistanceKnots {
   DistanceKnots(double resolution_mm, double max_distance_mm, int per_octave = 6,
                 int fine_bits = 7);
 
-  // The same knots with another number of fine bins.
-  DistanceKnots with_fine_bits(int fine_bits) const {
-    return {resolution_mm_, max_distance_mm_, per_octave_, fine_bits};
-  }
-
   int size() const { return static_cast<int>(knots_mm_.size()); }
   const std::vector<double>& knots_mm() const { return knots_mm_; }
   double resolution_mm() const { return resolution_mm_; }
@@ -61,7 +56,8 @@ class DistanceKnots {
   std::vector<Shares> shares_;  // octaves are alike: stored for one, and for both ends
 };
 
-// W on smooth knots. Rows are computed in parallel, each by one thread.
+// W on smooth knots, rounded to single precision. Rows are computed in parallel, each by one
+// thread.
 WeightMatrix smooth_weights(const std::vector<ExitSite>& sites, const SourceCloud& sources,
                             const DistanceKnots& knots, const PairSumOptions& options);
 

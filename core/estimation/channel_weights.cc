@@ -51,13 +51,13 @@ PairSumOptions pair_options(const DistanceKnots& knots) {
 }
 
 void add_smooth_weights(const Scene& scene, std::span<const ObservedShot> shots, LitObjects& lit,
-                        Progress* progress, Weights& weights) {
+                        Progress* progress, Weights& weights, WeightStore* store) {
   const DistanceKnots knots = smooth_knots(lit);
   const PairSumOptions pairs = pair_options(knots);
   add_weights(
       scene, shots, lit, progress,
       [&](const SeenObject& seen, const SourceCloud& sources) {
-        return smooth_weights(seen.sites, sources, knots, pairs);
+        return smooth_weights(seen.sites, sources, knots, pairs, store);
       },
       weights);
 }

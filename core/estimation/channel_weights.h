@@ -10,6 +10,7 @@
 
 #include "core/base/progress.h"
 #include "core/diffusion/distance_weights.h"
+#include "core/diffusion/weight_store.h"
 #include "core/scene/observed_shot.h"
 
 namespace scattermeter {
@@ -29,8 +30,8 @@ void add_weights(const Scene& scene, std::span<const ObservedShot> shots, LitObj
 DistanceKnots smooth_knots(const LitObjects& lit);
 // Near-field options for these knots.
 PairSumOptions pair_options(const DistanceKnots& knots);
-// add_weights() on smooth knots.
+// add_weights() on smooth knots. store: may be null.
 void add_smooth_weights(const Scene& scene, std::span<const ObservedShot> shots, LitObjects& lit,
-                        Progress* progress, Weights& weights);
+                        Progress* progress, Weights& weights, WeightStore* store = nullptr);
 
 }  // namespace scattermeter

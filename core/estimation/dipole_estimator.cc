@@ -55,7 +55,8 @@ class DipoleEstimator {
   // computed; then with nuisances, and once more if that reveals outliers.
   void run() {
     for (ChannelResult& result : e_.results) result.model = "dipole";
-    add_smooth_weights(e_.scene, e_.shots, e_.lit, e_.progress, e_.kept.weights);
+    add_smooth_weights(e_.scene, e_.shots, e_.lit, e_.progress, e_.kept.weights,
+                       e_.kept.store.get());
     e_.watch.lap("light");
     e_.for_open_channels("fitting", [&](std::size_t i) { first_fit(i); });
     e_.watch.lap("first fit");

@@ -61,8 +61,9 @@ Eigen::MatrixXd change_by_chamfers(const SeenObject& seen, const Led& led,
       return Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(media.size()));
     }
     const SourceCloud sources(light, object.box.center_mm());
-    return smooth_weights(seen.sites, sources, coarse_knots(knots), coarse_pair_options(knots)) *
-           scaled_curves(media, knots, eta);
+    const DistanceKnots few = coarse_knots(knots);
+    return smooth_weights(seen.sites, sources, few, coarse_pair_options(knots)) *
+           scaled_curves(media, few, eta);
   };
   return (image(gained) - image(lost)) / width_mm;
 }

@@ -27,6 +27,8 @@ struct KeptLight {
   ChangedWeightsByLight changed;
   // Of all views.
   std::shared_ptr<TransportAtlas> atlas = std::make_shared<TransportAtlas>();
+  // Of W between programs; null: not kept.
+  std::shared_ptr<WeightStore> store = {};
 };
 
 class Estimation {

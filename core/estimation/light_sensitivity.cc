@@ -18,8 +18,8 @@ constexpr double kEtaStep = 0.01;
 }  // namespace
 
 DistanceKnots coarse_knots(const DistanceKnots& knots) {
-  constexpr int kFineBits = 5;
-  return knots.with_fine_bits(kFineBits);
+  constexpr int kPerOctave = 3, kFineBits = 5;
+  return {knots.resolution_mm(), knots.max_distance_mm(), kPerOctave, kFineBits};
 }
 
 namespace {
@@ -98,12 +98,14 @@ PairSumOptions coarse_pair_options(const DistanceKnots& knots) {
 }
 
 ChangedWeights changed_weights(const SeenObject& seen, const SceneLight& light, std::size_t channel,
-                               LitObjects& lit, const DistanceKnots& knots) {
+                               LitObjects& lit, const DistanceKnots& knots, WeightStore* store) {
   const PairSumOptions pairs = coarse_pair_options(knots);
   const DistanceKnots few = coarse_knots(knots);
-  return changed<WeightMatrix>(seen, light, channel, lit,
-                               [&](const std::vector<ExitSite>& sites, const SourceCloud& sources,
-                                   bool) { return smooth_weights(sites, sources, few, pairs); });
+  return changed<WeightMatrix>(
+      seen, light, channel, lit,
+      [&](const std::vector<ExitSite>& sites, const SourceCloud& sources, bool) {
+        return smooth_weights(sites, sources, few, pairs, store);
+      });
 }
 
 ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, std::size_t channel,
@@ -112,8 +114,8 @@ ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, st
   const PairSumOptions pairs = coarse_pair_options(knots);
   const DistanceKnots few = coarse_knots(knots);
   const double eta = seen.object->stated->eta_int_over_ext;
-  const Eigen::MatrixXd r = scaled_curves(media, knots, eta);
-  const Eigen::MatrixXd other = scaled_curves(media, knots, eta + kEtaStep);
+  const Eigen::MatrixXd r = scaled_curves(media, few, eta);
+  const Eigen::MatrixXd other = scaled_curves(media, few, eta + kEtaStep);
   return changed<Eigen::MatrixXd>(
       seen, light, channel, lit,
       [&](const std::vector<ExitSite>& sites, const SourceCloud& sources, bool is_other_eta) {
@@ -124,7 +126,8 @@ ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, st
 ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weights,
                              const DistanceKnots& knots, const std::vector<LitMedium>& media) {
   const double eta = seen.object->stated->eta_int_over_ext;
-  const Eigen::MatrixXd r = scaled_curves(media, knots, eta);
+  const DistanceKnots few = coarse_knots(knots);
+  const Eigen::MatrixXd r = scaled_curves(media, few, eta);
   const auto image = [&](const WeightMatrix& w) -> Eigen::MatrixXd {
     if (w.size() == 0) return {};
     return w * r;
@@ -134,7 +137,7 @@ ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weigh
   for (const WeightMatrix& w : weights.changed) out.changed.push_back(image(w));
   out.steps = weights.steps;
   if (weights.other_eta.size() > 0) {
-    out.other_eta = weights.other_eta * scaled_curves(media, knots, eta + kEtaStep);
+    out.other_eta = weights.other_eta * scaled_curves(media, few, eta + kEtaStep);
   }
   for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = image(weights.shifted[t]);
   out.shift_mm = weights.shift_mm;
@@ -147,8 +150,9 @@ Eigen::MatrixXd images_at_centers(const SeenObject& seen, const IncidentLight& l
   std::vector<ExitSite> sites;
   sites.reserve(seen.sites.size());
   for (const ExitSite& site : seen.sites) sites.push_back(exit_point(site.center_mm));
-  return smooth_weights(sites, sources, coarse_knots(knots), coarse_pair_options(knots)) *
-         scaled_curves(media, knots, seen.object->stated->eta_int_over_ext);
+  const DistanceKnots few = coarse_knots(knots);
+  return smooth_weights(sites, sources, few, coarse_pair_options(knots)) *
+         scaled_curves(media, few, seen.object->stated->eta_int_over_ext);
 }
 
 LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,

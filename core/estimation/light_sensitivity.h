@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/diffusion/distance_weights.h"
+#include "core/diffusion/weight_store.h"
 #include "core/material/medium.h"
 #include "core/scene/lit_objects.h"
 #include "core/scene/seen_object.h"
@@ -38,7 +39,8 @@ Eigen::MatrixXd scaled_curves(const std::vector<LitMedium>& media, const Distanc
 // For weights to about 1e-3, which is sufficient for standard deviations.
 PairSumOptions coarse_pair_options(const DistanceKnots& knots);
 
-// The same knots with wider bins between them: their error is the same before and after a change.
+// Half as many knots for the same distances, with wider bins between them: their error is the same
+// before and after a change.
 DistanceKnots coarse_knots(const DistanceKnots& knots);
 
 // A view under a light, nominal and with one quantity changed at a time, at the centres of the
@@ -58,9 +60,10 @@ using ChangedWeights = Changed<WeightMatrix>;
 // The images for some media, rows x media: smaller than W by a factor of the number of knots over
 // that of media.
 using ChangedImages = Changed<Eigen::MatrixXd>;
-// `channel`: of the light.
+// `channel`: of the light. store: may be null. W is on coarse_knots(knots).
 ChangedWeights changed_weights(const SeenObject& seen, const SceneLight& light, std::size_t channel,
-                               LitObjects& lit, const DistanceKnots& knots);
+                               LitObjects& lit, const DistanceKnots& knots,
+                               WeightStore* store = nullptr);
 ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, std::size_t channel,
                              LitObjects& lit, const DistanceKnots& knots,
                              const std::vector<LitMedium>& media);

@@ -30,7 +30,7 @@ ChangedImages images_of(const Estimation& e, const LightKey& key,
     return changed_images(*seen, stated, channel, e.lit, knots, media);
   }
   if (kept->nominal.size() == 0) {
-    *kept = changed_weights(*seen, stated, channel, e.lit, knots);
+    *kept = changed_weights(*seen, stated, channel, e.lit, knots, e.kept.store.get());
   }
   return changed_images(*seen, *kept, knots, media);
 }

@@ -227,8 +227,8 @@ Eigen::MatrixXd change_by_plane(const SeenObject& seen, const Led& led, const In
   const Eigen::Map<const Eigen::VectorXd> once(of_led.data(),
                                                static_cast<Eigen::Index>(of_led.size()));
   const PairSumOptions pairs = coarse_pair_options(knots);
-  const DistanceKnots few = knots.with_fine_bits(4);
-  const Eigen::MatrixXd r = scaled_curves(media, knots, eta);
+  const DistanceKnots few = coarse_knots(knots);
+  const Eigen::MatrixXd r = scaled_curves(media, few, eta);
   // One medium at a time: its digits do not depend on the others. The scale is that of the
   // measurement, not of the light itself.
   const SourceCloud direct_light(direct, center_mm);

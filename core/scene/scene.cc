@@ -54,6 +54,12 @@ std::vector<std::string> SceneShot::files() const {
   return all;
 }
 
+std::set<std::string> Scene::objects_in_shots() const {
+  std::set<std::string> out;
+  for (const SceneShot& shot : shots) out.insert(shot.object);
+  return out;
+}
+
 std::vector<std::string> Scene::materials() const {
   std::vector<std::string> out;
   for (const SceneShot& shot : shots) {

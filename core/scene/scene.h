@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -155,6 +156,8 @@ struct Scene {
   const SceneLight& light(const std::string& name) const;    // std::out_of_range
   // Materials in the order of their first shot.
   std::vector<std::string> materials() const;
+  // The names of the objects that have shots.
+  std::set<std::string> objects_in_shots() const;
   // "rig.yaml:12" for messages; without a line number (0), the source alone.
   std::string at(int line) const;
 };

@@ -34,7 +34,8 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
 }
 
 SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObjects& lit,
-                   const PoseResult& pose, const std::map<std::string, PoseShift>& shifts) {
+                   const PoseResult& pose, const std::map<std::string, PoseShift>& shifts,
+                   const std::set<std::string>& only) {
   SharedView view{pose, {}};
   struct Item {
     const std::string& name;
@@ -43,6 +44,7 @@ SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObj
   };
   std::vector<Item> list;
   for (const auto& [name, object] : objects) {
+    if (!only.empty() && !only.contains(name)) continue;
     const auto at = shifts.find(name);
     const PoseShift shift = at == shifts.end() ? PoseShift(PoseShift::Zero()) : at->second;
     require_in_view(scene, objects,

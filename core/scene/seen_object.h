@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -43,9 +44,10 @@ struct SharedView {
   std::map<std::string, std::shared_ptr<const SeenObject>> objects;
 };
 
-// shifts: of the pose relative to each object, by its name; none: zero. Throws InputError when an
-// object is out of view.
+// shifts: of the pose relative to each object, by its name; none: zero. only: the objects of these
+// names; empty: all. Throws InputError when one of them is out of view.
 SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObjects& lit,
-                   const PoseResult& pose, const std::map<std::string, PoseShift>& shifts = {});
+                   const PoseResult& pose, const std::map<std::string, PoseShift>& shifts = {},
+                   const std::set<std::string>& only = {});
 
 }  // namespace scattermeter

@@ -98,6 +98,36 @@ TEST_F(WatchedShotsTest, FollowsNamesAndRemovals) {
   EXPECT_TRUE(is_kept("PP_cube_1.dng"));
 }
 
+// The cube stands elsewhere in its second shot, which comes first.
+TEST(WatchedPiece, IsFoundForTheShotThatShowsIt) {
+  SmallRig files;
+  files.keep_shots("PP_cube");
+  const std::string text = files.text();
+  const std::string cube = "cube: {mesh: cube.obj, eta: 1.4";
+  files.write(replaced(replaced(text, cube + "}",
+                                cube + ", pose: {position_mm: [2, -1, 0]}}\n  cube2" +
+                                    cube.substr(4) + ", pose: {position_mm: [-1.5, 1, 0]}}"),
+                       "PP_cube_2.dng, object: cube", "PP_cube_2.dng, object: cube2"));
+  files.simulate();
+  files.write(replaced(text, cube + "}",
+                       cube + ", pose: {from: silhouette, on_plane: true, per_shot: true}}"));
+  const Rig rig = read_rig(files.rig());
+  WatchedShots shots(rig, files.out(), nullptr);
+  const auto arrived = [&](const std::string& shot, const std::string& name) {
+    fs::copy_file(files.shots() + "/" + shot, files / name);
+    return shots.take(files / name);
+  };
+  const auto second = arrived("PP_cube_2.dng", "DSC_1.dng");
+  ASSERT_TRUE(second->verdict.is_accepted()) << second->verdict.problems.back();
+  EXPECT_EQ(second->rig_name, "PP_cube_2.dng");
+  const auto first = arrived("PP_cube_1.dng", "DSC_2.dng");
+  ASSERT_TRUE(first->verdict.is_accepted()) << first->verdict.problems.back();
+  EXPECT_EQ(first->rig_name, "PP_cube_1.dng");
+  for (const ChannelResult& r : shots.answer("PP_cube_1.dng").channels) {
+    EXPECT_FALSE(r.refused()) << r.channel;
+  }
+}
+
 TEST_F(WatchedShotsTest, WhatIsNoShotIsNotTaken) {
   const std::string path = files_ / "card/DSC_1.dng";
   write_file(path, slurp(files_.shots() + "/PP_cube_1.dng").substr(0, 50000));
