@@ -267,13 +267,12 @@ class DipoleEstimator {
                      ChannelResult& result) const {
     const MaterialChannel& channel = e_.channels[i];
     const DipoleFitOptions options = options_of(i);
-    result.singles.clear();
-    for (std::size_t s = 0; s < channel.shots.size(); ++s) {
-      const ShotSystem own = image.shot(s);
-      result.singles.push_back(
-          {channel.shots[s]->stated->file,
-           fit_dipole(SystemRows(*own.system), shots[s].image, knots_, options).estimate});
-    }
+    result.singles.assign(channel.shots.size(), {});
+    for_each_shot(image, [&](std::size_t s, const ShotSystem& own) {
+      result.singles[s] = {
+          channel.shots[s]->stated->file,
+          fit_dipole(SystemRows(*own.system), shots[s].image, knots_, options).estimate};
+    });
     result.agreement =
         shot_agreement(shots, image.nuisances(), knots_, fit.optimum, channel.eta_int_over_ext,
                        options.scale, std::max(1.0, fit.estimate.reduced_chi2));

@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 namespace scattermeter {
 namespace {
 
@@ -90,8 +92,7 @@ Interval profile_interval(const DipoleSolver& solver, const DipoleSolver::Point&
       inside = outside;
     }
   };
-  search(1.0, out.high);
-  search(-1.0, out.low);
+  tbb::parallel_invoke([&] { search(1.0, out.high); }, [&] { search(-1.0, out.low); });
   return out;
 }
 
