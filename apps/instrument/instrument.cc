@@ -256,8 +256,8 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   if (atlas_ && !atlas_->problem().empty()) {
     out.notes.push_back("paths of transport are not kept: " + atlas_->problem());
   }
-  if (weights_ && !weights_->problem().empty()) {
-    out.notes.push_back("light in each patch is not kept: " + weights_->problem());
+  if (const std::string problem = weights_ ? weights_->write() : ""; !problem.empty()) {
+    out.notes.push_back("light in each patch is not kept: " + problem);
   }
   opened = seen.shots();
   out.places = std::make_shared<RigPlaces>(rig_places(rig_, objects_, opened));

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include "apps/instrument/content_name.h"
 #include "capture/files/checked_file.h"
 #include "core/base/input_error.h"
@@ -74,15 +76,30 @@ std::optional<WeightMatrix> WeightFolder::find(const std::string& name) {
 }
 
 void WeightFolder::keep(const std::string& name, const WeightMatrix& weights) {
-  std::string problem;
-  try {
-    capture::write_checked_file(path_of(name), weights_as_bytes(weights));
-  } catch (const InputError& e) {
-    problem = e.what();
-  }
+  std::string bytes = weights_as_bytes(weights);
   const std::lock_guard lock(mutex_);
-  if (problem_.empty()) problem_ = problem;
+  waiting_.emplace_back(path_of(name), std::move(bytes));
+}
+
+std::string WeightFolder::write() {
+  std::vector<std::pair<std::string, std::string>> files;
+  {
+    const std::lock_guard lock(mutex_);
+    files.swap(waiting_);
+  }
+  if (files.empty()) return "";
+  std::vector<std::string> problems(files.size());
+  tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t i) {
+    try {
+      capture::write_checked_file(files[i].first, files[i].second);
+    } catch (const InputError& e) {
+      problems[i] = e.what();
+    }
+  });
   remove_oldest();
+  const auto first = std::find_if(problems.begin(), problems.end(),
+                                  [](const std::string& p) { return !p.empty(); });
+  return first == problems.end() ? "" : *first;
 }
 
 void WeightFolder::remove_oldest() {
@@ -106,11 +123,6 @@ void WeightFolder::remove_oldest() {
     const std::uintmax_t size = fs::file_size(path, ignored);
     if (!ignored && fs::remove(path, ignored)) bytes -= size;
   }
-}
-
-std::string WeightFolder::problem() const {
-  const std::lock_guard lock(mutex_);
-  return problem_;
 }
 
 }  // namespace scattermeter::apps
