@@ -46,8 +46,11 @@ void add(const SourceCloud::Rule& rule, Numbers& out) {
 Numbers numbers_of(const std::vector<ExitSite>& sites, const SourceCloud& sources,
                    const DistanceKnots& knots, const PairSumOptions& options) {
   constexpr std::size_t kOfSite = 70, kOfRule = 16;
+  // To be raised when the same inputs give other digits.
+  constexpr int kForm = 1;
   Numbers out;
   out.reserve(kOfSite * sites.size() + kOfRule * sources.size() + 32);
+  out.add(kForm);
   out.add(knots.resolution_mm());
   out.add(knots.max_distance_mm());
   out.add(knots.size());

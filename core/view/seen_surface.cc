@@ -1,13 +1,22 @@
 #include "core/view/seen_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <span>
 
 #include <Eigen/Geometry>
 #include <oneapi/tbb/parallel_for.h>
 
 namespace scattermeter {
+
+namespace {
+
+constexpr int kMostReach_px = 64;
+
+}  // namespace
 
 SeenSurface::SeenSurface(const RayGrid& rays, const RayScene& scene, const PatchMesh& patches,
                          const SampleMapOptions& options)
@@ -26,10 +35,61 @@ SeenSurface::SeenSurface(const RayGrid& rays, const RayScene& scene, const Patch
                                               static_cast<float>(hit.cos_theta)};
     }
   });
+  mark_amid_facets(std::max(options.guard_px, longest_reach_px()));
+}
+
+int SeenSurface::longest_reach_px() const {
+  if (!(options_.edge_reach_mm > 0.0) || rays_.width < 2 || rays_.height < 1) return 0;
+  // Neighbouring points are at least as far from each other as one is from the other's ray. Rays in
+  // the middle stand for all, with a margin for the lens.
+  const std::size_t middle = index((rays_.width - 1) / 2, rays_.height / 2);
+  const Eigen::Vector3d a = rays_.directions_in_world[middle].cast<double>();
+  const Eigen::Vector3d b = rays_.directions_in_world[middle + 1].cast<double>();
+  const double angle = a.cross(b).norm() / (a.norm() * b.norm());
+  double nearest_mm = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    if (seen_[i].patch < 0) continue;
+    nearest_mm = std::min(nearest_mm, static_cast<double>(seen_[i].distance) *
+                                          rays_.directions_in_world[i].cast<double>().norm());
+  }
+  constexpr double kMargin = 2.0;
+  const double reach = kMargin * options_.edge_reach_mm / (nearest_mm * angle);
+  return reach < kMostReach_px ? static_cast<int>(std::ceil(reach)) : kMostReach_px;
+}
+
+void SeenSurface::mark_amid_facets(int reach) {
+  // First along the rows, then, of what is left, along the columns.
+  std::vector<std::uint8_t> along_row(seen_.size(), 0);
+  tbb::parallel_for(0, rays_.height, [&](int y) {
+    for (int begin = 0, end = 0; begin < rays_.width; begin = end) {
+      const std::int32_t facet = seen_[index(begin, y)].facet;
+      while (end < rays_.width && seen_[index(end, y)].facet == facet) ++end;
+      if (facet < 0) continue;
+      for (int x = begin + reach; x < end - reach; ++x) along_row[index(x, y)] = 1;
+    }
+  });
+  amid_facet_.assign(seen_.size(), 0);
+  constexpr int kColumns = 64;  // side by side, as memory holds them
+  tbb::parallel_for(0, (rays_.width + kColumns - 1) / kColumns, [&](int block) {
+    const int first = block * kColumns;
+    const int last = std::min(first + kColumns, rays_.width);
+    std::array<int, kColumns> begin{};  // of the run above each sample
+    for (int y = 0; y < rays_.height; ++y) {
+      for (int x = first; x < last; ++x) {
+        const std::size_t i = index(x, y);
+        int& from = begin[static_cast<std::size_t>(x - first)];
+        const bool goes_on =
+            y > 0 && along_row[i] != 0 && seen_[i].facet == seen_[index(x, y - 1)].facet;
+        if (!goes_on) from = along_row[i] != 0 ? y : y + 1;
+        if (y - from >= 2 * reach) amid_facet_[index(x, y - reach)] = 1;
+      }
+    }
+  });
 }
 
 bool SeenSurface::inside(int x, int y) const {
   const std::size_t i = index(x, y);
+  if (amid_facet_[i] != 0) return true;
   const int g = options_.guard_px;
   for (const auto& [dx, dy] : kNeighbours) {
     if (g > 0 && ahead(i, x + g * dx, y + g * dy) != Ahead::kSmooth) return false;
@@ -58,12 +118,12 @@ SeenSurface::Ahead SeenSurface::ahead(std::size_t i, int xn, int yn) const {
 
 // The steps of a pixel, towards the neighbour (xn, yn), that lead as far as edge_reach_mm.
 int SeenSurface::reach_px(std::size_t i, int xn, int yn) const {
-  constexpr double kMost = 64.0;
   if (xn < 0 || yn < 0 || xn >= rays_.width || yn >= rays_.height) return 0;
   const std::size_t neighbour = index(xn, yn);
   if (seen_[neighbour].patch < 0) return 0;
   const double step_mm = (point(neighbour) - point(i)).norm();
-  return static_cast<int>(std::ceil(std::min(kMost, options_.edge_reach_mm / step_mm)));
+  return static_cast<int>(
+      std::ceil(std::min(static_cast<double>(kMostReach_px), options_.edge_reach_mm / step_mm)));
 }
 
 double SeenSurface::footprint_mm2(int x, int y) const {

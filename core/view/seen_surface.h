@@ -52,6 +52,10 @@ class SeenSurface {
   enum class Ahead { kSmooth, kBeyondEdge, kInFront };
   Ahead ahead(std::size_t i, int xn, int yn) const;
   int reach_px(std::size_t i, int xn, int yn) const;
+  // At least what reach_px() is of any sample that sees the same facet as its neighbour.
+  int longest_reach_px() const;
+  // Marks the samples that have a square of one facet about them, `reach` to each side.
+  void mark_amid_facets(int reach);
 
   static constexpr std::array<std::pair<int, int>, 8> kNeighbours = {
       {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
@@ -60,6 +64,7 @@ class SeenSurface {
   const PatchMesh& patches_;
   SampleMapOptions options_;
   std::vector<Seen> seen_;
+  std::vector<std::uint8_t> amid_facet_;
 };
 
 }  // namespace scattermeter
