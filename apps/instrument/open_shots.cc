@@ -8,7 +8,6 @@
 #include <variant>
 
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/parallel_invoke.h>
 
 #include "apps/instrument/focus.h"
 #include "calib/pose/shot_pose.h"
@@ -16,6 +15,7 @@
 #include "capture/shots/shot_key.h"
 #include "capture/shots/shot_samples.h"
 #include "core/base/progress.h"
+#include "core/base/side_by_side.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -113,7 +113,7 @@ class ShotOpener {
     const SampleMap& map = shot.seen->map;
     capture::ShotSamples out;
     // Neither needs the other.
-    tbb::parallel_invoke(
+    side_by_side(
         [&] {
           if (!is_judged_by_blur(shot)) return;
           shot.edge_blur_mm =

@@ -6,9 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include <oneapi/tbb/parallel_invoke.h>
-
 #include "core/base/chi_square.h"
+#include "core/base/side_by_side.h"
 #include "core/diffusion/dipole_curve.h"
 #include "core/fit/fit_uncertainty.h"
 #include "core/fit/profile_interval.h"
@@ -62,8 +61,8 @@ void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, cons
     if (q.high95 < q.value + q.std) q.high95 = q.value + 1.96 * q.std;
     q.low95 = std::max(0.0, q.low95);
   };
-  tbb::parallel_invoke([&] { profile(Coefficient::kSigmaSPrime, 0, s); },
-                       [&] { profile(Coefficient::kSigmaA, 1, a); });
+  side_by_side([&] { profile(Coefficient::kSigmaSPrime, 0, s); },
+               [&] { profile(Coefficient::kSigmaA, 1, a); });
   // The image tells less of a larger sigma_a: where noise has taken it too low, the deviation there
   // is too short to reach the true one.
   const double longer = (a.high95 - a.value) / (1.96 * a.std);

@@ -5,7 +5,7 @@
 #include <functional>
 #include <limits>
 
-#include <oneapi/tbb/parallel_invoke.h>
+#include "core/base/side_by_side.h"
 
 namespace scattermeter {
 namespace {
@@ -92,7 +92,7 @@ Interval profile_interval(const DipoleSolver& solver, const DipoleSolver::Point&
       inside = outside;
     }
   };
-  tbb::parallel_invoke([&] { search(1.0, out.high); }, [&] { search(-1.0, out.low); });
+  side_by_side([&] { search(1.0, out.high); }, [&] { search(-1.0, out.low); });
   return out;
 }
 
