@@ -4,33 +4,19 @@
 #include <filesystem>
 #include <utility>
 
-#include <fmt/core.h>
 #include <fmt/format.h>
 
 #include "apps/instrument/open_objects.h"
 #include "apps/instrument/piece_places.h"
+#include "apps/watching/linked_file.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/file_kind.h"
 #include "capture/shots/raw_shot.h"
 #include "core/base/input_error.h"
 
 namespace scattermeter::apps {
-namespace {
 
 namespace fs = std::filesystem;
-
-// A second name of the file, or a copy on another disk.
-void link_or_copy(const std::string& from, const std::string& to) {
-  std::error_code error;
-  fs::create_directories(fs::path(to).parent_path(), error);
-  fs::remove(to, error);
-  fs::create_hard_link(from, to, error);
-  if (!error) return;
-  fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
-  if (error) throw InputError(to, "cannot be written: " + error.message());
-}
-
-}  // namespace
 
 WatchedShots::WatchedShots(const Rig& rig, const std::string& out_folder, ShotPainter paint)
     : stated_(rig),
@@ -110,24 +96,17 @@ capture::ShotSource WatchedShots::source_of(const std::vector<std::size_t>& shot
   return source;
 }
 
-SceneObject& WatchedShots::object_of(Rig& rig, const SceneShot& shot) {
-  return *std::find_if(rig.scene.objects.begin(), rig.scene.objects.end(),
-                       [&](const SceneObject& o) { return o.name == shot.object; });
-}
-
 void WatchedShots::forget_place(std::size_t shot_idx) {
   const SceneShot& shot = rig_.scene.shots[shot_idx];
   const SceneObject& stated = stated_.scene.object(shot.object);
-  if (!stated.to_be_found || object_of(rig_, shot).to_be_found) return;
+  if (!stated.to_be_found || rig_.scene.object(shot.object).to_be_found) return;
   for (const AwaitedFile& f : files_) {
     if (f.shot_idx != AwaitedFile::kBoard && !f.taken_from.empty() &&
         rig_.scene.shots[f.shot_idx].object == shot.object) {
       return;
     }
   }
-  object_of(rig_, shot) = stated;
-  instrument_.reset();
-  objects_ = open_objects(rig_);
+  put(stated);
 }
 
 // Where the first shot of a piece shows it, which later shots are compared with.
@@ -135,8 +114,14 @@ void WatchedShots::place_piece(const SceneShot& shot) {
   Rig one = rig_;
   one.scene.shots = {shot};
   place_pieces(one, shots_folder_);
-  object_of(rig_, shot) = object_of(one, shot);
-  object_of(rig_, shot).to_be_found.reset();
+  SceneObject found = one.scene.object(shot.object);
+  found.to_be_found.reset();
+  put(found);
+}
+
+void WatchedShots::put(const SceneObject& object) {
+  *std::find_if(rig_.scene.objects.begin(), rig_.scene.objects.end(),
+                [&](const SceneObject& o) { return o.name == object.name; }) = object;
   instrument_.reset();
   objects_ = open_objects(rig_);
 }
@@ -161,7 +146,7 @@ void WatchedShots::look_at(std::size_t slot, TakenShot& taken) {
   const capture::RawFrame& frame = frames.front();
   const double range_counts =
       frame.white_counts - *std::max_element(frame.black_counts.begin(), frame.black_counts.end());
-  if (object_of(rig_, shot).to_be_found) {
+  if (rig_.scene.object(shot.object).to_be_found) {
     // Where it is stated to stand is near enough to see whether it can be found.
     const FirstLook there = instrument().look(source);
     taken.verdict = judge_exposure(there.shots.front(), range_counts);

@@ -66,11 +66,12 @@ class WatchedShots {
   TakenShot take_as(std::size_t slot, const std::string& path);
   void take_board(TakenShot& taken);
   void look_at(std::size_t slot, TakenShot& taken);
-  static SceneObject& object_of(Rig& rig, const SceneShot& shot);
   void place_piece(const SceneShot& shot);
   // Puts the piece of the shot back to where it is stated to stand, to be found again, unless
   // another accepted shot shows it.
   void forget_place(std::size_t shot_idx);
+  // In place of the object of its name.
+  void put(const SceneObject& object);
   Instrument& instrument();
   std::string path_of(const std::string& rig_name) const;
   bool is_complete(std::size_t shot_idx) const;
