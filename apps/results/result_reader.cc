@@ -72,7 +72,10 @@ class JsonField {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    std::string got = json_.dump(-1, ' ', false, ParsedJson::error_handler_t::replace);
+    // A list or an object is named by its kind: dump() recurses as deep as the file nests.
+    std::string got = json_.is_structured()
+                          ? (json_.is_array() ? "a list" : "an object")
+                          : json_.dump(-1, ' ', false, ParsedJson::error_handler_t::replace);
     if (got.size() > 60) got = got.substr(0, 60) + "...";
     throw InputError(file_ + ": " + path_, what + ", got " + got);
   }
@@ -82,6 +85,21 @@ class JsonField {
   const std::string& file_;
   std::string path_;
 };
+
+ParsedJson parse(const std::string& text, const std::string& path) {
+  try {
+    return ParsedJson::parse(text);
+  } catch (const ParsedJson::parse_error& e) {
+    const std::string read = text.substr(0, std::max<std::size_t>(e.byte, 1) - 1);
+    throw InputError(path, fmt::format("is not JSON (line {}); give the result.json that `measure` "
+                                       "has written",
+                                       1 + std::count(read.begin(), read.end(), '\n')));
+  } catch (const ParsedJson::out_of_range&) {
+    throw InputError(path, fmt::format("holds a number beyond {:.2g}; give the result.json that "
+                                       "`measure` has written",
+                                       std::numeric_limits<double>::max()));
+  }
+}
 
 Quantity read_quantity(const JsonField& field, bool refused, double min) {
   Quantity q;
@@ -133,15 +151,7 @@ ReadResult read_result(const std::string& path) {
     throw InputError(path, "is a folder; give the result.json that `measure` has written");
   }
   if (!in || !text) throw InputError(path, "cannot be read");
-  ParsedJson json;
-  try {
-    json = ParsedJson::parse(text.str());
-  } catch (const ParsedJson::parse_error& e) {
-    const std::string read = text.str().substr(0, std::max<std::size_t>(e.byte, 1) - 1);
-    throw InputError(path, fmt::format("is not JSON (line {}); give the result.json that `measure` "
-                                       "has written",
-                                       1 + std::count(read.begin(), read.end(), '\n')));
-  }
+  const ParsedJson json = parse(text.str(), path);
   if (json.is_object() && !json.contains("results")) {
     throw InputError(path, "has no results; give the result.json that `measure` has written");
   }

@@ -45,6 +45,12 @@ TEST(ResultReader, NamesWhatIsWrong) {
   write_file(exported.result(), std::string("{\"results\": ["));
   EXPECT_THAT(exported.run_format("csv").err,
               HasSubstr("is not JSON (line 1); give the result.json that `measure` has written"));
+  write_file(exported.result(), std::string("{\"version\": 1e999}"));
+  EXPECT_THAT(exported.run_format("csv").err,
+              HasSubstr("holds a number beyond 1.8e+308; give the result.json"));
+  write_file(exported.result(), "{\"version\": " + std::string(1000000, '[') +
+                                    std::string(1000000, ']') + ", \"results\": []}");
+  EXPECT_THAT(exported.run_format("csv").err, HasSubstr("version: expected text, got a list"));
   write_file(exported.result(), std::string("{\"format\": 1}"));
   EXPECT_THAT(exported.run_format("csv").err, HasSubstr("has no results; give the result.json"));
 }
