@@ -153,6 +153,13 @@ std::string kind_of(Head& head) {
   return "";
 }
 
+// OpenCV leaves a file with this mark to its reader of DICOM, whatever the first bytes say; that
+// one ends the program on a damaged file.
+bool is_dicom(std::istream& file) {
+  Head head(file);
+  return head.text(128, 4) == "DICM";
+}
+
 PictureClaim claim_of(Head& head) {
   const std::string kind = kind_of(head);
   if (kind == "JPEG") return jpeg(head);
@@ -172,6 +179,7 @@ std::string picture_kind(std::istream& file) {
 }
 
 std::optional<PictureClaim> picture_claim(std::istream& file) {
+  if (is_dicom(file)) return std::nullopt;
   Head head(file);
   const PictureClaim claim = claim_of(head);
   if (!head.ok() || claim.width_px == 0 || claim.height_px == 0) return std::nullopt;

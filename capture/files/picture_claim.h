@@ -20,8 +20,9 @@ struct PictureClaim {
 std::string picture_kind(std::istream& file);
 
 // Reads the header of a JPEG, PNG, classic TIFF (first directory), BMP, PBM/PGM/PPM or WebP file,
-// as recognised by its first bytes and not by its name. nullopt for any other file and when the
-// header is truncated, inconsistent or without a size. Nothing in the header is trusted.
+// as recognised by its first bytes and not by its name. nullopt for any other file, for one
+// that is marked as DICOM besides, and when the header is truncated, inconsistent or without a
+// size. Nothing in the header is trusted.
 std::optional<PictureClaim> picture_claim(std::istream& file);
 
 }  // namespace scattermeter::capture

@@ -129,6 +129,16 @@ TEST_P(TiffClaim, HoldsTilesAndStrips) {
   expect_claim(file({field(256, 30), field(257, 20), field(278, 0xffffffff)}), 30, 20);
 }
 
+TEST(PictureClaim, NotOfWhatIsAlsoDicom) {
+  const std::string webp =
+      "RIFF" + little(99, 4) + "WEBPVP8L" + little(50, 4) + "\x2f" + little(999U | 499U << 14U, 4);
+  const auto marked = [&](const std::string& mark) {
+    return webp + std::string(128 - webp.size(), '\0') + mark;
+  };
+  EXPECT_TRUE(claim_of(marked("DICN")));
+  EXPECT_FALSE(claim_of(marked("DICM")));
+}
+
 TEST(PictureClaim, NothingElse) {
   for (const std::string& other : {"GIF89a\1\0\1\0      "s, "v/1\1 OpenEXR     "s, ""s,
                                    "#?RADIANCE\n\n-Y 2 +X 4\n"s, "II+\0 BigTIFF      "s}) {
