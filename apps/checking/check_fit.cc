@@ -173,13 +173,13 @@ std::vector<bool> judged_channels(Estimation& e,
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
     ChannelResult& result = e.results[i];
     if (!systems[i] || !result.estimate.converged) continue;
-    result.why_transport = why_transport(result, systems[i]->image_in_std);
+    result.why_transport = why_transport(result);
     judged[i] = result.why_transport.empty() || is_contradicted(result.estimate) ||
                 std::any_of(e.channels[i].shots.begin(), e.channels[i].shots.end(),
                             [&](const ObservedShot* shot) { return explained.contains(shot); });
     if (judged[i]) continue;
     const auto [at, is_new] = best.try_emplace(e.channels[i].material, i);
-    if (!is_new && systems[i]->image_in_std > systems[at->second]->image_in_std) at->second = i;
+    if (!is_new && result.image_in_std > e.results[at->second].image_in_std) at->second = i;
   }
   if (best.empty()) return judged;
   ProgressStage stage(e.progress, "transport", best.size());

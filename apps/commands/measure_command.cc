@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -22,6 +23,17 @@ struct MeasureArguments {
   bool no_cache = false;
   MeasureArguments() { options.estimate.model = "auto"; }
 };
+
+// Of --precision. Throws CLI::ValidationError.
+std::optional<PrecisionGoal> goal_of(const std::string& text) {
+  constexpr double kSigma_a = 5.0;  // of that of sigma_s'
+  if (text == "full") return std::nullopt;
+  double percent = 0.0;
+  if (!CLI::detail::lexical_cast(text, percent) || !(percent > 0.0)) {
+    throw CLI::ValidationError("--precision", "expected full or a positive number, got " + text);
+  }
+  return PrecisionGoal{0.01 * percent, 0.01 * kSigma_a * percent};
+}
 
 void declare_options(CLI::App& command, MeasureArguments& a) {
   EstimateOptions& estimate = a.options.estimate;
@@ -55,6 +67,14 @@ void declare_options(CLI::App& command, MeasureArguments& a) {
                   "run out first, the digits are the same on any machine")
       ->check(CLI::Range(std::int64_t{300'000}, std::int64_t{1'000'000'000'000}))
       ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--precision", [&a](const std::string& text) { a.options.goal = goal_of(text); },
+          "full: all patches; a number: the standard deviation that suffices, in per cent of "
+          "sigma_s' (of sigma_a five times that): where the dipole reaches it with fewer patches, "
+          "evenly spread, the others are skipped, unless anything speaks against the answer")
+      ->type_name("full|PERCENT")
+      ->default_str("full");
   command.add_option("--material", a.options.materials,
                      "only this material (may be repeated); shots of others are not opened");
   command

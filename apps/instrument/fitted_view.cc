@@ -45,7 +45,8 @@ std::vector<ChannelResult> fitted_from_where_seen(
     options.goes_on_from_dipole = [&](const std::vector<ChannelResult>& results) {
       if (by_transport) return true;
       found = from(joint_pulls_of(results));
-      return is_last || !(found.motion > kVisibleMotion);
+      // Paths are traced to all rows only.
+      return !seen.levels() && (is_last || !(found.motion > kVisibleMotion));
     };
     options.paths = by_transport ? paths : std::min(paths, kLookingPaths);
     std::vector<ChannelResult> results = fit(options);

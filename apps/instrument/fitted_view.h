@@ -13,7 +13,7 @@
 namespace scattermeter::apps {
 
 // Fits the shots, opens them again from where the fit shows the objects to lie, and so on until the
-// objects stay there.
+// objects stay there. While only some rows are chosen, transport does not begin.
 std::vector<ChannelResult> fitted_from_where_seen(
     const Scene& scene, SeenShots& seen, EstimateOptions options,
     const std::function<std::vector<ChannelResult>(const EstimateOptions&)>& fit, Stopwatch& watch);

@@ -13,6 +13,7 @@
 #include "apps/instrument/light_look.h"
 #include "apps/instrument/outline_watch.h"
 #include "apps/instrument/rig_places.h"
+#include "apps/instrument/row_precision.h"
 #include "apps/instrument/seen_shots.h"
 #include "calib/pose/shot_pose.h"
 #include "core/base/chi_square.h"
@@ -174,7 +175,8 @@ std::optional<SharedView> Instrument::view_of(const capture::ShotSource& source)
 FirstLook Instrument::look(const capture::ShotSource& source) {
   std::vector<std::pair<std::string, double>> timing_s;
   Stopwatch watch(timing_s);
-  SeenShots seen(rig_, objects_, lit_, source, view_of(source), true, kept_, progress_);
+  SeenShots seen(rig_, objects_, lit_, source, view_of(source), true, std::nullopt, kept_,
+                 progress_);
   FirstLook out = look_first(source, true, seen, watch);
   out.shots = seen.shots();
   LightLook light(rig_.scene, lit_, out.shots, seen.kept().weights);
@@ -231,7 +233,11 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     out.patch_size_mm[name] = lit_.patches(name).patch_size_mm();
   }
   const bool smooth = estimator(options.model).on_smooth_knots;
-  SeenShots seen(rig_, objects_, lit_, source, view_of(source), smooth, kept_, progress_);
+  std::optional<int> levels;
+  if (options_.goal && smooth && !without_noise && options.model != "transport") {
+    levels = kFirstLevels;
+  }
+  SeenShots seen(rig_, objects_, lit_, source, view_of(source), smooth, levels, kept_, progress_);
   FirstLook look;
   if (without_noise) {
     seen.open();
@@ -245,9 +251,16 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     return estimate_others(rig_.scene, lit_, seen.shots(), look.findings, how, seen.kept(), watch,
                            progress_);
   };
-  out.results = smooth && !without_noise
-                    ? fitted_from_where_seen(rig_.scene, seen, options, fit, watch)
-                    : fit(options);
+  for (bool is_enough = false; !is_enough;) {
+    options.all_rows = seen.all_rows();
+    out.results = smooth && !without_noise
+                      ? fitted_from_where_seen(rig_.scene, seen, options, fit, watch)
+                      : fit(options);
+    levels = seen.levels();
+    if (levels) levels = levels_needed(out.results, *options_.goal, *levels, options.all_rows);
+    is_enough = levels == seen.levels();
+    if (!is_enough) seen.choose(levels);
+  }
   const auto* frames = std::get_if<capture::FrameSource>(&source.open);
   if (view_ && !without_noise && frames != nullptr && look.findings.empty() &&
       std::any_of(out.results.begin(), out.results.end(), is_fitted_and_refused)) {
@@ -259,10 +272,13 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   if (const std::string problem = weights_ ? weights_->write() : ""; !problem.empty()) {
     out.notes.push_back("light in each patch is not kept: " + problem);
   }
-  opened = seen.shots();
+  opened = seen.whole();
   out.places = std::make_shared<RigPlaces>(rig_places(rig_, objects_, opened));
   if (!without_noise) widen_by_blur(opened, rig_.scene.camera.intrinsics.fx_px, out.results);
   out.skipped = skipped_of(opened, lit_);
+  for (std::size_t i = 0; i < opened.size(); ++i) {
+    out.skipped.rows += opened[i].seen->sites.size() - seen.shots()[i].seen->sites.size();
+  }
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;
   out.skipped.channels_not_asked =
       material_channels(rig_.scene, opened).size() - out.results.size();

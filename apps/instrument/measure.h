@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/instrument/row_precision.h"
 #include "apps/rig/rig.h"
 #include "core/base/progress.h"
 #include "core/estimation/estimate.h"
@@ -22,6 +23,8 @@ struct MeasureOptions {
   EstimateOptions estimate;
   std::optional<double> patch_size_mm;  // of every object; absent: the rig's, or chosen
   std::vector<std::string> materials;   // of the rig, only these; empty: all
+  // Where reached with fewer rows by the dipole, the others are skipped; absent: all rows.
+  std::optional<PrecisionGoal> goal;
   // Folder of the decoded shots (capture/shots/shot_cache.h); empty: no cache.
   std::string cache_folder;
   // Folder of the paths of transport (atlas_folder.h); empty: they are not kept.
@@ -56,6 +59,7 @@ struct Skipped {
   std::size_t patches_unseen = 0;      // of the objects' views: without a row
   std::size_t patches_unlit = 0;       // of objects under each light: c_k = 0
   std::size_t shadow_rays = 0;         // on convex objects
+  std::size_t rows = 0;                // of the shots: beyond the goal
   std::size_t nuisances = 0;           // of the materials' channels: negligible
 };
 

@@ -1,5 +1,6 @@
 #include "apps/instrument/seen_shots.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -13,19 +14,69 @@ namespace scattermeter::apps {
 
 SeenShots::SeenShots(const Rig& rig, const ObjectScenes& objects, LitObjects& lit,
                      const capture::ShotSource& source, std::optional<SharedView> view,
-                     bool on_smooth_knots, KeptLight& kept, Progress* progress)
+                     bool on_smooth_knots, std::optional<int> levels, KeptLight& kept,
+                     Progress* progress)
     : rig_(rig),
       objects_(objects),
       lit_(lit),
       source_(source),
       view_(std::move(view)),
       on_smooth_knots_(on_smooth_knots),
+      levels_(levels),
       kept_(&kept),
       progress_(progress) {}
 
 void SeenShots::open(const capture::ShotSource& from) {
   shots_ = view_ && on_smooth_knots_ ? open_and_light(from)
                                      : open_shots(rig_, from, objects_, lit_, view_, progress_);
+  if (!is_worth_choosing(shots_)) levels_ = std::nullopt;
+  choose(levels_);
+}
+
+std::shared_ptr<const SeenObject> SeenShots::chosen(
+    const std::shared_ptr<const SeenObject>& whole) const {
+  if (!levels_) return whole;
+  const auto [it, is_new] = kept_->thinned.try_emplace({whole.get(), *levels_});
+  ThinnedView& view = it->second;
+  if (is_new) {
+    std::vector<Eigen::Vector3d> centers_mm;
+    for (const ExitSite& site : whole->sites) centers_mm.push_back(site.center_mm);
+    view.choice = spread_rows(centers_mm, *levels_);
+    view.seen = with_rows(*whole, view.choice);
+  }
+  return view.seen;
+}
+
+bool SeenShots::is_worth_choosing(const std::vector<ObservedShot>& shots) const {
+  if (!levels_) return false;
+  std::size_t all = 0, some = 0;
+  for (const ObservedShot& shot : shots) {
+    const std::size_t n = shot.seen->sites.size();
+    all += n;
+    some += std::min(n, std::size_t{1} << *levels_);
+  }
+  return all >= 2 * some;
+}
+
+double SeenShots::all_rows() const {
+  const auto rows = [](const std::vector<ObservedShot>& list) {
+    std::size_t n = 0;
+    for (const ObservedShot& shot : list) n += shot.seen->sites.size();
+    return static_cast<double>(n);
+  };
+  return rows(whole()) / rows(shots());
+}
+
+void SeenShots::choose(std::optional<int> levels) {
+  levels_ = levels;
+  chosen_.clear();
+  if (!levels_) return;
+  for (const ObservedShot& shot : shots_) {
+    ObservedShot& out = chosen_.emplace_back(shot);
+    out.seen = chosen(shot.seen);
+    out.observation =
+        with_rows(shot.observation, kept_->thinned.at({shot.seen.get(), *levels_}).choice);
+  }
 }
 
 void SeenShots::open_from(const std::map<std::string, PoseShift>& shifts) {
@@ -43,12 +94,14 @@ void SeenShots::forget() {
 
 // Reads the shots and, at the same time, computes W for their views and lights, as neither depends
 // on the other.
-std::vector<ObservedShot> SeenShots::open_and_light(const capture::ShotSource& from) const {
+std::vector<ObservedShot> SeenShots::open_and_light(const capture::ShotSource& from) {
   std::vector<ObservedShot> unread(from.shot_idxs.size());
   for (std::size_t i = 0; i < unread.size(); ++i) {
     unread[i].stated = &rig_.scene.shots.at(from.shot_idxs[i]);
     unread[i].seen = view_->objects.at(unread[i].stated->object);
   }
+  if (!is_worth_choosing(unread)) levels_ = std::nullopt;
+  for (ObservedShot& shot : unread) shot.seen = chosen(shot.seen);
   std::vector<ObservedShot> shots;
   // Both ends are awaited: an exception would cancel the loops of the other, and half of W would be
   // kept as if it were whole.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,14 +22,24 @@ namespace scattermeter::apps {
 class SeenShots {
  public:
   // view: common to all shots; absent: each has its own. on_smooth_knots: W on them is computed
-  // while the shots are read. kept: the light of that view. All references must outlive it.
+  // while the shots are read. levels: of the choice of rows (core/view/chosen_rows.h), where that
+  // leaves at most half of them; absent: all rows. kept: the light of that view. All references
+  // must outlive it.
   SeenShots(const Rig& rig, const ObjectScenes& objects, LitObjects& lit,
             const capture::ShotSource& source, std::optional<SharedView> view, bool on_smooth_knots,
-            KeptLight& kept, Progress* progress);
+            std::optional<int> levels, KeptLight& kept, Progress* progress);
   SeenShots(const SeenShots&) = delete;
   SeenShots& operator=(const SeenShots&) = delete;
 
-  const std::vector<ObservedShot>& shots() const { return shots_; }
+  // With the chosen rows.
+  const std::vector<ObservedShot>& shots() const { return levels_ ? chosen_ : shots_; }
+  // With all rows.
+  const std::vector<ObservedShot>& whole() const { return shots_; }
+  std::optional<int> levels() const { return levels_; }
+  // All rows over the chosen ones.
+  double all_rows() const;
+  // Chooses other rows of the open shots.
+  void choose(std::optional<int> levels);
   // The light of the view that is open.
   KeptLight& kept() const { return *kept_; }
 
@@ -43,7 +54,11 @@ class SeenShots {
   void forget();
 
  private:
-  std::vector<ObservedShot> open_and_light(const capture::ShotSource& from) const;
+  std::vector<ObservedShot> open_and_light(const capture::ShotSource& from);
+  // Whether the levels leave at most half of the rows of these whole views.
+  bool is_worth_choosing(const std::vector<ObservedShot>& shots) const;
+  // The view with the chosen rows; without levels the view itself.
+  std::shared_ptr<const SeenObject> chosen(const std::shared_ptr<const SeenObject>& whole) const;
 
   const Rig& rig_;
   const ObjectScenes& objects_;
@@ -51,10 +66,12 @@ class SeenShots {
   capture::ShotSource source_;
   std::optional<SharedView> view_;
   bool on_smooth_knots_;
+  std::optional<int> levels_;
   KeptLight shifted_;
   KeptLight* kept_;
   Progress* progress_;
-  std::vector<ObservedShot> shots_;
+  std::vector<ObservedShot> shots_;   // with all rows
+  std::vector<ObservedShot> chosen_;  // empty without levels
 };
 
 }  // namespace scattermeter::apps

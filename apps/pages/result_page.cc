@@ -106,6 +106,7 @@ Html skipped(const Skipped& s) {
   add(s.patches_unseen, "patches that no shot sees");
   add(s.patches_unlit, "patches that a light does not reach");
   add(s.shadow_rays, "shadow rays on convex objects");
+  add(s.rows, "patches in shots beyond the precision that suffices");
   add(s.nuisances, "causes of error too small to count");
   if (parts.empty()) return {};
   return html_element(

@@ -180,6 +180,7 @@ std::string result_json(const Measurement& m, const std::string& command_line) {
                   {"patches_not_seen", m.skipped.patches_unseen},
                   {"patches_not_lit", m.skipped.patches_unlit},
                   {"shadow_rays_on_convex_objects", m.skipped.shadow_rays},
+                  {"patches_beyond_precision", m.skipped.rows},
                   {"negligible_nuisances", m.skipped.nuisances}};
   j["notes"] = m.notes;
   j["timing_s"] = Json::object();

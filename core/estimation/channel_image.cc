@@ -8,8 +8,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "core/base/position_cells.h"
 #include "core/diffusion/dipole_curve.h"
-#include "core/fit/lack_of_fit.h"
 #include "core/fit/method_errors.h"
 
 namespace scattermeter {
@@ -95,7 +95,7 @@ std::vector<int> parts_of_shot(const ObservedShot& shot, const std::vector<Eigen
   for (const Eigen::Index j : used) {
     centers_mm.push_back(shot.seen->sites[static_cast<std::size_t>(j)].center_mm);
   }
-  return residual_cells(centers_mm, kLevels, kLeastRows);
+  return position_cells(centers_mm, kLevels, kLeastRows);
 }
 
 Eigen::VectorXd reflectance(const LitMedium& first, const DistanceKnots& knots,

@@ -61,7 +61,9 @@ struct ChannelResult {
   // the dipole is inadequate.
   std::optional<SmoothReflectance> recovered;
   std::optional<DipoleMisfit> misfit;
-  RigEvidence evidence;  // of this channel's model
+  RigEvidence evidence;             // of this channel's model
+  double image_in_std = 0;          // |l / std| of the rows, of the dipole's fit
+  std::vector<MoreRows> more_rows;  // of the dipole, if the shots have more (EstimateOptions)
   // Of transport only: the dipole's estimate, and why --model auto rejected it.
   std::optional<Estimate> dipole;
   std::string why_transport;

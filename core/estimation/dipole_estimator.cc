@@ -136,6 +136,7 @@ class DipoleEstimator {
     DipoleFitOptions own = fit_;
     own.eta_int_over_ext = e_.channels[i].eta_int_over_ext;
     own.joint_pulls = work_[i].joint_pulls;
+    own.all_rows = e_.options.all_rows;
     return own;
   }
 
@@ -206,7 +207,7 @@ class DipoleEstimator {
     return !far.empty();
   }
 
-  void remember(std::size_t i, const LitMedium& first, double image_in_std) {
+  void remember(std::size_t i, const LitMedium& first) {
     const auto rows = std::make_shared<const ChannelRows>(work_[i].rows);
     const auto of_lights = work_[i].sensitivities;
     const Estimation& e = e_;
@@ -215,7 +216,7 @@ class DipoleEstimator {
       return ChannelImage(e.scene, e.channels[i], *rows, e.kept.weights, knots, first,
                           of_lights->of_channel[i]);
     };
-    (*systems_)[i] = DipoleSystem{[image] { return stacked(image()); }, knots_, rows, image_in_std,
+    (*systems_)[i] = DipoleSystem{[image] { return stacked(image()); }, knots_, rows,
                                   [image] { return image().light_by_plane(); }};
   }
 
@@ -237,11 +238,13 @@ class DipoleEstimator {
       return fit_dipole(image, joint, knots_, options);
     };
     DipoleFit fit = fitted();
-    if (systems_ != nullptr) remember(i, medium, std::sqrt(joint.l2));
+    if (systems_ != nullptr) remember(i, medium);
     if (leave_outliers_out(fit.image, work_[i].rows)) fit = fitted();
     report_rows(channel, work_[i].rows, result);
     result.estimate = fit.estimate;
     result.evidence = fit.evidence;
+    result.more_rows = fit.more_rows;
+    result.image_in_std = std::sqrt(joint.l2);
     if (!fit.estimate.converged) return;
     if (e_.options.keep_rows) {
       result.rows = shot_rows(channel, work_[i].rows, fit.image.predicted + image.light_by_plane(),

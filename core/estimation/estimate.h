@@ -27,10 +27,13 @@ struct EstimateOptions {
   std::int64_t paths = 1'000'000'000;
   double time_limit_s = 20;  // transport: per material and channel
   bool keep_rows = false;    // fill ChannelResult::rows
-  // Transport: called with the dipole's results before it begins; false ends the estimation there.
+  // Transport: called with the dipole's results, which say why transport is wanted, before it
+  // begins; false ends the estimation there.
   std::function<bool(const std::vector<ChannelResult>&)> goes_on_from_dipole = {};
   // Transport: what an earlier estimation of the same shots found, to start from.
   std::vector<ChannelResult> found = {};
+  // Rows that the shots have, over those that are given (core/view/chosen_rows.h); at least 1.
+  double all_rows = 1;
   bool without_noise = false;  // shots are noise-free expected values (dipole only)
 };
 

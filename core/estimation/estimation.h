@@ -2,10 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/atlas/transport_atlas.h"
@@ -21,6 +23,12 @@
 
 namespace scattermeter {
 
+// A view with fewer rows, and which of the whole view's they are.
+struct ThinnedView {
+  RowChoice choice;
+  std::shared_ptr<const SeenObject> seen;
+};
+
 // Light that can be reused for further shots of the same views.
 struct KeptLight {
   Weights weights;  // on smooth knots
@@ -29,6 +37,8 @@ struct KeptLight {
   std::shared_ptr<TransportAtlas> atlas = std::make_shared<TransportAtlas>();
   // Of W between programs; null: not kept.
   std::shared_ptr<WeightStore> store = {};
+  // By the whole view, and the levels of the choice (spread_rows()).
+  std::map<std::pair<const SeenObject*, int>, ThinnedView> thinned = {};
 };
 
 class Estimation {
@@ -65,7 +75,6 @@ struct DipoleSystem {
   std::function<DenseSystem()> system;
   DistanceKnots knots;
   std::shared_ptr<const ChannelRows> rows;
-  double image_in_std = 0;  // |l / std|
   // Of its rows: light by way of the plane below the objects, which the system's l is without
   // because W r is. May be empty: there is none.
   std::function<Eigen::VectorXd()> light_by_plane = {};

@@ -10,10 +10,14 @@ bool misses_image(const Estimate& estimate) {
   return estimate.misfit_p_value < kPValue && estimate.misfit_relative > kMisfit;
 }
 
-std::string why_transport(const ChannelResult& result, double image_in_std) {
+double hidden_by_noise(const ChannelResult& result) {
   // A misfit is visible where it exceeds the noise in the directions that the dipole might miss
   // (some tens, together this many deviations of the whole image).
   constexpr double kDeviations = 8.0;
+  return kDeviations / result.image_in_std;
+}
+
+std::string why_transport(const ChannelResult& result) {
   constexpr double kVisible = 5e-3;
   const Estimate& e = result.estimate;
   if (!e.reasons.empty()) return "the dipole is refused: " + e.reasons.front();
@@ -21,7 +25,7 @@ std::string why_transport(const ChannelResult& result, double image_in_std) {
     return fmt::format("the dipole misses {:.2g} % of the image", 100.0 * e.misfit_relative);
   }
   if (result.agreement.disagree()) return "the shots do not agree under the dipole";
-  const double visible = kDeviations / image_in_std;
+  const double visible = hidden_by_noise(result);
   if (visible > kVisible) {
     return fmt::format("noise hides what the dipole may miss, up to {:.2g} % of the image",
                        100.0 * visible);

@@ -15,7 +15,9 @@ bool misses_image(const Estimate& estimate);
 // than from the shape: on a 20 mm cube the dipole misses several per cent of the light. Its result
 // is kept if it is not refused, its misfit is insignificant or below a thousandth of the image, the
 // shots agree, and the image is good enough to have shown a misfit of half a per cent.
-// result: of the dipole; image_in_std: norm of the fitted image in standard deviations, |l / std|.
-std::string why_transport(const ChannelResult& result, double image_in_std);
+// result: of the dipole.
+std::string why_transport(const ChannelResult& result);
+// What the dipole may miss without being seen to, relative to the image.
+double hidden_by_noise(const ChannelResult& result);
 
 }  // namespace scattermeter

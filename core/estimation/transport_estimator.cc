@@ -17,14 +17,14 @@ template <class Wants>
 void estimate_from_dipole(Estimation& e, const char* otherwise, const Wants& wants_transport) {
   std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
   estimate_dipole(e, &systems);
-  if (e.options.goes_on_from_dipole && !e.options.goes_on_from_dipole(e.results)) return;
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
-    e.results[i].model = otherwise;
     if (!systems[i]) continue;
-    e.results[i].why_transport = why_transport(e.results[i], systems[i]->image_in_std);
+    e.results[i].why_transport = why_transport(e.results[i]);
     if (wants_transport(e.results[i])) wanted.push_back(i);
   }
+  if (e.options.goes_on_from_dipole && !e.options.goes_on_from_dipole(e.results)) return;
+  for (ChannelResult& r : e.results) r.model = otherwise;
   if (wanted.empty()) return;
   ProgressStage stage(e.progress, "transport", wanted.size());
   for (const std::size_t i : wanted) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -69,6 +70,18 @@ void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, cons
   if (!(longer > 1.0) || !std::isfinite(longer)) return;
   a.std *= longer;
   for (BudgetLine& line : estimate.budget) line.std_sigma_a_per_mm *= longer;
+}
+
+std::vector<MoreRows> more_rows(const std::function<FitUncertainty(double)>& with_times,
+                                double all) {
+  std::vector<MoreRows> out;
+  for (double times = 1.0; all > 1.0; times = std::min(2.0 * times, all)) {
+    const Eigen::Matrix2d c =
+        with_times(times).covariance([](const std::string&) { return false; });
+    out.push_back({times, std::sqrt(c(0, 0)), std::sqrt(c(1, 1))});
+    if (times == all) break;
+  }
+  return out;
 }
 
 template <class... Parts>
@@ -194,6 +207,7 @@ void add_contradictions(const DipoleFit& fit, const Solved& solved, const Dipole
 void DipoleFitOptions::Check() const {
   if (!(eta_int_over_ext > 0.0)) throw std::invalid_argument("DipoleFitOptions.eta_int_over_ext");
   if (!(scale.relative_std >= 0.0)) throw std::invalid_argument("DipoleFitOptions.scale");
+  if (!(all_rows >= 1.0)) throw std::invalid_argument("DipoleFitOptions.all_rows");
   if (!(misfit_p_value > 0.0)) throw std::invalid_argument("DipoleFitOptions.misfit_p_value");
 }
 
@@ -274,9 +288,12 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
                                           test->offset));
     }
   }
-  set_uncertainty(
-      FitUncertainty(widened, nuisances, curve, p.u, p.q, std::exp(p.log_s), scale, inflation),
-      *solved.solver, p, inflation, estimate);
+  const auto uncertainty = [&](double times) {
+    return FitUncertainty(widened, nuisances, curve, p.u, p.q, std::exp(p.log_s), scale,
+                          inflation / times);
+  };
+  set_uncertainty(uncertainty(1.0), *solved.solver, p, inflation, estimate);
+  fit.more_rows = more_rows(uncertainty, options.all_rows);
   add_refusals(knots, p, options, estimate);
   add_contradictions(fit, solved, options, estimate);
   return fit;

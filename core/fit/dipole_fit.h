@@ -1,6 +1,8 @@
 // Fit of the dipole to the recovered reflectance of an image.
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "core/diffusion/distance_weights.h"
@@ -41,7 +43,9 @@ struct DipoleFitOptions {
   // increased by one per degree of freedom).
   bool without_noise = false;
   JointPulls joint_pulls = {};  // known from other channels
-  void Check() const;           // std::invalid_argument naming the field
+  // All rows over those of the image, at least 1; above 1, DipoleFit::more_rows is filled.
+  double all_rows = 1;
+  void Check() const;  // std::invalid_argument naming the field
 };
 
 struct DipoleFit {
@@ -50,7 +54,8 @@ struct DipoleFit {
   // Predicted at the optimum, and observed. Empty if there is no optimum.
   ComparedImage image;
   RecoveredReflectance recovered;
-  RigEvidence evidence;  // under the priors as stated
+  RigEvidence evidence;             // under the priors as stated
+  std::vector<MoreRows> more_rows;  // from 1 in steps of 2 to DipoleFitOptions::all_rows
 };
 
 // The dipole of least chi-square on the image (DipoleSolver). Standard deviations from the Jacobian

@@ -80,6 +80,13 @@ void widen(const BudgetLine& by, double covariance, Estimate& estimate);
 // for sigma_a if it is undetermined and not an upper limit; none that is there already.
 void refuse_undetermined(Estimate& estimate);
 
+// Deviations as they would be with so many times the rows, were the others like these.
+struct MoreRows {
+  double times = 1;
+  double std_sigma_s_prime_per_mm = 0;
+  double std_sigma_a_per_mm = 0;
+};
+
 // Prior of the scale (LED power x camera gain x exposure).
 struct ScalePrior {
   double relative_std = 0;  // 0: exact; infinity: free

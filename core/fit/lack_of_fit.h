@@ -7,12 +7,6 @@
 
 namespace scattermeter {
 
-// Parts of a surface with about equally many rows each: cut at the median of the widest of x, y, z,
-// as long as each part keeps `least` rows, at most `levels` times. Returns the number of each row's
-// part, from 0. Domain: levels >= 0, least >= 1 (std::invalid_argument).
-std::vector<int> residual_cells(const std::vector<Eigen::Vector3d>& centers_mm, int levels,
-                                int least);
-
 // The residual's chi-square under an error model that consists of `free` (columns of unit standard
 // deviation; large ones for freely fitted unknowns) and `covariance`.
 struct LackOfFit {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/base/position_cells.h"
+
 namespace scattermeter {
 
 ShotParts::ShotParts(const std::vector<Eigen::Index>& shot_rows,
@@ -24,9 +26,9 @@ ShotParts::ShotParts(const std::vector<Eigen::Index>& shot_rows,
     const auto begin = center_mm.begin() + first;
     const std::vector<Eigen::Vector3d> centers(begin, begin + n);
     // Cells lie in the parts: the cuts are the same.
-    const std::vector<int> part = residual_cells(centers, levels, options.least_rows);
+    const std::vector<int> part = position_cells(centers, levels, options.least_rows);
     const std::vector<int> cell =
-        residual_cells(centers, levels + options.finer_levels, options.least_rows);
+        position_cells(centers, levels + options.finer_levels, options.least_rows);
     Eigen::Index next_part = n_parts, next_cell = n_cells;
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto k = static_cast<std::size_t>(j);

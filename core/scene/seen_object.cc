@@ -33,6 +33,18 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
   return seen;
 }
 
+std::shared_ptr<const SeenObject> with_rows(const SeenObject& seen, const RowChoice& choice) {
+  auto out = std::make_shared<SeenObject>();
+  out->object = seen.object;
+  out->patches = seen.patches;
+  out->camera_center_mm = seen.camera_center_mm;
+  out->shift = seen.shift;
+  out->shadows = seen.shadows;
+  out->map = with_rows(seen.map, choice);
+  for (const std::size_t row : choice.rows) out->sites.push_back(seen.sites.at(row));
+  return out;
+}
+
 SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObjects& lit,
                    const PoseResult& pose, const std::map<std::string, PoseShift>& shifts,
                    const std::set<std::string>& only) {

@@ -15,6 +15,7 @@
 #include "core/mesh/patch_mesh.h"
 #include "core/scene/lit_objects.h"
 #include "core/scene/object_scene.h"
+#include "core/view/chosen_rows.h"
 #include "core/view/sample_map.h"
 
 namespace scattermeter {
@@ -37,6 +38,9 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
                                       const LitObjects& lit, const std::string& object,
                                       const PoseResult& pose,
                                       const PoseShift& shift = PoseShift::Zero());
+
+// The same view with these rows only (core/view/chosen_rows.h).
+std::shared_ptr<const SeenObject> with_rows(const SeenObject& seen, const RowChoice& choice);
 
 // One pose common to all shots, and the objects as seen from it.
 struct SharedView {

@@ -19,7 +19,7 @@ class SeenShotsTest : public ::testing::Test {
   capture::ShotSource source() const { return virtual_shots_.source(1); }
   std::unique_ptr<SeenShots> seen(std::optional<SharedView> view) {
     return std::make_unique<SeenShots>(setup_.rig, setup_.scenes, *setup_.lit, source(),
-                                       std::move(view), true, kept_, nullptr);
+                                       std::move(view), true, std::nullopt, kept_, nullptr);
   }
 
   LitShots setup_;
@@ -64,8 +64,8 @@ TEST_F(SeenShotsTest, AnUnreadableShotLeavesNoHalfLight) {
     broken.open = capture::FrameSource([](std::size_t, std::size_t) -> capture::RawFrame {
       throw InputError("a.dng", "is cut off");
     });
-    SeenShots shots(setup_.rig, setup_.scenes, *setup_.lit, broken, setup_.view, true, kept_,
-                    nullptr);
+    SeenShots shots(setup_.rig, setup_.scenes, *setup_.lit, broken, setup_.view, true, std::nullopt,
+                    kept_, nullptr);
     EXPECT_THROW(shots.open(), InputError);
     ASSERT_EQ(kept_.weights.size(), whole.size());
     for (const auto& [key, weights] : whole) EXPECT_EQ(kept_.weights.at(key), weights);
@@ -80,8 +80,8 @@ TEST_F(SeenShotsTest, ForgetsAndKeepsNothingFromThenOn) {
   capture::ShotSource cached = source();
   cached.cache = &cache;
   cached.digests = &digests;
-  SeenShots shots(setup_.rig, setup_.scenes, *setup_.lit, cached, setup_.view, true, kept_,
-                  nullptr);
+  SeenShots shots(setup_.rig, setup_.scenes, *setup_.lit, cached, setup_.view, true, std::nullopt,
+                  kept_, nullptr);
   shots.forget();
   shots.open();
   EXPECT_TRUE(!std::filesystem::exists(folder) || std::filesystem::is_empty(folder));

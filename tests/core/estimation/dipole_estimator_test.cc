@@ -102,8 +102,8 @@ TEST(DipoleEstimator, HandsOverTheSystemsOfOpenChannels) {
   const auto n = static_cast<Eigen::Index>((*systems[0]->rows)[0].rows_used);
   EXPECT_EQ(system.l.size(), n);
   // Each row is some 100 deviations.
-  EXPECT_NEAR(systems[0]->image_in_std, 100.0 * std::sqrt(static_cast<double>(n)),
-              0.02 * systems[0]->image_in_std);
+  const double image_in_std = run.estimation.results[0].image_in_std;
+  EXPECT_NEAR(image_in_std, 100.0 * std::sqrt(static_cast<double>(n)), 0.02 * image_in_std);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ DipoleSystem handed_over(const test_support::DipoleCube& cube, const MaterialCha
   return {[&cube, &channel, rows] {
             return channel_system(cube.scene, channel, *rows, cube.weights, 0.0);
           },
-          smooth_knots(cube.lit), rows, 1e4};
+          smooth_knots(cube.lit), rows};
 }
 
 ChannelResult searched(test_support::DipoleCube& cube, const EstimateOptions& options,

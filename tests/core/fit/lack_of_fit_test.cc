@@ -11,28 +11,6 @@
 namespace scattermeter {
 namespace {
 
-TEST(ResidualCells, AreAlikeInSizeAndInOnePlace) {
-  std::vector<Eigen::Vector3d> centers;
-  for (int i = 0; i < 32; ++i) {
-    for (int j = 0; j < 8; ++j) centers.emplace_back(i, j, 0.0);
-  }
-  const std::vector<int> cell = residual_cells(centers, 2, 10);
-  std::vector<int> count(4, 0);
-  for (const int c : cell) ++count.at(static_cast<std::size_t>(c));
-  EXPECT_EQ(count, (std::vector<int>{64, 64, 64, 64}));
-  // Strips along the long side.
-  for (std::size_t k = 0; k < centers.size(); ++k) {
-    EXPECT_EQ(cell[k], static_cast<int>(centers[k].x()) / 8);
-  }
-  // Too few rows to cut, and points that are all the same.
-  EXPECT_EQ(residual_cells(centers, 4, 200), std::vector<int>(256, 0));
-  const std::vector<int> same = residual_cells(std::vector<Eigen::Vector3d>(40, {1, 1, 1}), 1, 20);
-  EXPECT_EQ(std::count(same.begin(), same.end(), 0), 20);
-  EXPECT_TRUE(residual_cells({}, 3, 1).empty());
-  EXPECT_THROW(residual_cells(centers, -1, 1), std::invalid_argument);
-  EXPECT_THROW(residual_cells(centers, 1, 0), std::invalid_argument);
-}
-
 // Draws that the covariance and the columns describe: p-values are even, and a chosen column takes
 // its degree of freedom along. The same with a bump that nothing describes: found.
 TEST(LackOfFit, IsEvenWhereTheModelHolds) {
