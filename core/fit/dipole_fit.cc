@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -22,10 +21,11 @@ namespace {
 using Point = DipoleSolver::Point;
 using Coefficient = DipoleSolver::Coefficient;
 
-// Standard deviations, correlation, budget and scale; the profile of the likelihood where the
-// quadratic approximation of the chi-square is not good enough for an interval.
+// Standard deviations, correlation, budget and scale; if the model explains the image, the profile
+// of the likelihood where the quadratic approximation of the chi-square is not good enough for an
+// interval.
 void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, const Point& p,
-                     double noise_inflation, Estimate& estimate) {
+                     double noise_inflation, bool explains, Estimate& estimate) {
   const Eigen::Matrix2d all = fit.covariance([](const std::string&) { return false; });
   Quantity& s = estimate.sigma_s_prime_per_mm;
   Quantity& a = estimate.sigma_a_per_mm;
@@ -44,6 +44,7 @@ void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, cons
   // The chi-square is parabolic over a few per cent of a coefficient, but not over tens, nor near
   // sigma_a = 0.
   constexpr double kParabolic = 0.1;
+  if (!explains) return;
   if (!(s.std > kParabolic * s.value) && !(a.std > kParabolic * a.value)) return;
   if (!std::isfinite(s.std) || !std::isfinite(a.std)) return;
   // Nuisances that are not fitted widen the interval as they widen the standard deviation.
@@ -72,24 +73,31 @@ void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, cons
   for (BudgetLine& line : estimate.budget) line.std_sigma_a_per_mm *= longer;
 }
 
-std::vector<MoreRows> more_rows(const std::function<FitUncertainty(double)>& with_times,
-                                double all) {
-  std::vector<MoreRows> out;
-  for (double times = 1.0; all > 1.0; times = std::min(2.0 * times, all)) {
-    const Eigen::Matrix2d c =
-        with_times(times).covariance([](const std::string&) { return false; });
-    out.push_back({times, std::sqrt(c(0, 0)), std::sqrt(c(1, 1))});
-    if (times == all) break;
-  }
-  return out;
-}
-
 template <class... Parts>
 std::string sentence(const Parts&... parts) {
   std::ostringstream out;
   out.precision(3);
   (out << ... << parts);
   return out.str();
+}
+
+// Why the dipole does not explain the image, by its fit alone; "": it does.
+std::string why_not_explained(const Estimate& e, const DipoleFitOptions& options) {
+  const double unexplained = e.rms_relative * std::sqrt(std::max(0.0, 1.0 - 1.0 / e.reduced_chi2));
+  const auto rows = static_cast<double>(e.rows);
+  if (unexplained > options.max_unexplained_relative &&
+      chi_square_tail(rows * e.reduced_chi2, rows) < options.misfit_p_value) {
+    return sentence("the dipole does not explain the shots: residual ", 100.0 * e.rms_relative,
+                    " %, of which noise explains all but ", 100.0 * unexplained, " %");
+  }
+  if (e.misfit_p_value < options.misfit_p_value &&
+      e.misfit_relative > options.max_misfit_relative) {
+    return sentence(
+        "the dipole does not explain the shots: a smooth function of distance fits better by ",
+        100.0 * e.misfit_relative,
+        " % of the image (scale, light, pose or material are not as the rig states)");
+  }
+  return "";
 }
 
 void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& options,
@@ -121,20 +129,8 @@ void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOpt
                                  " is too low for the dipole, which requires alpha' near 1"));
   }
   refuse_undetermined(e);
-  const double unexplained = e.rms_relative * std::sqrt(std::max(0.0, 1.0 - 1.0 / e.reduced_chi2));
-  const auto rows = static_cast<double>(e.rows);
-  if (unexplained > options.max_unexplained_relative &&
-      chi_square_tail(rows * e.reduced_chi2, rows) < options.misfit_p_value) {
-    e.reasons.push_back(sentence("the dipole does not explain the shots: residual ",
-                                 100.0 * e.rms_relative, " %, of which noise explains all but ",
-                                 100.0 * unexplained, " %"));
-  } else if (e.misfit_p_value < options.misfit_p_value &&
-             e.misfit_relative > options.max_misfit_relative) {
-    e.reasons.push_back(sentence(
-        "the dipole does not explain the shots: a smooth function of distance fits better by ",
-        100.0 * e.misfit_relative,
-        " % of the image (scale, light, pose or material are not as the "
-        "rig states)"));
+  if (const std::string misfit = why_not_explained(e, options); !misfit.empty()) {
+    e.reasons.push_back(misfit);
   }
 }
 
@@ -292,7 +288,8 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
     return FitUncertainty(widened, nuisances, curve, p.u, p.q, std::exp(p.log_s), scale,
                           inflation / times);
   };
-  set_uncertainty(uncertainty(1.0), *solved.solver, p, inflation, estimate);
+  set_uncertainty(uncertainty(1.0), *solved.solver, p, inflation,
+                  why_not_explained(estimate, options).empty(), estimate);
   fit.more_rows = more_rows(uncertainty, options.all_rows);
   add_refusals(knots, p, options, estimate);
   add_contradictions(fit, solved, options, estimate);

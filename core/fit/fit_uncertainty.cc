@@ -98,4 +98,14 @@ std::vector<std::string> FitUncertainty::causes() const {
   return out;
 }
 
+std::vector<MoreRows> more_rows(const std::function<FitUncertainty(double)>& with, double all) {
+  std::vector<MoreRows> out;
+  for (double times = 1.0; all > 1.0; times = std::min(2.0 * times, all)) {
+    const Eigen::Matrix2d c = with(times).covariance([](const std::string&) { return false; });
+    out.push_back({times, std::sqrt(c(0, 0)), std::sqrt(c(1, 1))});
+    if (times == all) break;
+  }
+  return out;
+}
+
 }  // namespace scattermeter

@@ -42,4 +42,8 @@ class FitUncertainty {
   std::vector<Eigen::Index> movable_;  // free parameters other than u and q
 };
 
+// From once the rows in steps of 2 to `all` times as many; empty unless all > 1. with(n): the fit
+// with n times the information of the rows.
+std::vector<MoreRows> more_rows(const std::function<FitUncertainty(double)>& with, double all);
+
 }  // namespace scattermeter
