@@ -42,12 +42,12 @@ std::size_t largest_value(const Histogram& histogram) {
 // candidate has 16 times as many samples as all of those above it, so that a phase of 10 megapixels
 // has five at most: with four phases, one false alarm in 10^7 frames.
 // Values that do not occur are skipped (gaps of a curve, a 12-bit camera in a 14-bit file). A
-// pile-up far below the white level is due to the scene, so m must reach half of the white level.
-// Not found is a pile-up that spreads over several values.
+// pile-up far below the white level is due to the scene, so m must reach a quarter of the white
+// level. Not found is a pile-up that spreads over several values.
 constexpr std::size_t kValuesBeneath = 8;
 constexpr double kSigmas = 6.0;
 constexpr double kMaxOutliersOfPile = 1.0 / 16;
-constexpr double kMinFractionOfWhite = 0.5;
+constexpr double kMinFractionOfWhite = 0.25;
 
 std::size_t fullest_beneath(const Histogram& histogram, std::size_t value) {
   std::size_t fullest = 0;

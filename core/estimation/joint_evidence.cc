@@ -67,7 +67,7 @@ void refuse_with_all_channels(const JointJudgement& joint, const std::string& ma
   const PriorPull* worst = contradiction(joint.pulls, most_pull, kLeastPullImage);
   std::string text;
   if (worst != nullptr) {
-    text = "all channels together: " + contradiction_sentence(*worst);
+    text = "all channels together: " + contradiction_sentence(*worst, joint.pulls);
   } else if (joint.dof > 0.0 &&
              chi_square_tail(joint.chi2, joint.dof) < probability_of(most_pull) &&
              std::sqrt(std::max(0.0, joint.chi2 - joint.dof)) >
@@ -78,7 +78,7 @@ void refuse_with_all_channels(const JointJudgement& joint, const std::string& ma
     text = fmt::format(
         "all channels together contradict what the rig states "
         "(chi-square {:.0f} of {:.0f} quantities), most of all: {}",
-        joint.chi2, joint.dof, contradiction_sentence(*worst));
+        joint.chi2, joint.dof, contradiction_sentence(*worst, joint.pulls));
   }
   if (worst == nullptr) return;
   for (ChannelResult& r : results) {
@@ -138,7 +138,7 @@ void refuse_stray_light(const std::string& material, std::vector<ChannelResult>&
     for (auto& [r, pull] : channels) {
       if (r->refused() || !(pull.image_relative > kLeastPullImage)) continue;
       pull.pull = std::copysign(std::sqrt(chi2), pull.pull);
-      r->estimate.reasons.push_back("all channels together: " + contradiction_sentence(pull));
+      r->estimate.reasons.push_back("all channels together: " + contradiction_sentence(pull, {}));
     }
   }
 }
@@ -260,14 +260,17 @@ JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results,
 void refuse_contradicted(std::vector<ChannelResult>& results) {
   // By material: the channel that contradicts the rig, as it stands without the others. That of a
   // channel whose model misses its image counts if a second channel contradicts the rig as well.
-  std::map<std::string, std::pair<char, PriorPull>> contradicted, doubtful;
+  std::map<std::string, std::string> contradicted;
+  std::set<std::string> doubtful;
   for (const ChannelResult& r : results) {
     const PriorPull* worst =
         contradiction(r.estimate.pulls, most_pull_of(results), kLeastPullImage);
     if (worst == nullptr || !r.estimate.converged) continue;
-    const bool is_second = !doubtful.try_emplace(r.material, r.channel, *worst).second;
+    const bool is_second = !doubtful.insert(r.material).second;
     if (explains_its_image(r) || is_second) {
-      contradicted.try_emplace(r.material, r.channel, *worst);
+      contradicted.try_emplace(r.material,
+                               fmt::format("channel {} of these shots: {}", r.channel,
+                                           contradiction_sentence(*worst, r.estimate.pulls)));
     }
   }
   refuse_with_all_channels(joint_pulls_of(results), "", results);
@@ -281,9 +284,7 @@ void refuse_contradicted(std::vector<ChannelResult>& results) {
   for (ChannelResult& r : results) {
     const auto by = contradicted.find(r.material);
     if (by == contradicted.end() || r.refused()) continue;
-    const auto& [channel, pull] = by->second;
-    r.estimate.reasons.push_back(std::string("channel ") + channel +
-                                 " of these shots: " + contradiction_sentence(pull));
+    r.estimate.reasons.push_back(by->second);
   }
 }
 

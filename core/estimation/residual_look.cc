@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include <fmt/core.h>
 
 #include "core/base/dense_solve.h"
+#include "core/base/position_cells.h"
 
 namespace scattermeter {
 namespace {
@@ -28,6 +30,7 @@ struct LookedAt {
   Eigen::VectorXd right, down;  // of the image's middle, in half its extent
   Eigen::VectorXd off_axis;     // squared tangent of the angle to the optical axis, about its mean
   std::vector<std::size_t> shot;
+  std::vector<int> cell;  // of some eight neighbours on the surface
   std::vector<Eigen::Vector3d> normal;
   std::vector<bool> beside_edge;  // some of the patch's samples are left out beside an edge
 };
@@ -35,6 +38,7 @@ struct LookedAt {
 LookedAt look_at(const std::vector<ShotRows>& rows, const MaterialChannel& channel) {
   LookedAt out;
   std::vector<std::array<double, 5>> list;
+  std::vector<Eigen::Vector3d> centers_mm;
   for (std::size_t s = 0; s < rows.size(); ++s) {
     const ShotRows& r = rows[s];
     const SeenObject& seen = *channel.shots[s]->seen;
@@ -45,10 +49,13 @@ LookedAt look_at(const std::vector<ShotRows>& rows, const MaterialChannel& chann
       list.push_back(
           {double{r.observed[j]} - r.predicted[j], r.predicted[j], r.std[j], at.x(), at.y()});
       out.shot.push_back(s);
+      centers_mm.push_back(seen.sites[j].center_mm);
       out.normal.push_back(seen.patches->normal(seen.map.patch_of_row[j]));
       out.beside_edge.push_back(seen.map.guarded_of_row[j] > 0);
     }
   }
+  constexpr int kMostLevels = 12, kLeastNeighbours = 6;
+  out.cell = position_cells(centers_mm, kMostLevels, kLeastNeighbours);
   const auto n = static_cast<Eigen::Index>(list.size());
   const auto column = [&](std::size_t k) -> Eigen::VectorXd {
     return Eigen::VectorXd::NullaryExpr(
@@ -103,6 +110,28 @@ class BestPattern {
     rows.resize(n);
     const double gain = off(rows).sum() - kSpotByNoise * static_cast<double>(n);
     keep(gain, image_.rest(rows).norm(), [&] { return phrase(n); });
+  }
+
+  // What is left where no pattern is: each row on its own, so that means over neighbours are as
+  // small as those of independent rows.
+  void offer_scatter() {
+    constexpr double kLeastOfNoise = 0.5, kMostCommon = 1.5;
+    if (best_ || !(unexplained_ > kLeastOfNoise * count())) return;
+    const Eigen::VectorXd off = whitened(image_.rest);
+    std::map<std::pair<std::size_t, int>, std::pair<double, double>> cells;  // sum and number
+    for (std::size_t i = 0; i < image_.shot.size(); ++i) {
+      auto& [sum, n] = cells[{image_.shot[i], image_.cell[i]}];
+      sum += off[static_cast<Eigen::Index>(i)];
+      n += 1.0;
+    }
+    double common = 0.0;
+    for (const auto& [key, cell] : cells) common += cell.first * cell.first / cell.second;
+    const double alone = off.squaredNorm() * static_cast<double>(cells.size()) / count();
+    if (common > kMostCommon * alone) return;
+    keep(unexplained_, image_.rest.norm(), [] {
+      return std::string(
+          "scatter from patch to patch: more noise than the camera's file states, or hot pixels");
+    });
   }
 
   std::optional<ResidualLook> take() { return std::move(best_); }
@@ -167,7 +196,10 @@ std::optional<ResidualLook> residual_look(const std::vector<ShotRows>& rows,
     const bool is_across = std::abs(x[0]) > std::abs(x[1]);
     const char* side =
         is_across ? (x[0] > 0.0 ? "right" : "left") : (x[1] > 0.0 ? "lower side" : "upper side");
-    return fmt::format("a gradient over the image: towards the {} {}", side, brighter(x.norm()));
+    return fmt::format(
+        "a gradient over the image: towards the {} {}, as by light from elsewhere or an LED that "
+        "stands or points elsewhere",
+        side, brighter(x.norm()));
   });
   best.offer(image.predicted.cwiseProduct(image.off_axis), [](const Eigen::VectorXd& x) {
     return fmt::format("light that {} towards the picture's corners, as by the lens's vignetting",
@@ -182,8 +214,10 @@ std::optional<ResidualLook> residual_look(const std::vector<ShotRows>& rows,
             x[0] < 0.0 ? "dark" : "bright");
       });
   best.offer_spots([&](std::size_t n) {
-    return fmt::format("a few spots, {} of {} patches: dust, hot pixels or scratches", n,
-                       image.rest.size());
+    return fmt::format(
+        "a few spots, {} of {} patches: dust, hot pixels, scratches, or damage "
+        "that the mesh does not have",
+        n, image.rest.size());
   });
   for (std::size_t s = 0; s < rows.size() && rows.size() > 1; ++s) {
     best.offer(part_of(image, [&](std::size_t i) { return image.shot[i] == s; }),
@@ -194,8 +228,10 @@ std::optional<ResidualLook> residual_look(const std::vector<ShotRows>& rows,
   for (const Eigen::Vector3d& face : faces(image.normal)) {
     best.offer(part_of(image, [&](std::size_t i) { return image.normal[i].dot(face) > 0.99; }),
                [&](const Eigen::VectorXd& x) {
-                 return fmt::format("one face (normal [{:.2f}, {:.2f}, {:.2f}]), {}", face.x(),
-                                    face.y(), face.z(), brighter(x[0]));
+                 return fmt::format(
+                     "one face (normal [{:.2f}, {:.2f}, {:.2f}]), {}, as by a lamp that is not "
+                     "listed or a face that is not as its mesh",
+                     face.x(), face.y(), face.z(), brighter(x[0]));
                });
   }
   const Eigen::VectorXd band =
@@ -208,6 +244,7 @@ std::optional<ResidualLook> residual_look(const std::vector<ShotRows>& rows,
       return fmt::format("a band along outline and edges, {:.2g} % off", 100.0 * x.norm());
     });
   }
+  best.offer_scatter();
   return best.take();
 }
 

@@ -109,7 +109,7 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
   }
   estimate.pulls = std::move(pulls);
   if (const PriorPull* worst = contradiction(estimate.pulls, kMostPullByPaths, kLeastPullImage)) {
-    estimate.reasons.push_back(contradiction_sentence(*worst));
+    estimate.reasons.push_back(contradiction_sentence(*worst, estimate.pulls));
   }
   if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {
     estimate.reasons.push_back(fmt::format(

@@ -187,7 +187,7 @@ void add_contradictions(const DipoleFit& fit, const Solved& solved, const Dipole
                         Estimate& estimate) {
   estimate.pulls = solved.judgement.pulls;
   if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
-    estimate.reasons.push_back(contradiction_sentence(*worst));
+    estimate.reasons.push_back(contradiction_sentence(*worst, estimate.pulls));
   }
   const LackOfFit parts =
       misfit_of_parts(fit.image.parts, solved.priors.nuisances, solved.priors.scale);
@@ -279,9 +279,7 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
     nuisances.push_back({name, std::abs(test->offset), false});
     if (test->image_relative > options.max_offset_relative &&
         test->explained_relative > kLeastExplained) {
-      estimate.reasons.push_back(sentence("the shots contradict the ", name,
-                                          " that the rig states: the best fit differs from it by ",
-                                          test->offset));
+      estimate.reasons.push_back(contradiction_sentence(*test, name));
     }
   }
   const auto uncertainty = [&](double times) {

@@ -174,12 +174,47 @@ const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_
   return worst;
 }
 
-std::string contradiction_sentence(const PriorPull& pull) {
-  const std::string which =
-      pull.name.empty() || pull.name == pull.group ? "" : fmt::format(" ({})", pull.name);
-  return fmt::format(
-      "the shots contradict the {}{} that the rig states, by {:.3g} standard deviations: {}",
-      pull.group, which, std::abs(pull.pull), advice(pull.group));
+namespace {
+
+std::string named(const PriorPull& p) {
+  return p.name.empty() || p.name == p.group ? p.group : fmt::format("{} ({})", p.group, p.name);
+}
+
+// The largest pull of each other group that comes near to the worst.
+std::vector<PriorPull> rivals(const PriorPull& worst, const std::vector<PriorPull>& pulls) {
+  constexpr double kNear = 0.7;
+  constexpr std::size_t kMost = 2;
+  std::vector<PriorPull> out;
+  for (const PriorPull& p : pulls) {
+    if (p.group == worst.group || !(std::abs(p.pull) > kNear * std::abs(worst.pull))) continue;
+    if (!(p.image_relative > kLeastPullImage)) continue;
+    const auto it = std::find_if(out.begin(), out.end(),
+                                 [&](const PriorPull& other) { return other.group == p.group; });
+    if (it == out.end()) {
+      out.push_back(p);
+    } else if (std::abs(p.pull) > std::abs(it->pull)) {
+      *it = p;
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const PriorPull& a, const PriorPull& b) {
+    return std::abs(a.pull) > std::abs(b.pull);
+  });
+  if (out.size() > kMost) out.resize(kMost);
+  return out;
+}
+
+}  // namespace
+
+std::string contradiction_sentence(const PriorPull& worst, const std::vector<PriorPull>& pulls) {
+  std::string out = fmt::format(
+      "the shots contradict the {} that the rig states, by {:.3g} standard deviations: {}",
+      named(worst), std::abs(worst.pull), advice(worst.group));
+  const std::vector<PriorPull> others = rivals(worst, pulls);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    out += fmt::format("{}{}, by {:.3g}", i == 0 ? "; or perhaps the " : ", or the ",
+                       named(others[i]), std::abs(others[i].pull));
+  }
+  return out;
 }
 
 }  // namespace scattermeter

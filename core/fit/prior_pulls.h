@@ -66,7 +66,8 @@ inline constexpr double kLeastExplained = 1e-4;
 const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_pull,
                                double least_image, double least_explained = kLeastExplained);
 
-// A sentence for the user that names the quantity, the size of the contradiction and the next step.
-std::string contradiction_sentence(const PriorPull& pull);
+// A sentence for the user that names the quantity, the size of the contradiction and the next step,
+// and at most two other groups among the pulls that would explain the image nearly as well.
+std::string contradiction_sentence(const PriorPull& worst, const std::vector<PriorPull>& pulls);
 
 }  // namespace scattermeter

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "core/base/chi_square.h"
 #include "core/base/dense_solve.h"
 #include "core/diffusion/dipole_curve.h"
@@ -77,6 +79,13 @@ ScoreTests score_tests(const RecoveredReflectance& recovered,
       score_test(image, fitted.leftCols(scale.relative_std > 0.0 ? 3 : 2), by_eta, 0.0, 0.0, noise);
   out.eta.per_offset = recovered.sqrt_information.leftCols(knots.size()) * by_eta;
   return out;
+}
+
+std::string contradiction_sentence(const ScoreTest& test, const std::string& quantity) {
+  constexpr double kMost = 1.0;
+  const std::string start = "the shots contradict the " + quantity + " that the rig states";
+  if (!(std::abs(test.offset) < kMost)) return start + ", and no other value explains them";
+  return fmt::format("{}: the best fit differs from it by {:.3g}", start, test.offset);
 }
 
 }  // namespace scattermeter

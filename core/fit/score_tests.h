@@ -1,6 +1,7 @@
 // Score tests of quantities that the rig states as known against the image.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/diffusion/distance_weights.h"
@@ -35,5 +36,8 @@ ScoreTests score_tests(const RecoveredReflectance& recovered,
                        const std::vector<Nuisance>& nuisances, const DistanceKnots& knots,
                        const DipoleSolver::Point& optimum, double eta_int_over_ext,
                        const ScalePrior& scale, double noise);
+
+// A sentence for the user. An offset beyond 1 is no quantity's, but says that the model is far off.
+std::string contradiction_sentence(const ScoreTest& test, const std::string& quantity);
 
 }  // namespace scattermeter

@@ -169,12 +169,12 @@ TEST(ClipLevels, FrameComputedWithoutNoiseIsNoPile) {
   }
 }
 
-TEST(ClipLevels, PileBelowHalfOfWhiteIsAScene) {
+TEST(ClipLevels, PileBelowAQuarterOfWhiteIsAScene) {
   Shot shot{wedge};
-  shot.ceiling_counts = 2047;
+  shot.ceiling_counts = 1023;
   EXPECT_THAT(clip_levels(frame_of(shot)), Each(4095));
-  shot.ceiling_counts = 2048;
-  EXPECT_THAT(clip_levels(frame_of(shot)), Each(2048));
+  shot.ceiling_counts = 1024;
+  EXPECT_THAT(clip_levels(frame_of(shot)), Each(1024));
 }
 
 // Defect pixels and the like are recorded above the level at which all others saturate.

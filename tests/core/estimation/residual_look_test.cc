@@ -70,7 +70,10 @@ TEST_F(ResidualLookTest, OneFace) {
   const auto found =
       look([&](std::size_t, std::size_t row) { return normal_of(row).z() > 0.9 ? 0.02 : 0.0; });
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->phrase, "one face (normal [0.00, 0.00, 1.00]), 2 % brighter than predicted");
+  EXPECT_EQ(
+      found->phrase,
+      "one face (normal [0.00, 0.00, 1.00]), 2 % brighter than predicted, as by a lamp that is "
+      "not listed or a face that is not as its mesh");
 }
 
 TEST_F(ResidualLookTest, Pedestal) {
@@ -128,10 +131,20 @@ TEST_F(ResidualLookTest, Spots) {
   EXPECT_THAT(found->phrase, StartsWith("a few spots, "));
 }
 
-// A departure in no pattern is not given a name.
-TEST_F(ResidualLookTest, Anything) {
-  EXPECT_FALSE(look([](std::size_t s, std::size_t row) {
+// Each patch on its own.
+TEST_F(ResidualLookTest, Scatter) {
+  const auto found = look([](std::size_t s, std::size_t row) {
     return 0.03 * std::sin(static_cast<double>((row * 7919 + s) % 1000));
+  });
+  ASSERT_TRUE(found);
+  EXPECT_THAT(found->phrase, StartsWith("scatter from patch to patch: more noise than "));
+}
+
+// A departure that is smooth over the surface, but in no pattern, is not given a name.
+TEST_F(ResidualLookTest, Anything) {
+  EXPECT_FALSE(look([&](std::size_t, std::size_t row) {
+    const Eigen::Vector3d& p = seen().sites[row].center_mm;
+    return 0.02 * std::sin(0.7 * p.x()) * std::cos(0.7 * p.y()) * std::cos(0.7 * p.z());
   }));
 }
 

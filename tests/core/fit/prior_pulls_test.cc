@@ -11,6 +11,7 @@ namespace scattermeter {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // One row r = s v + noise: v = s r / (1 + s^2), its variance under the model s^2 / (1 + s^2), so
 // the pull is r / sqrt(1 + s^2), and the chi-square r^2 / (1 + s^2).
@@ -130,9 +131,13 @@ TEST(PriorPulls, ContradictionIsSignificantAndVisible) {
   const PriorPull* worst = contradiction(pulls, 5.0, 1e-3);
   ASSERT_NE(worst, nullptr);
   EXPECT_EQ(worst->group, "LED position");
-  const std::string text = contradiction_sentence(*worst);
+  const std::string text = contradiction_sentence(*worst, pulls);
   EXPECT_THAT(text, HasSubstr("LED position (led1.position0)"));
   EXPECT_THAT(text, HasSubstr("7 standard deviations: measure the LED's position"));
+  // eta comes near, the pose changes nothing that is visible, and the scale is far behind.
+  EXPECT_THAT(text, HasSubstr("; or perhaps the eta, by 6"));
+  EXPECT_THAT(text, Not(HasSubstr("pose")));
+  EXPECT_THAT(text, Not(HasSubstr("scale")));
   EXPECT_EQ(contradiction(pulls, 10.0, 1e-3), nullptr);
 }
 

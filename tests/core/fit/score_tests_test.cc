@@ -84,6 +84,17 @@ TEST(ScoreTests, MeasuresWhatIsOff) {
             1.0);
 }
 
+TEST(ScoreTests, AreToldWithOffsetsThatMayBe) {
+  ScoreTest test;
+  test.offset = -0.0544;
+  EXPECT_EQ(contradiction_sentence(test, "eta"),
+            "the shots contradict the eta that the rig states: the best fit differs from it by "
+            "-0.0544");
+  test.offset = 1.1e3;
+  EXPECT_EQ(contradiction_sentence(test, "scale"),
+            "the shots contradict the scale that the rig states, and no other value explains them");
+}
+
 // A declared error of the method that looks like the scale is no evidence against the scale.
 TEST(ScoreTests, ForgivesWhatANuisanceExplains) {
   DenseSystem system = noisy_system(tested_plate().w, 1.03 * tested_plate().l, 0.002, 1);
