@@ -24,7 +24,7 @@ void add_rectangle(const Eigen::Vector3d& from_mm, const Eigen::Vector3d& to_mm,
 // With chamfers of one width.
 Eigen::MatrixXd change_by_chamfers(const SeenObject& seen, const Led& led,
                                    const DistanceKnots& knots, const std::vector<LitMedium>& media,
-                                   double width_mm) {
+                                   double width_mm, WeightStore* store) {
   const ObjectScene& object = *seen.object;
   const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
   const double eta = object.stated->eta_int_over_ext;
@@ -60,10 +60,7 @@ Eigen::MatrixXd change_by_chamfers(const SeenObject& seen, const Led& led,
     if (light.lit.empty()) {
       return Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(media.size()));
     }
-    const SourceCloud sources(light, object.box.center_mm());
-    const DistanceKnots few = coarse_knots(knots);
-    return smooth_weights(seen.sites, sources, few, coarse_pair_options(knots)) *
-           scaled_curves(media, few, eta);
+    return coarse_images(object, seen.sites, light, knots, media, store);
   };
   return (image(gained) - image(lost)) / width_mm;
 }
@@ -83,7 +80,7 @@ ChamferedEdge chamfered(const Crease& edge, double width_mm) {
 
 Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const DistanceKnots& knots,
                                 const std::vector<LitMedium>& media,
-                                const std::vector<double>& widths_mm) {
+                                const std::vector<double>& widths_mm, WeightStore* store) {
   std::map<double, std::vector<Eigen::Index>> of_width;
   for (std::size_t m = 0; m < media.size(); ++m) {
     of_width[widths_mm.at(m)].push_back(static_cast<Eigen::Index>(m));
@@ -92,7 +89,7 @@ Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const Di
   for (const auto& [width_mm, columns] : of_width) {
     std::vector<LitMedium> some;
     for (const Eigen::Index m : columns) some.push_back(media[static_cast<std::size_t>(m)]);
-    const Eigen::MatrixXd change = change_by_chamfers(seen, led, knots, some, width_mm);
+    const Eigen::MatrixXd change = change_by_chamfers(seen, led, knots, some, width_mm, store);
     if (change.size() == 0) return {};
     out.resize(change.rows(), static_cast<Eigen::Index>(media.size()));
     out(Eigen::all, columns) = change;

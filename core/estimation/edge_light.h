@@ -34,9 +34,9 @@ double chamfer_width_mm(const SceneObject& object);
 // the chamfer instead of the strips of both faces. Its amount changes where one of the faces is
 // dark; where it enters, always, which is of second order in w and yet a per cent of the light just
 // round an edge for w a seventh of the mean free path. For points of edges that the LED sees; empty
-// if there are none, as on a round body.
+// if there are none, as on a round body. store: of W, may be null.
 Eigen::MatrixXd change_by_edges(const SeenObject& seen, const Led& led, const DistanceKnots& knots,
                                 const std::vector<LitMedium>& media,
-                                const std::vector<double>& widths_mm);
+                                const std::vector<double>& widths_mm, WeightStore* store = nullptr);
 
 }  // namespace scattermeter

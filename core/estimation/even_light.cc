@@ -20,15 +20,16 @@ bool may_have_even_light(const Scene& scene, const ObservedShot& shot) {
 }
 
 Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& knots,
-                                  const std::vector<LitMedium>& media) {
+                                  const std::vector<LitMedium>& media, WeightStore* store) {
   const ObjectScene& object = *seen.object;
   const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
   // Smooth light: patches of a twelfth of the object.
   const PatchMesh coarse(object.mesh(),
                          std::max(2.0 * seen.patches->patch_size_mm(), object.size_mm() / 12.0));
   const double eta = object.stated->eta_int_over_ext;
-  return images_at_centers(
-      seen, AmbientLight().illuminate(coarse, shadows, eta, LightUse::kBudget)[0], knots, media);
+  return coarse_images(object, sites_at_centers(seen),
+                       AmbientLight().illuminate(coarse, shadows, eta, LightUse::kBudget)[0], knots,
+                       media, store);
 }
 
 double facing_irradiance_W_per_mm2(const Scene& scene, const ObservedShot& shot,

@@ -20,9 +20,10 @@ LightKey even_light_key(const ObservedShot& shot);
 bool may_have_even_light(const Scene& scene, const ObservedShot& shot);
 
 // l on the rows of a view under light of radiance 1 from all sides, W/mm^2 per W/(mm^2 sr), for
-// each medium: rows x media, to about 1 %.
+// each medium: rows x media, to about 1 %. store: of W, may be null.
 Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& knots,
-                                  const std::vector<LitMedium>& media);
+                                  const std::vector<LitMedium>& media,
+                                  WeightStore* store = nullptr);
 
 // Irradiance by the shot's LEDs of surfaces at the object's centre that face them, unshadowed,
 // W/mm^2, summed; channel 0 R, 1 G, 2 B.

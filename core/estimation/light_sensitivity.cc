@@ -46,13 +46,12 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
                        object.box.center_mm());
   };
   std::array<std::vector<ExitSite>, 3> sites;
+  sites[0] = sites_at_centers(seen);
   out.shift_mm = 0.1 * seen.patches->patch_size_mm();
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
-    const ExitSite center = exit_point(seen.sites[j].center_mm);
     const auto along = tangents(seen.patches->normal(seen.map.patch_of_row[j]));
-    sites[0].push_back(center);
     for (std::size_t t = 0; t < 2; ++t) {
-      sites[t + 1].push_back(moved(center, out.shift_mm * along[t]));
+      sites[t + 1].push_back(moved(sites[0][j], out.shift_mm * along[t]));
     }
   }
   const SourceCloud sources = nominal(eta);
@@ -144,15 +143,20 @@ ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weigh
   return out;
 }
 
-Eigen::MatrixXd images_at_centers(const SeenObject& seen, const IncidentLight& light,
-                                  const DistanceKnots& knots, const std::vector<LitMedium>& media) {
-  const SourceCloud sources(light, seen.object->box.center_mm());
+std::vector<ExitSite> sites_at_centers(const SeenObject& seen) {
   std::vector<ExitSite> sites;
   sites.reserve(seen.sites.size());
   for (const ExitSite& site : seen.sites) sites.push_back(exit_point(site.center_mm));
+  return sites;
+}
+
+Eigen::MatrixXd coarse_images(const ObjectScene& object, const std::vector<ExitSite>& sites,
+                              const IncidentLight& light, const DistanceKnots& knots,
+                              const std::vector<LitMedium>& media, WeightStore* store) {
+  const SourceCloud sources(light, object.box.center_mm());
   const DistanceKnots few = coarse_knots(knots);
-  return smooth_weights(sites, sources, few, coarse_pair_options(knots)) *
-         scaled_curves(media, few, seen.object->stated->eta_int_over_ext);
+  return smooth_weights(sites, sources, few, coarse_pair_options(knots), store) *
+         scaled_curves(media, few, object.stated->eta_int_over_ext);
 }
 
 LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,

@@ -70,10 +70,13 @@ ChangedImages changed_images(const SeenObject& seen, const SceneLight& light, st
 ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weights,
                              const DistanceKnots& knots, const std::vector<LitMedium>& media);
 
-// Images of some light at the centres of the sites, rows x media, to about 1 %. By W, so that the
-// digits of a medium do not depend on the others.
-Eigen::MatrixXd images_at_centers(const SeenObject& seen, const IncidentLight& light,
-                                  const DistanceKnots& knots, const std::vector<LitMedium>& media);
+// The centres of the view's sites.
+std::vector<ExitSite> sites_at_centers(const SeenObject& seen);
+// Images of some light on sites of an object, rows x media, to about 1 %. By W, so that the digits
+// of a medium do not depend on the others. store: may be null.
+Eigen::MatrixXd coarse_images(const ObjectScene& object, const std::vector<ExitSite>& sites,
+                              const IncidentLight& light, const DistanceKnots& knots,
+                              const std::vector<LitMedium>& media, WeightStore* store);
 
 // From differences of the changed images and the nominal ones, relative to the prediction of
 // `nominal`, the W used for the measurement, for the same media.

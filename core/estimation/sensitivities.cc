@@ -96,14 +96,14 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
   const auto make = [&](const Item& item) {
     const SeenObject& seen = *std::get<0>(item.key);
     if (std::get<1>(item.key).empty()) {
-      item.out.l = even_light_images(seen, knots, item.media);
+      item.out.l = even_light_images(seen, knots, item.media, e.kept.store.get());
       return stage.step();
     }
     item.out = sensitivity(seen, e.kept.weights.at(item.key),
                            images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
     if (const LedLight* led = e.scene.light(std::get<1>(item.key)).led()) {
-      item.out.per_edge_mm =
-          change_by_edges(seen, led->led, knots, item.media, widths_mm.at(item.key));
+      item.out.per_edge_mm = change_by_edges(seen, led->led, knots, item.media,
+                                             widths_mm.at(item.key), e.kept.store.get());
     }
     if (item.direct != nullptr) {
       item.out.per_albedo =
