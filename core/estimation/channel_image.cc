@@ -87,15 +87,17 @@ std::vector<bool> negligible_of(const std::vector<Effect>& all) {
   return out;
 }
 
-// The parts of a shot by the positions of its used patches: at most 32, of at least 24 rows each.
-std::vector<int> parts_of_shot(const ObservedShot& shot, const std::vector<Eigen::Index>& used) {
-  constexpr int kLevels = 5;
-  constexpr int kLeastRows = 24;
+// The parts of a shot by the positions of its used patches: at most 32, of at least 24 rows each;
+// and cells of six to twelve.
+void divide(const ObservedShot& shot, const std::vector<Eigen::Index>& used, ShotSystem& out) {
+  constexpr int kLevels = 5, kMostLevels = 20;
+  constexpr int kLeastRows = 24, kNeighbours = 6;
   std::vector<Eigen::Vector3d> centers_mm;
   for (const Eigen::Index j : used) {
     centers_mm.push_back(shot.seen->sites[static_cast<std::size_t>(j)].center_mm);
   }
-  return position_cells(centers_mm, kLevels, kLeastRows);
+  out.part_of_row = position_cells(centers_mm, kLevels, kLeastRows);
+  out.cell_of_row = position_cells(centers_mm, kMostLevels, kNeighbours);
 }
 
 Eigen::VectorXd reflectance(const LitMedium& first, const DistanceKnots& knots,
@@ -188,7 +190,7 @@ ShotSystem ChannelImage::shot(std::size_t shot) const {
   const auto n_own = static_cast<Eigen::Index>(own.size());
   Eigen::MatrixXd columns(system->l.size(), n_own + system->nuisance_columns.cols());
   ShotSystem out;
-  if (!used.empty()) out.part_of_row = parts_of_shot(*channel_.shots[shot], used);
+  if (!used.empty()) divide(*channel_.shots[shot], used, out);
   std::vector<Nuisance> nuisances;
   std::map<Eigen::Index, const NuisanceColumn*> in_order;
   for (const NuisanceColumn& c : own) in_order[index_.at(c.nuisance.name)] = &c;

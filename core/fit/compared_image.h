@@ -29,6 +29,10 @@ struct ComparedImage {
   Eigen::VectorXd l;
   Eigen::VectorXd std_l;
   ComparedParts parts;  // of the shots that are divided into parts
+  // Of cells of a few neighbours: squares of their mean residuals, in deviations that these means
+  // have if the rows are independent, and the number of cells.
+  double cells_chi2 = 0;
+  double cells = 0;
 };
 
 // Predictions include the fitted nuisances.
@@ -40,5 +44,10 @@ ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
 // there are too few parts for a test.
 LackOfFit misfit_of_parts(const ComparedParts& parts, const std::vector<Nuisance>& nuisances,
                           const ScalePrior& scale);
+
+// What neighbours share of the fit's residual: chi-square of the cells' means, its probability
+// where rows are independent and their deviations as stated, and rms of the shared part, relative
+// to the image. dof: the number of cells, at least 1.
+LackOfFit misfit_of_cells(const ComparedImage& image);
 
 }  // namespace scattermeter

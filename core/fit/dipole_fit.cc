@@ -182,20 +182,22 @@ void solve_with_doubt(const RecoveredReflectance& recovered, const DistanceKnots
   }
 }
 
-// Refusals by the quantities of the rig and by the light of the parts.
+// Refusals by the quantities of the rig and by the light of parts and neighbours.
 void add_contradictions(const DipoleFit& fit, const Solved& solved, const DipoleFitOptions& options,
                         Estimate& estimate) {
   estimate.pulls = solved.judgement.pulls;
   if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
     estimate.reasons.push_back(contradiction_sentence(*worst, estimate.pulls));
   }
-  const LackOfFit parts =
-      misfit_of_parts(fit.image.parts, solved.priors.nuisances, solved.priors.scale);
-  if (parts.p_value < options.misfit_p_value && parts.rms > options.max_parts_relative) {
+  const auto refuse = [&](const LackOfFit& misfit, const char* what) {
+    if (!(misfit.p_value < options.misfit_p_value)) return;
+    if (!(misfit.rms > options.max_parts_relative)) return;
     estimate.reasons.push_back(
-        sentence("the dipole does not explain the shots: parts of the image are ",
-                 100.0 * parts.rms, " % off"));
-  }
+        sentence("the dipole does not explain the shots: ", what, 100.0 * misfit.rms, " % off"));
+  };
+  refuse(misfit_of_parts(fit.image.parts, solved.priors.nuisances, solved.priors.scale),
+         "parts of the image are ");
+  refuse(misfit_of_cells(fit.image), "neighbouring patches are, together, ");
 }
 
 }  // namespace
@@ -221,12 +223,10 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
   if (estimate.rows < options.min_rows) {
     estimate.reasons.push_back(sentence("only ", estimate.rows, " patches can be used, at least ",
                                         options.min_rows, " are needed"));
-    return fit;
-  }
-  if (!image.is_sound) {
+  } else if (!image.is_sound) {
     estimate.reasons.push_back("the image or its prediction contains values that are not finite");
-    return fit;
   }
+  if (!estimate.reasons.empty()) return fit;
   fit.recovered = recover_reflectance(image);
   if (options.without_noise) {
     fit.recovered.floor_chi2 +=
@@ -255,7 +255,9 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
   estimate.psnr_db = rest.psnr_db;
   const double misfit =
       set_misfit(recovered, image.l2, solved.fitted, scale, p, options.without_noise, estimate);
-  double inflation = std::max(1.0, estimate.reduced_chi2);
+  // Errors that neighbours share do not average out among them.
+  const LackOfFit cells = misfit_of_cells(fit.image);
+  double inflation = std::max({1.0, estimate.reduced_chi2, cells.chi2 / cells.dof});
   // The dipole's misfit lies in the few directions that r can explain, as the coefficients do;
   // averaged over all rows it would be diluted. It is taken as equal in all those directions (Birge
   // 1932).

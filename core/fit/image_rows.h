@@ -19,6 +19,8 @@ struct ShotSystem {
   std::vector<Eigen::Index> nuisances;
   // The part of the shot in which each row lies, from 0 without gaps; empty: not divided.
   std::vector<int> part_of_row = {};
+  // The same with parts of a few neighbours each.
+  std::vector<int> cell_of_row = {};
 };
 
 class ImageRows {

@@ -1,6 +1,7 @@
 #include "core/fit/compared_image.h"
 
 #include <cmath>
+#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,6 +20,8 @@ using ::testing::HasSubstr;
 constexpr double kPlateEta = 1.3;
 const Medium kPlateTruth{1.2, 0.004, kPlateEta};
 
+constexpr int kNeighbours = 8;
+
 // A system of one shot, divided into runs of rows.
 class DividedRows final : public ImageRows {
  public:
@@ -28,7 +31,10 @@ class DividedRows final : public ImageRows {
   ShotSystem shot(std::size_t shot) const override {
     ShotSystem out = rows_.shot(shot);
     const auto n = static_cast<int>(out.system->l.size());
-    for (int j = 0; j < n; ++j) out.part_of_row.push_back(j * parts_ / n);
+    for (int j = 0; j < n; ++j) {
+      out.part_of_row.push_back(j * parts_ / n);
+      out.cell_of_row.push_back(j / kNeighbours);
+    }
     return out;
   }
 
@@ -110,8 +116,41 @@ TEST(ComparedImage, MisfitOfPartsSeesOnePart) {
   EXPECT_LT(one.p_value, 1e-6);
   EXPECT_NEAR(one.rms, 0.02 / std::sqrt(12.0), 0.5 * 0.02 / std::sqrt(12.0));
   EXPECT_LT(fit.estimate.rms_relative, 0.01);
-  ASSERT_FALSE(fit.estimate.reasons.empty());
-  EXPECT_THAT(fit.estimate.reasons.back(), HasSubstr("parts of the image are"));
+  EXPECT_THAT(fit.estimate.reasons, ::testing::Contains(HasSubstr("parts of the image are")));
+}
+
+// Errors of half a per cent that eight neighbours share, under noise of half a per cent.
+TEST(ComparedImage, MisfitOfCellsSeesWhatNeighboursShare) {
+  const Plate plate;
+  double ratio = 0.0;
+  constexpr int kSeeds = 20;
+  double std_alone = 0.0;
+  for (unsigned seed = 1; seed <= kSeeds; ++seed) {
+    const DipoleFit fit = plate.fit(DividedRows(plate.system(seed), 12));
+    const LackOfFit none = misfit_of_cells(fit.image);
+    EXPECT_GT(none.p_value, 1e-4);
+    ratio += none.chi2 / (none.dof - 2.0) / kSeeds;  // without those of the medium
+    std_alone += fit.estimate.sigma_s_prime_per_mm.std / kSeeds;
+  }
+  EXPECT_NEAR(ratio, 1.0, 4.0 * std::sqrt(2.0 / (30.0 * kSeeds)));
+  DenseSystem system = plate.system(1);
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  constexpr double kShared = 0.005;
+  double shared = 0.0;
+  for (Eigen::Index j = 0; j < system.l.size(); ++j) {
+    if (j % kNeighbours == 0) shared = kShared * normal(random);
+    system.l[j] *= 1.0 + shared;
+  }
+  const DipoleFit fit = plate.fit(DividedRows(system, 12));
+  const LackOfFit found = misfit_of_cells(fit.image);
+  EXPECT_LT(found.p_value, 1e-6);
+  EXPECT_NEAR(found.rms, kShared, 0.3 * kShared);
+  EXPECT_THAT(fit.estimate.reasons, ::testing::Contains(HasSubstr("neighbouring patches are")));
+  // Rows that share errors tell less: not the root of 2 by the scatter of rows, but 3 by that of
+  // the cells' means.
+  EXPECT_GT(fit.estimate.sigma_s_prime_per_mm.std, 2.0 * std_alone);
+  EXPECT_EQ(misfit_of_cells({}).dof, 1.0);
 }
 
 TEST(ComparedImage, UndividedShotsHaveNoParts) {
