@@ -5,6 +5,11 @@
 #include <cmath>
 #include <iterator>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 namespace scattermeter {
 namespace {
@@ -76,6 +81,61 @@ void add_carried(const WhiteRows::Light& light, double power, const Share& share
         factor * power * light.per_sigma_a[at_view] + share.weight * l * to_here.per_sigma_a[row];
   }
 }
+
+// What the nodes of one light add to a look.
+struct OfLight {
+  OfLight(Eigen::Index rows, Eigen::Index projected) {
+    image.l = image.per_log_sigma_s = image.per_sigma_a = image.variance =
+        Eigen::VectorXd::Zero(rows);
+    off = {image.l, image.l, image.l, {}};
+    by_half.fill(Eigen::MatrixXd::Zero(projected, projected));
+  }
+  OfLight& operator+=(const OfLight& other) {
+    for (const auto part :
+         {&ScatteringImage::l, &ScatteringImage::per_log_sigma_s, &ScatteringImage::per_sigma_a}) {
+      image.*part += other.image.*part;
+      off.*part += other.off.*part;
+    }
+    image.variance += other.image.variance;
+    for (std::size_t half = 0; half < 2; ++half) by_half[half] += other.by_half[half];
+    return *this;
+  }
+
+  // rows: those of the images and of the node.
+  void add(const std::vector<std::pair<Eigen::Index, Eigen::Index>>& rows, double power,
+           const WhiteRows& node, const Share& share, const Carried& to_here, double sigma_a_per_mm,
+           const ChannelSimulation::Projections& projections) {
+    constexpr Eigen::Index kHalf = WhiteRows::kBatches / 2;
+    const WhiteRows::Departures departures = node.departures(sigma_a_per_mm);
+    add_carried(node.light(sigma_a_per_mm), power, share, to_here, rows, image);
+    add_carried(departures.second_half, power, share, to_here, rows, off);
+    for (const auto& [row, at_view] : rows) {
+      const double factor = share.weight * to_here.factor[row] * power;
+      image.variance[row] += factor * factor * departures.of_batch.col(at_view).squaredNorm();
+    }
+    for (std::size_t half = 0; half < 2; ++half) {
+      const auto batches =
+          departures.of_batch.middleRows(static_cast<Eigen::Index>(half) * kHalf, kHalf);
+      Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(kHalf, projections[half].rows());
+      for (const auto& [row, at_view] : rows) {
+        const double factor = share.weight * to_here.factor[row] * power;
+        for (Eigen::SparseMatrix<double>::InnerIterator it(projections[half], row); it; ++it) {
+          projected.col(it.row()) += factor * it.value() * batches.col(at_view);
+        }
+      }
+      by_half[half] += 2.0 * projected.transpose() * projected;
+    }
+    const double own = share.weight * share.weight * ChannelSimulation::kBlockPaths /
+                       static_cast<double>(node.paths());
+    error += own;
+    squares += own * own;
+  }
+
+  ScatteringImage image, off;  // off: of the second half of the batches
+  std::array<Eigen::MatrixXd, 2> by_half;
+  // 1 / blocks, and the sum of the nodes' squares of it.
+  double error = 0, squares = 0;
+};
 
 }  // namespace
 
@@ -158,49 +218,28 @@ Eigen::VectorXd ChannelSimulation::light_at_node(int node, double sigma_a_per_mm
 ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int blocks,
                                                 const Projections& projections,
                                                 const Control& control) const {
-  constexpr Eigen::Index kHalf = WhiteRows::kBatches / 2;
-  Look out;
-  ScatteringImage& image = out.image;
-  image.l = image.per_log_sigma_s = image.per_sigma_a = image.variance =
-      Eigen::VectorXd::Zero(n_rows());
-  ScatteringImage off{image.l, image.l, image.l, {}};  // of the second half
-  for (Eigen::MatrixXd& c : out.by_half) {
-    c = Eigen::MatrixXd::Zero(projections[0].rows(), projections[0].rows());
-  }
+  std::vector<OfLight> of_light(lit_.size(), OfLight(n_rows(), projections[0].rows()));
   const ScatteringImage here = control(at);
-  // By light and view: 1 / blocks, and the sum of the nodes' squares of it.
-  std::vector<double> errors(lit_.size(), 0.0), squares(lit_.size(), 0.0);
   for (const Share& share : shares(at.sigma_s_per_mm, blocks)) {
     const Carried to_here = carried(
         here, control({TransportAtlas::sigma_s_per_mm(share.node), at.sigma_a_per_mm, at.scale}));
-    for (std::size_t i = 0; i < lit_.size(); ++i) {
-      const Lit& v = lit_[i];
-      const WhiteRows& node = v.in_atlas->node(share.node, share.levels);
-      const WhiteRows::Departures departures = node.departures(at.sigma_a_per_mm);
-      add_carried(node.light(at.sigma_a_per_mm), v.power, share, to_here, v.rows, image);
-      add_carried(departures.second_half, v.power, share, to_here, v.rows, off);
-      for (const auto& [row, at_view] : v.rows) {
-        const double factor = share.weight * to_here.factor[row] * v.power;
-        image.variance[row] += factor * factor * departures.of_batch.col(at_view).squaredNorm();
-      }
-      for (std::size_t half = 0; half < 2; ++half) {
-        const auto batches =
-            departures.of_batch.middleRows(static_cast<Eigen::Index>(half) * kHalf, kHalf);
-        Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(kHalf, projections[half].rows());
-        for (const auto& [row, at_view] : v.rows) {
-          const double factor = share.weight * to_here.factor[row] * v.power;
-          for (Eigen::SparseMatrix<double>::InnerIterator it(projections[half], row); it; ++it) {
-            projected.col(it.row()) += factor * it.value() * batches.col(at_view);
-          }
-        }
-        out.by_half[half] += 2.0 * projected.transpose() * projected;
-      }
-      const double error =
-          share.weight * share.weight * kBlockPaths / static_cast<double>(node.paths());
-      errors[i] += error;
-      squares[i] += error * error;
-    }
+    // The atlas is not for several threads; what its nodes say is.
+    std::vector<const WhiteRows*> nodes;
+    for (const Lit& v : lit_) nodes.push_back(&v.in_atlas->node(share.node, share.levels));
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(std::size_t{0}, lit_.size(), [&](std::size_t i) {
+        of_light[i].add(lit_[i].rows, lit_[i].power, *nodes[i], share, to_here, at.sigma_a_per_mm,
+                        projections);
+      });
+    });
   }
+  Look out;
+  ScatteringImage& image = out.image;
+  OfLight all(n_rows(), projections[0].rows());
+  for (const OfLight& light : of_light) all += light;
+  image = std::move(all.image);
+  const ScatteringImage& off = all.off;
+  out.by_half = std::move(all.by_half);
   image.l += surfaces_.gloss();
   out.covariance = 0.5 * (out.by_half[0] + out.by_half[1]);
   for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
@@ -210,10 +249,11 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
                         image.per_sigma_a + sign * off.per_sigma_a,
                         {}};
   }
-  const auto most = std::max_element(errors.begin(), errors.end());
-  out.blocks = static_cast<int>(std::lround(1.0 / *most));
-  out.freedom = (WhiteRows::kBatches - 2.0) * *most * *most /
-                squares[static_cast<std::size_t>(most - errors.begin())];
+  const OfLight& most =
+      *std::max_element(of_light.begin(), of_light.end(),
+                        [](const OfLight& x, const OfLight& y) { return x.error < y.error; });
+  out.blocks = static_cast<int>(std::lround(1.0 / most.error));
+  out.freedom = (WhiteRows::kBatches - 2.0) * most.error * most.error / most.squares;
   return out;
 }
 
