@@ -1,12 +1,12 @@
 // --model dipole: the dipole, fitted with all uncertain quantities of the setup.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/base/side_by_side.h"
 #include "core/estimation/channel_image.h"
 #include "core/estimation/edge_width.h"
 #include "core/estimation/estimation.h"
@@ -190,7 +190,6 @@ class DipoleEstimator {
   }
 
   bool leave_outliers_out(const ComparedImage& image, ChannelRows& rows) const {
-    if (image.l.size() == 0) return false;
     const std::vector<Eigen::Index> far = outliers(image.l, image.predicted, image.std_l);
     auto next = far.begin();
     Eigen::Index at = 0;
@@ -250,17 +249,19 @@ class DipoleEstimator {
       result.rows = shot_rows(channel, work_[i].rows, fit.image.predicted + image.light_by_plane(),
                               fit.image.std_l);
     }
-    SmoothReflectanceOptions smooth;
-    smooth.scale = options.scale;
-    result.recovered = smooth_reflectance(fit.recovered, image.nuisances(), knots_, smooth);
-    DipoleMisfitOptions misfit;
-    misfit.scale = options.scale;
-    result.misfit = dipole_misfit(fit.recovered, image.nuisances(), knots_,
-                                  {fit.optimum.sigma_s_prime_per_mm(), fit.optimum.sigma_a_per_mm(),
-                                   channel.eta_int_over_ext},
-                                  std::exp(fit.optimum.log_s), misfit);
-    widen_by_mesh_scale(channel, result.estimate);
-    if (channel.shots.size() > 1) compare_shots(i, image, shots, fit, result);
+    const DipoleSolver::Point& p = fit.optimum;
+    const Medium fitted_medium{p.sigma_s_prime_per_mm(), p.sigma_a_per_mm(),
+                               channel.eta_int_over_ext};
+    const auto recover = [&] {
+      result.recovered =
+          smooth_reflectance(fit.recovered, image.nuisances(), knots_, {.scale = options.scale});
+      result.misfit = dipole_misfit(fit.recovered, image.nuisances(), knots_, fitted_medium,
+                                    std::exp(p.log_s), {.scale = options.scale});
+    };
+    side_by_side(recover, [&] {
+      widen_by_mesh_scale(channel, result.estimate);
+      if (channel.shots.size() > 1) compare_shots(i, image, shots, fit, result);
+    });
     refuse_undetermined(result.estimate);
   }
 
@@ -268,16 +269,15 @@ class DipoleEstimator {
   void compare_shots(std::size_t i, const ChannelImage& image,
                      const std::vector<ShotInformation>& shots, const DipoleFit& fit,
                      ChannelResult& result) const {
-    const MaterialChannel& channel = e_.channels[i];
     const DipoleFitOptions options = options_of(i);
-    result.singles.assign(channel.shots.size(), {});
+    result.singles.assign(shots.size(), {});
     for_each_shot(image, [&](std::size_t s, const ShotSystem& own) {
       result.singles[s] = {
-          channel.shots[s]->stated->file,
+          result.shots[s],
           fit_dipole(SystemRows(*own.system), shots[s].image, knots_, options).estimate};
     });
     result.agreement =
-        shot_agreement(shots, image.nuisances(), knots_, fit.optimum, channel.eta_int_over_ext,
+        shot_agreement(shots, image.nuisances(), knots_, fit.optimum, options.eta_int_over_ext,
                        options.scale, std::max(1.0, fit.estimate.reduced_chi2));
     widen_by_disagreement(result.agreement, result.estimate);
   }
@@ -296,7 +296,5 @@ void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* sy
   DipoleEstimator(e, systems).run();
   e.refuse_rough_surfaces();
 }
-
-void estimate_dipole(Estimation& e) { estimate_dipole(e, nullptr); }
 
 }  // namespace scattermeter

@@ -82,8 +82,7 @@ struct DipoleSystem {
 
 // The estimators fill in the results' estimates. systems: if given, receives those of the channels
 // that were fitted.
-void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems);
-void estimate_dipole(Estimation& e);
+void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems = nullptr);
 void estimate_auto(Estimation& e);
 void estimate_transport(Estimation& e);
 void estimate_paper(Estimation& e);
