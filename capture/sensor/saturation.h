@@ -18,8 +18,8 @@ namespace scattermeter::capture {
 // The pile-up rule does not apply to a value that fewer than 37 samples have or that lies below a
 // quarter of the white level, nor to a frame computed without noise, in which uniform areas pile
 // up, too. A frame in which every sample is clipped or dark shows no noise either, so only the
-// first two rules apply. See saturation.cc for derivation and limits. One pass over the samples, 12 ms
-// for 10 megapixels, and a second one if a pile-up is suspected.
+// first two rules apply. See saturation.cc for derivation and limits. One pass over the samples, 12
+// ms for 10 megapixels, and a second one if a pile-up is suspected.
 std::array<double, 4> clip_levels(const RawFrame& frame);
 
 }  // namespace scattermeter::capture
