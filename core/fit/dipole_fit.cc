@@ -189,15 +189,15 @@ void add_contradictions(const DipoleFit& fit, const Solved& solved, const Dipole
   if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
     estimate.reasons.push_back(contradiction_sentence(*worst, estimate.pulls));
   }
-  const auto refuse = [&](const LackOfFit& misfit, const char* what) {
+  const auto refuse = [&](const LackOfFit& misfit, const char* whole) {
     if (!(misfit.p_value < options.misfit_p_value)) return;
     if (!(misfit.rms > options.max_parts_relative)) return;
-    estimate.reasons.push_back(
-        sentence("the dipole does not explain the shots: ", what, 100.0 * misfit.rms, " % off"));
+    estimate.reasons.push_back(sentence(whole, 100.0 * misfit.rms, " % off"));
   };
   refuse(misfit_of_parts(fit.image.parts, solved.priors.nuisances, solved.priors.scale),
-         "parts of the image are ");
-  refuse(misfit_of_cells(fit.image), "neighbouring patches are, together, ");
+         "the dipole does not explain the shots: parts of the image are ");
+  refuse(misfit_of_cells(fit.image),
+         "the dipole does not explain the shots: neighbouring patches are, together, ");
 }
 
 }  // namespace

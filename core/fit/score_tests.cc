@@ -83,9 +83,14 @@ ScoreTests score_tests(const RecoveredReflectance& recovered,
 
 std::string contradiction_sentence(const ScoreTest& test, const std::string& quantity) {
   constexpr double kMost = 1.0;
-  const std::string start = "the shots contradict the " + quantity + " that the rig states";
-  if (!(std::abs(test.offset) < kMost)) return start + ", and no other value explains them";
-  return fmt::format("{}: the best fit differs from it by {:.3g}", start, test.offset);
+  if (!(std::abs(test.offset) < kMost)) {
+    return fmt::format(
+        "the shots contradict the {} that the rig states, and no other value explains them",
+        quantity);
+  }
+  return fmt::format(
+      "the shots contradict the {} that the rig states: the best fit differs from it by {:.3g}",
+      quantity, test.offset);
 }
 
 }  // namespace scattermeter
