@@ -65,65 +65,52 @@ Carried carried(const ScatteringImage& here, const ScatteringImage& there) {
           (here.per_sigma_a.array() - factor * there.per_sigma_a.array()) / there.l.array(), 0.0)};
 }
 
-// Adds the light of a node, of some power, carried to the point. rows: those of the image and of
-// the light.
+using RowPairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
+
+// Adds the light of a node, of some power, carried to the point. rows: those of the point's image
+// and of the light, for each of the sum's rows.
 void add_carried(const WhiteRows::Light& light, double power, const Share& share,
-                 const Carried& to_here,
-                 const std::vector<std::pair<Eigen::Index, Eigen::Index>>& rows,
-                 ScatteringImage& image) {
-  for (const auto& [row, at_view] : rows) {
+                 const Carried& to_here, const RowPairs& rows, ScatteringImage& sum) {
+  for (Eigen::Index k = 0; k < sum.l.size(); ++k) {
+    const auto [row, at_view] = rows[static_cast<std::size_t>(k)];
     const double l = power * light.l[at_view];
     const double factor = share.weight * to_here.factor[row];
-    image.l[row] += factor * l;
-    image.per_log_sigma_s[row] += l * (share.weight * to_here.per_log_sigma_s[row] +
-                                       share.per_log_sigma_s * to_here.factor[row]);
-    image.per_sigma_a[row] +=
+    sum.l[k] += factor * l;
+    sum.per_log_sigma_s[k] += l * (share.weight * to_here.per_log_sigma_s[row] +
+                                   share.per_log_sigma_s * to_here.factor[row]);
+    sum.per_sigma_a[k] +=
         factor * power * light.per_sigma_a[at_view] + share.weight * l * to_here.per_sigma_a[row];
   }
 }
 
-// What the nodes of one light add to a look.
+// What the nodes of one light add to a look, on the rows that it lights.
 struct OfLight {
-  OfLight(Eigen::Index rows, Eigen::Index projected) {
+  explicit OfLight(std::size_t n_rows) {
     image.l = image.per_log_sigma_s = image.per_sigma_a = image.variance =
-        Eigen::VectorXd::Zero(rows);
+        Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n_rows));
     off = {image.l, image.l, image.l, {}};
-    by_half.fill(Eigen::MatrixXd::Zero(projected, projected));
   }
-  OfLight& operator+=(const OfLight& other) {
-    for (const auto part :
-         {&ScatteringImage::l, &ScatteringImage::per_log_sigma_s, &ScatteringImage::per_sigma_a}) {
-      image.*part += other.image.*part;
-      off.*part += other.off.*part;
-    }
-    image.variance += other.image.variance;
-    for (std::size_t half = 0; half < 2; ++half) by_half[half] += other.by_half[half];
-    return *this;
-  }
-
-  // rows: those of the images and of the node.
-  void add(const std::vector<std::pair<Eigen::Index, Eigen::Index>>& rows, double power,
-           const WhiteRows& node, const Share& share, const Carried& to_here, double sigma_a_per_mm,
+  void add(const RowPairs& rows, double power, const WhiteRows& node, const Share& share,
+           const Carried& to_here, double sigma_a_per_mm,
            const ChannelSimulation::Projections& projections) {
     constexpr Eigen::Index kHalf = WhiteRows::kBatches / 2;
     const WhiteRows::Departures departures = node.departures(sigma_a_per_mm);
     add_carried(node.light(sigma_a_per_mm), power, share, to_here, rows, image);
     add_carried(departures.second_half, power, share, to_here, rows, off);
-    for (const auto& [row, at_view] : rows) {
-      const double factor = share.weight * to_here.factor[row] * power;
-      image.variance[row] += factor * factor * departures.of_batch.col(at_view).squaredNorm();
-    }
     for (std::size_t half = 0; half < 2; ++half) {
-      const auto batches =
-          departures.of_batch.middleRows(static_cast<Eigen::Index>(half) * kHalf, kHalf);
-      Eigen::MatrixXd projected = Eigen::MatrixXd::Zero(kHalf, projections[half].rows());
-      for (const auto& [row, at_view] : rows) {
-        const double factor = share.weight * to_here.factor[row] * power;
+      projected[half] = Eigen::MatrixXd::Zero(kHalf, projections[half].rows());
+    }
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const auto [row, at_view] = rows[k];
+      const double factor = share.weight * to_here.factor[row] * power;
+      const auto batches = departures.of_batch.col(at_view);
+      image.variance[static_cast<Eigen::Index>(k)] += factor * factor * batches.squaredNorm();
+      for (std::size_t half = 0; half < 2; ++half) {
         for (Eigen::SparseMatrix<double>::InnerIterator it(projections[half], row); it; ++it) {
-          projected.col(it.row()) += factor * it.value() * batches.col(at_view);
+          projected[half].col(it.row()) +=
+              factor * it.value() * batches.segment(static_cast<Eigen::Index>(half) * kHalf, kHalf);
         }
       }
-      by_half[half] += 2.0 * projected.transpose() * projected;
     }
     const double own = share.weight * share.weight * ChannelSimulation::kBlockPaths /
                        static_cast<double>(node.paths());
@@ -132,10 +119,21 @@ struct OfLight {
   }
 
   ScatteringImage image, off;  // off: of the second half of the batches
-  std::array<Eigen::MatrixXd, 2> by_half;
+  // Of the share that came last: departures of either half's batches.
+  std::array<Eigen::MatrixXd, 2> projected;
   // 1 / blocks, and the sum of the nodes' squares of it.
   double error = 0, squares = 0;
 };
+
+void add_rows(const ScatteringImage& some, const RowPairs& rows, ScatteringImage& image) {
+  for (const auto part : {&ScatteringImage::l, &ScatteringImage::per_log_sigma_s,
+                          &ScatteringImage::per_sigma_a, &ScatteringImage::variance}) {
+    const Eigen::VectorXd& from = some.*part;
+    for (Eigen::Index k = 0; k < from.size(); ++k) {
+      (image.*part)[rows[static_cast<std::size_t>(k)].first] += from[k];
+    }
+  }
+}
 
 }  // namespace
 
@@ -218,7 +216,16 @@ Eigen::VectorXd ChannelSimulation::light_at_node(int node, double sigma_a_per_mm
 ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int blocks,
                                                 const Projections& projections,
                                                 const Control& control) const {
-  std::vector<OfLight> of_light(lit_.size(), OfLight(n_rows(), projections[0].rows()));
+  Look out;
+  ScatteringImage& image = out.image;
+  image.l = image.per_log_sigma_s = image.per_sigma_a = image.variance =
+      Eigen::VectorXd::Zero(n_rows());
+  ScatteringImage off{image.l, image.l, image.l, {}};  // of the second half
+  for (Eigen::MatrixXd& c : out.by_half) {
+    c = Eigen::MatrixXd::Zero(projections[0].rows(), projections[0].rows());
+  }
+  std::vector<OfLight> of_light;
+  for (const Lit& v : lit_) of_light.emplace_back(v.rows.size());
   const ScatteringImage here = control(at);
   for (const Share& share : shares(at.sigma_s_per_mm, blocks)) {
     const Carried to_here = carried(
@@ -232,14 +239,16 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
                         projections);
       });
     });
+    for (const OfLight& light : of_light) {
+      for (std::size_t half = 0; half < 2; ++half) {
+        out.by_half[half] += 2.0 * light.projected[half].transpose() * light.projected[half];
+      }
+    }
   }
-  Look out;
-  ScatteringImage& image = out.image;
-  OfLight all(n_rows(), projections[0].rows());
-  for (const OfLight& light : of_light) all += light;
-  image = std::move(all.image);
-  const ScatteringImage& off = all.off;
-  out.by_half = std::move(all.by_half);
+  for (std::size_t i = 0; i < lit_.size(); ++i) {
+    add_rows(of_light[i].image, lit_[i].rows, image);
+    add_rows(of_light[i].off, lit_[i].rows, off);
+  }
   image.l += surfaces_.gloss();
   out.covariance = 0.5 * (out.by_half[0] + out.by_half[1]);
   for (const std::size_t half : {std::size_t{0}, std::size_t{1}}) {
