@@ -106,13 +106,21 @@ Html skipped(const Skipped& s) {
   add(s.patches_unseen, "patches that no shot sees");
   add(s.patches_unlit, "patches that a light does not reach");
   add(s.shadow_rays, "shadow rays on convex objects");
-  add(s.rows, "patches in shots beyond the precision that suffices");
   add(s.nuisances, "causes of error too small to count");
-  if (parts.empty()) return {};
-  return html_element(
-      "p",
-      html_text(fmt::format("Skipped without effect on the results: {}.", fmt::join(parts, ", "))),
-      "dim");
+  const auto line = [](const std::string& text) {
+    return html_element("p", html_text(text), "dim");
+  };
+  Html out;
+  if (!parts.empty()) {
+    out += line(fmt::format("Skipped without effect on the results: {}.", fmt::join(parts, ", ")));
+  }
+  if (s.rows > 0) {
+    out += line(
+        fmt::format("{} patches in the shots were left out, as the others reach the precision that "
+                    "was asked for; in maps, each of these stands for its neighbours.",
+                    s.rows));
+  }
+  return out;
 }
 
 // The reasons for refusals and for the use of the transport model.

@@ -26,16 +26,29 @@ TEST(ResultPage, HoldsTheMeasurementsNumbers) {
   red.agreement = {30.5, 2, 1e-6};
   m.notes = {"a note & more"};
   m.skipped.shots_from_cache = 7;
+  m.skipped.rows = 4321;
   const std::string page = result_page(m, "scattermeter measure <x>");
   EXPECT_EQ(html_problem(page), "");
-  for (const char* text :
-       {"1 of 2 values refused.", "scattermeter measure &lt;x&gt; (1.5 s", "2.193 ± 0.012",
-        "0.002013 ± 0.000045", "2.170 … 2.220", "1.23 %", ">1.25<",
-        "POM G is refused: a.dng: channel G is dark.", "a note &amp; more",
-        "7 shots taken from the cache", "value=\"0.6400\">64 %<", "value=\"0.3600\">36 %<",
-        "single &lt;1&gt;.dng", "no (p = 1e-06)",
-        "R: the shots do not agree (chi2 30.5 at 2 degrees of freedom", "R: 321 in use", "rig.yaml",
-        "00ff", "1 files"}) {
+  for (const char* text : {"1 of 2 values refused.",
+                           "scattermeter measure &lt;x&gt; (1.5 s",
+                           "2.193 ± 0.012",
+                           "0.002013 ± 0.000045",
+                           "2.170 … 2.220",
+                           "1.23 %",
+                           ">1.25<",
+                           "POM G is refused: a.dng: channel G is dark.",
+                           "a note &amp; more",
+                           "7 shots taken from the cache",
+                           "4321 patches in the shots were left out",
+                           "value=\"0.6400\">64 %<",
+                           "value=\"0.3600\">36 %<",
+                           "single &lt;1&gt;.dng",
+                           "no (p = 1e-06)",
+                           "R: the shots do not agree (chi2 30.5 at 2 degrees of freedom",
+                           "R: 321 in use",
+                           "rig.yaml",
+                           "00ff",
+                           "1 files"}) {
     EXPECT_THAT(page, HasSubstr(text));
   }
 }
