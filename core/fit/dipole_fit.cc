@@ -189,14 +189,15 @@ void add_contradictions(const DipoleFit& fit, const Solved& solved, const Dipole
   if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
     estimate.reasons.push_back(contradiction_sentence(*worst, estimate.pulls));
   }
-  const auto refuse = [&](const LackOfFit& misfit, const char* whole) {
+  const auto refuse = [&](const LackOfFit& misfit, double most, const char* whole) {
     if (!(misfit.p_value < options.misfit_p_value)) return;
-    if (!(misfit.rms > options.max_parts_relative)) return;
+    if (!(misfit.rms > most)) return;
     estimate.reasons.push_back(sentence(whole, 100.0 * misfit.rms, " % off"));
   };
   refuse(misfit_of_parts(fit.image.parts, solved.priors.nuisances, solved.priors.scale),
+         options.max_parts_relative,
          "the dipole does not explain the shots: parts of the image are ");
-  refuse(misfit_of_cells(fit.image),
+  refuse(misfit_of_cells(fit.image), options.max_neighbours_relative,
          "the dipole does not explain the shots: neighbouring patches are, together, ");
 }
 

@@ -26,9 +26,10 @@ struct DipoleFitOptions {
   // The dipole is refused when its residual exceeds the noise significantly (misfit_p_value) and by
   // more than this, relative to the image. Below, the excess widens the errors.
   double max_unexplained_relative = 0.01;
-  // The same for the light of the parts into which the image is divided, and for what neighbours
-  // share.
+  // The same for the light of the parts into which the image is divided.
   double max_parts_relative = 3e-3;
+  // The same for what neighbours share; on the facets of a scan, patches alone make 3e-3.
+  double max_neighbours_relative = 5e-3;
   // A misfit is significant if it is less probable than misfit_p_value under the dipole. A
   // significant misfit counts `misfit_margin` times as an error of the method (nuisances that are
   // not fitted), and the dipole is refused if it exceeds max_misfit_relative.
