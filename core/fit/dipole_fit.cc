@@ -197,8 +197,6 @@ void add_contradictions(const DipoleFit& fit, const Solved& solved, const Dipole
   refuse(misfit_of_parts(fit.image.parts, solved.priors.nuisances, solved.priors.scale),
          options.max_parts_relative,
          "the dipole does not explain the shots: parts of the image are ");
-  refuse(misfit_of_cells(fit.image), options.max_neighbours_relative,
-         "the dipole does not explain the shots: neighbouring patches are, together, ");
 }
 
 }  // namespace

@@ -28,8 +28,6 @@ struct DipoleFitOptions {
   double max_unexplained_relative = 0.01;
   // The same for the light of the parts into which the image is divided.
   double max_parts_relative = 3e-3;
-  // The same for what neighbours share; on the facets of a scan, patches alone make 3e-3.
-  double max_neighbours_relative = 5e-3;
   // A misfit is significant if it is less probable than misfit_p_value under the dipole. A
   // significant misfit counts `misfit_margin` times as an error of the method (nuisances that are
   // not fitted), and the dipole is refused if it exceeds max_misfit_relative.
