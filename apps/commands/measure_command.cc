@@ -1,8 +1,10 @@
+#include <charconv>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <ostream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,7 +31,9 @@ std::optional<PrecisionGoal> goal_of(const std::string& text) {
   constexpr double kSigma_a = 5.0;  // of that of sigma_s'
   if (text == "full") return std::nullopt;
   double percent = 0.0;
-  if (!CLI::detail::lexical_cast(text, percent) || !(percent > 0.0)) {
+  const char* const end = text.data() + text.size();
+  const auto [read, error] = std::from_chars(text.data(), end, percent);
+  if (error != std::errc() || read != end || !(percent > 0.0)) {
     throw CLI::ValidationError("--precision", "expected full or a positive number, got " + text);
   }
   return PrecisionGoal{0.01 * percent, 0.01 * kSigma_a * percent};

@@ -251,15 +251,15 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     return estimate_others(rig_.scene, lit_, seen.shots(), look.findings, how, seen.kept(), watch,
                            progress_);
   };
-  for (bool is_enough = false; !is_enough;) {
+  for (;;) {
     options.all_rows = seen.all_rows();
     out.results = smooth && !without_noise
                       ? fitted_from_where_seen(rig_.scene, seen, options, fit, watch)
                       : fit(options);
-    levels = seen.levels();
-    if (levels) levels = levels_needed(out.results, *options_.goal, *levels, options.all_rows);
-    is_enough = levels == seen.levels();
-    if (!is_enough) seen.choose(levels);
+    if (!seen.levels()) break;
+    levels = levels_needed(out.results, *options_.goal, *seen.levels(), options.all_rows);
+    if (levels == seen.levels()) break;
+    seen.choose(levels);
   }
   const auto* frames = std::get_if<capture::FrameSource>(&source.open);
   if (view_ && !without_noise && frames != nullptr && look.findings.empty() &&
@@ -276,9 +276,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   out.places = std::make_shared<RigPlaces>(rig_places(rig_, objects_, opened));
   if (!without_noise) widen_by_blur(opened, rig_.scene.camera.intrinsics.fx_px, out.results);
   out.skipped = skipped_of(opened, lit_);
-  for (std::size_t i = 0; i < opened.size(); ++i) {
-    out.skipped.rows += opened[i].seen->sites.size() - seen.shots()[i].seen->sites.size();
-  }
+  out.skipped.rows = rows_of(seen.whole()) - rows_of(seen.shots());
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;
   out.skipped.channels_not_asked =
       material_channels(rig_.scene, opened).size() - out.results.size();

@@ -12,6 +12,12 @@
 
 namespace scattermeter::apps {
 
+std::size_t rows_of(const std::vector<ObservedShot>& shots) {
+  std::size_t rows = 0;
+  for (const ObservedShot& shot : shots) rows += shot.seen->sites.size();
+  return rows;
+}
+
 SeenShots::SeenShots(const Rig& rig, const ObjectScenes& objects, LitObjects& lit,
                      const capture::ShotSource& source, std::optional<SharedView> view,
                      bool on_smooth_knots, std::optional<int> levels, KeptLight& kept,
@@ -33,38 +39,29 @@ void SeenShots::open(const capture::ShotSource& from) {
   choose(levels_);
 }
 
-std::shared_ptr<const SeenObject> SeenShots::chosen(
-    const std::shared_ptr<const SeenObject>& whole) const {
-  if (!levels_) return whole;
-  const auto [it, is_new] = kept_->thinned.try_emplace({whole.get(), *levels_});
+const ThinnedView& SeenShots::thinned(const SeenObject& whole) const {
+  const auto [it, is_new] = kept_->thinned.try_emplace({&whole, *levels_});
   ThinnedView& view = it->second;
   if (is_new) {
     std::vector<Eigen::Vector3d> centers_mm;
-    for (const ExitSite& site : whole->sites) centers_mm.push_back(site.center_mm);
+    for (const ExitSite& site : whole.sites) centers_mm.push_back(site.center_mm);
     view.choice = spread_rows(centers_mm, *levels_);
-    view.seen = with_rows(*whole, view.choice);
+    view.seen = with_rows(whole, view.choice);
   }
-  return view.seen;
+  return view;
 }
 
 bool SeenShots::is_worth_choosing(const std::vector<ObservedShot>& shots) const {
   if (!levels_) return false;
-  std::size_t all = 0, some = 0;
+  std::size_t some = 0;
   for (const ObservedShot& shot : shots) {
-    const std::size_t n = shot.seen->sites.size();
-    all += n;
-    some += std::min(n, std::size_t{1} << *levels_);
+    some += std::min(shot.seen->sites.size(), std::size_t{1} << *levels_);
   }
-  return all >= 2 * some;
+  return rows_of(shots) >= 2 * some;
 }
 
 double SeenShots::all_rows() const {
-  const auto rows = [](const std::vector<ObservedShot>& list) {
-    std::size_t n = 0;
-    for (const ObservedShot& shot : list) n += shot.seen->sites.size();
-    return static_cast<double>(n);
-  };
-  return rows(whole()) / rows(shots());
+  return static_cast<double>(rows_of(whole())) / static_cast<double>(rows_of(shots()));
 }
 
 void SeenShots::choose(std::optional<int> levels) {
@@ -72,10 +69,10 @@ void SeenShots::choose(std::optional<int> levels) {
   chosen_.clear();
   if (!levels_) return;
   for (const ObservedShot& shot : shots_) {
+    const ThinnedView& view = thinned(*shot.seen);
     ObservedShot& out = chosen_.emplace_back(shot);
-    out.seen = chosen(shot.seen);
-    out.observation =
-        with_rows(shot.observation, kept_->thinned.at({shot.seen.get(), *levels_}).choice);
+    out.seen = view.seen;
+    out.observation = with_rows(shot.observation, view.choice);
   }
 }
 
@@ -101,7 +98,9 @@ std::vector<ObservedShot> SeenShots::open_and_light(const capture::ShotSource& f
     unread[i].seen = view_->objects.at(unread[i].stated->object);
   }
   if (!is_worth_choosing(unread)) levels_ = std::nullopt;
-  for (ObservedShot& shot : unread) shot.seen = chosen(shot.seen);
+  if (levels_) {
+    for (ObservedShot& shot : unread) shot.seen = thinned(*shot.seen).seen;
+  }
   std::vector<ObservedShot> shots;
   // Both ends are awaited: an exception would cancel the loops of the other, and half of W would be
   // kept as if it were whole.

@@ -1,8 +1,8 @@
 // The shots of a measurement, opened from one view after another.
 #pragma once
 
+#include <cstddef>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +18,9 @@
 #include "core/scene/seen_object.h"
 
 namespace scattermeter::apps {
+
+// Patches in the shots.
+std::size_t rows_of(const std::vector<ObservedShot>& shots);
 
 class SeenShots {
  public:
@@ -57,8 +60,8 @@ class SeenShots {
   std::vector<ObservedShot> open_and_light(const capture::ShotSource& from);
   // Whether the levels leave at most half of the rows of these whole views.
   bool is_worth_choosing(const std::vector<ObservedShot>& shots) const;
-  // The view with the chosen rows; without levels the view itself.
-  std::shared_ptr<const SeenObject> chosen(const std::shared_ptr<const SeenObject>& whole) const;
+  // The chosen rows of a whole view. Precondition: there are levels.
+  const ThinnedView& thinned(const SeenObject& whole) const;
 
   const Rig& rig_;
   const ObjectScenes& objects_;

@@ -48,4 +48,16 @@ std::vector<int> position_cells(const std::vector<Eigen::Vector3d>& centers_mm, 
   return cell;
 }
 
+CellSquares squares_of_sums(const std::vector<int>& cell, const Eigen::VectorXd& values) {
+  if (cell.empty()) return {};
+  const Eigen::Index n = *std::max_element(cell.begin(), cell.end()) + 1;
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(n), count = sum;
+  for (Eigen::Index j = 0; j < values.size(); ++j) {
+    const int at = cell[static_cast<std::size_t>(j)];
+    sum[at] += values[j];
+    count[at] += 1.0;
+  }
+  return {(sum.square() / count.max(1.0)).sum(), static_cast<double>((count > 0.0).count())};
+}
+
 }  // namespace scattermeter

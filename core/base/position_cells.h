@@ -13,4 +13,13 @@ namespace scattermeter {
 std::vector<int> position_cells(const std::vector<Eigen::Vector3d>& centers_mm, int levels,
                                 int least);
 
+// Of values in cells: the squares of each cell's sum over its number of values, added up, and the
+// number of cells that hold any. Where values are independent and of unit variance, as many squares
+// as cells are expected.
+struct CellSquares {
+  double squares = 0;
+  double cells = 0;
+};
+CellSquares squares_of_sums(const std::vector<int>& cell, const Eigen::VectorXd& values);
+
 }  // namespace scattermeter

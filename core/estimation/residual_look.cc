@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -30,7 +29,7 @@ struct LookedAt {
   Eigen::VectorXd right, down;  // of the image's middle, in half its extent
   Eigen::VectorXd off_axis;     // squared tangent of the angle to the optical axis, about its mean
   std::vector<std::size_t> shot;
-  std::vector<int> cell;  // of some eight neighbours on the surface
+  std::vector<Eigen::Vector3d> center_mm;
   std::vector<Eigen::Vector3d> normal;
   std::vector<bool> beside_edge;  // some of the patch's samples are left out beside an edge
 };
@@ -38,7 +37,6 @@ struct LookedAt {
 LookedAt look_at(const std::vector<ShotRows>& rows, const MaterialChannel& channel) {
   LookedAt out;
   std::vector<std::array<double, 5>> list;
-  std::vector<Eigen::Vector3d> centers_mm;
   for (std::size_t s = 0; s < rows.size(); ++s) {
     const ShotRows& r = rows[s];
     const SeenObject& seen = *channel.shots[s]->seen;
@@ -49,13 +47,11 @@ LookedAt look_at(const std::vector<ShotRows>& rows, const MaterialChannel& chann
       list.push_back(
           {double{r.observed[j]} - r.predicted[j], r.predicted[j], r.std[j], at.x(), at.y()});
       out.shot.push_back(s);
-      centers_mm.push_back(seen.sites[j].center_mm);
+      out.center_mm.push_back(seen.sites[j].center_mm);
       out.normal.push_back(seen.patches->normal(seen.map.patch_of_row[j]));
       out.beside_edge.push_back(seen.map.guarded_of_row[j] > 0);
     }
   }
-  constexpr int kMostLevels = 12, kLeastNeighbours = 6;
-  out.cell = position_cells(centers_mm, kMostLevels, kLeastNeighbours);
   const auto n = static_cast<Eigen::Index>(list.size());
   const auto column = [&](std::size_t k) -> Eigen::VectorXd {
     return Eigen::VectorXd::NullaryExpr(
@@ -118,16 +114,14 @@ class BestPattern {
     constexpr double kLeastOfNoise = 0.5, kMostCommon = 1.5;
     if (best_ || !(unexplained_ > kLeastOfNoise * count())) return;
     const Eigen::VectorXd off = whitened(image_.rest);
-    std::map<std::pair<std::size_t, int>, std::pair<double, double>> cells;  // sum and number
-    for (std::size_t i = 0; i < image_.shot.size(); ++i) {
-      auto& [sum, n] = cells[{image_.shot[i], image_.cell[i]}];
-      sum += off[static_cast<Eigen::Index>(i)];
-      n += 1.0;
-    }
-    double common = 0.0;
-    for (const auto& [key, cell] : cells) common += cell.first * cell.first / cell.second;
-    const double alone = off.squaredNorm() * static_cast<double>(cells.size()) / count();
-    if (common > kMostCommon * alone) return;
+    // Of neighbours on the surface, each shot on its own.
+    constexpr int kMostLevels = 12, kLeastNeighbours = 6;
+    std::vector<int> cell = position_cells(image_.center_mm, kMostLevels, kLeastNeighbours);
+    const int cells = *std::max_element(cell.begin(), cell.end()) + 1;
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      cell[i] += static_cast<int>(image_.shot[i]) * cells;
+    const CellSquares common = squares_of_sums(cell, off);
+    if (common.squares > kMostCommon * off.squaredNorm() * common.cells / count()) return;
     keep(unexplained_, image_.rest.norm(), [] {
       return std::string(
           "scatter from patch to patch: more noise than the camera's file states, or hot pixels");

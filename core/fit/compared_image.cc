@@ -86,21 +86,6 @@ ComparedParts parts_of(const ShotSystem& shot, const ScaledCurve& curve,
   return out;
 }
 
-// rest: of the rows, in their deviations.
-void add_cells(const std::vector<int>& cell_of_row, const Eigen::VectorXd& rest,
-               ComparedImage& out) {
-  if (cell_of_row.empty()) return;
-  const Eigen::Index n = *std::max_element(cell_of_row.begin(), cell_of_row.end()) + 1;
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(n), count = sum;
-  for (Eigen::Index j = 0; j < rest.size(); ++j) {
-    const int cell = cell_of_row[static_cast<std::size_t>(j)];
-    sum[cell] += rest[j];
-    count[cell] += 1.0;
-  }
-  out.cells_chi2 = (sum.square() / count).sum();
-  out.cells = static_cast<double>(n);
-}
-
 }  // namespace
 
 ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
@@ -121,7 +106,8 @@ ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
       if (v >= point.v.size()) continue;  // held
       out.predicted += point.v[v] * shot.system->nuisance_columns.col(static_cast<Eigen::Index>(k));
     }
-    add_cells(shot.cell_of_row, (out.l - out.predicted).cwiseQuotient(out.std_l), out);
+    out.neighbours =
+        squares_of_sums(shot.cell_of_row, (out.l - out.predicted).cwiseQuotient(out.std_l));
     if (shot.part_of_row.empty()) return;
     out.parts = parts_of(shot, scaled, nominal, out.predicted, rows.nuisances().size());
   });
@@ -131,8 +117,8 @@ ComparedImage compared_image(const ImageRows& rows, const DistanceKnots& knots,
   out.l = joined(shots, [](Image i) -> const Eigen::VectorXd& { return i.l; });
   out.std_l = joined(shots, [](Image i) -> const Eigen::VectorXd& { return i.std_l; });
   for (const ComparedImage& shot : shots) {
-    out.cells_chi2 += shot.cells_chi2;
-    out.cells += shot.cells;
+    out.neighbours.squares += shot.neighbours.squares;
+    out.neighbours.cells += shot.neighbours.cells;
   }
   ComparedParts& parts = out.parts;
   parts.residual =
@@ -183,8 +169,8 @@ LackOfFit misfit_of_parts(const ComparedParts& parts, const std::vector<Nuisance
 
 LackOfFit misfit_of_cells(const ComparedImage& image) {
   LackOfFit out;
-  out.chi2 = image.cells_chi2;
-  out.dof = std::max(1.0, image.cells);
+  out.chi2 = image.neighbours.squares;
+  out.dof = std::max(1.0, image.neighbours.cells);
   out.p_value = chi_square_tail(out.chi2, out.dof);
   // A shared variance of c times the rows' adds as many times c as a cell has rows.
   const double rows_of_cell = static_cast<double>(image.l.size()) / out.dof;

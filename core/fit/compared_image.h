@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/position_cells.h"
 #include "core/diffusion/distance_weights.h"
 #include "core/fit/dipole_solver.h"
 #include "core/fit/estimate.h"
@@ -28,11 +29,8 @@ struct ComparedImage {
   Eigen::VectorXd predicted;
   Eigen::VectorXd l;
   Eigen::VectorXd std_l;
-  ComparedParts parts;  // of the shots that are divided into parts
-  // Of cells of a few neighbours: squares of their mean residuals, in deviations that these means
-  // have if the rows are independent, and the number of cells.
-  double cells_chi2 = 0;
-  double cells = 0;
+  ComparedParts parts;     // of the shots that are divided into parts
+  CellSquares neighbours;  // of the fit's residual, in deviations of the rows
 };
 
 // Predictions include the fitted nuisances.

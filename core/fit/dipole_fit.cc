@@ -100,7 +100,8 @@ std::string why_not_explained(const Estimate& e, const DipoleFitOptions& options
   return "";
 }
 
-void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOptions& options,
+// not_explained: as by why_not_explained().
+void add_refusals(const DistanceKnots& knots, const Point& p, const std::string& not_explained,
                   Estimate& e) {
   const double mfp_mm = std::exp(-p.u);
   if (!e.converged) e.reasons.push_back("the fit did not converge");
@@ -129,9 +130,7 @@ void add_refusals(const DistanceKnots& knots, const Point& p, const DipoleFitOpt
                                  " is too low for the dipole, which requires alpha' near 1"));
   }
   refuse_undetermined(e);
-  if (const std::string misfit = why_not_explained(e, options); !misfit.empty()) {
-    e.reasons.push_back(misfit);
-  }
+  if (!not_explained.empty()) e.reasons.push_back(not_explained);
 }
 
 // How much of the image the recovered r explains and the dipole does not.
@@ -182,21 +181,20 @@ void solve_with_doubt(const RecoveredReflectance& recovered, const DistanceKnots
   }
 }
 
-// Refusals by the quantities of the rig and by the light of parts and neighbours.
+// Refusals by the quantities of the rig and by the light of the parts.
 void add_contradictions(const DipoleFit& fit, const Solved& solved, const DipoleFitOptions& options,
                         Estimate& estimate) {
   estimate.pulls = solved.judgement.pulls;
   if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
     estimate.reasons.push_back(contradiction_sentence(*worst, estimate.pulls));
   }
-  const auto refuse = [&](const LackOfFit& misfit, double most, const char* whole) {
-    if (!(misfit.p_value < options.misfit_p_value)) return;
-    if (!(misfit.rms > most)) return;
-    estimate.reasons.push_back(sentence(whole, 100.0 * misfit.rms, " % off"));
-  };
-  refuse(misfit_of_parts(fit.image.parts, solved.priors.nuisances, solved.priors.scale),
-         options.max_parts_relative,
-         "the dipole does not explain the shots: parts of the image are ");
+  const LackOfFit parts =
+      misfit_of_parts(fit.image.parts, solved.priors.nuisances, solved.priors.scale);
+  if (parts.p_value < options.misfit_p_value && parts.rms > options.max_parts_relative) {
+    estimate.reasons.push_back(
+        sentence("the dipole does not explain the shots: parts of the image are ",
+                 100.0 * parts.rms, " % off"));
+  }
 }
 
 }  // namespace
@@ -222,10 +220,12 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
   if (estimate.rows < options.min_rows) {
     estimate.reasons.push_back(sentence("only ", estimate.rows, " patches can be used, at least ",
                                         options.min_rows, " are needed"));
-  } else if (!image.is_sound) {
-    estimate.reasons.push_back("the image or its prediction contains values that are not finite");
+    return fit;
   }
-  if (!estimate.reasons.empty()) return fit;
+  if (!image.is_sound) {
+    estimate.reasons.push_back("the image or its prediction contains values that are not finite");
+    return fit;
+  }
   fit.recovered = recover_reflectance(image);
   if (options.without_noise) {
     fit.recovered.floor_chi2 +=
@@ -287,10 +287,10 @@ DipoleFit fit_dipole(const ImageRows& rows, const ImageInformation& image,
     return FitUncertainty(widened, nuisances, curve, p.u, p.q, std::exp(p.log_s), scale,
                           inflation / times);
   };
-  set_uncertainty(uncertainty(1.0), *solved.solver, p, inflation,
-                  why_not_explained(estimate, options).empty(), estimate);
+  const std::string not_explained = why_not_explained(estimate, options);
+  set_uncertainty(uncertainty(1.0), *solved.solver, p, inflation, not_explained.empty(), estimate);
   fit.more_rows = more_rows(uncertainty, options.all_rows);
-  add_refusals(knots, p, options, estimate);
+  add_refusals(knots, p, not_explained, estimate);
   add_contradictions(fit, solved, options, estimate);
   return fit;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -60,6 +61,27 @@ const char* advice(const std::string& group) {
   const auto* it = std::find_if(kAdvice.begin(), kAdvice.end(),
                                 [&](const auto& known) { return group == known.first; });
   return it == kAdvice.end() ? "check it, or state a larger uncertainty" : it->second;
+}
+
+std::string named(const PriorPull& p) {
+  return p.name.empty() || p.name == p.group ? p.group : fmt::format("{} ({})", p.group, p.name);
+}
+
+// The largest pulls of other groups that come near to the worst, each group once.
+std::vector<PriorPull> rivals(const PriorPull& worst, std::vector<PriorPull> pulls) {
+  constexpr double kNear = 0.7;
+  constexpr std::size_t kMost = 2;
+  std::erase_if(pulls, [&](const PriorPull& p) {
+    return !(std::abs(p.pull) > kNear * std::abs(worst.pull)) ||
+           !(p.image_relative > kLeastPullImage);
+  });
+  std::stable_sort(pulls.begin(), pulls.end(), [](const PriorPull& a, const PriorPull& b) {
+    return std::abs(a.pull) > std::abs(b.pull);
+  });
+  std::set<std::string> groups = {worst.group};
+  std::erase_if(pulls, [&](const PriorPull& p) { return !groups.insert(p.group).second; });
+  if (pulls.size() > kMost) pulls.resize(kMost);
+  return pulls;
 }
 
 }  // namespace
@@ -173,37 +195,6 @@ const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_
   }
   return worst;
 }
-
-namespace {
-
-std::string named(const PriorPull& p) {
-  return p.name.empty() || p.name == p.group ? p.group : fmt::format("{} ({})", p.group, p.name);
-}
-
-// The largest pull of each other group that comes near to the worst.
-std::vector<PriorPull> rivals(const PriorPull& worst, const std::vector<PriorPull>& pulls) {
-  constexpr double kNear = 0.7;
-  constexpr std::size_t kMost = 2;
-  std::vector<PriorPull> out;
-  for (const PriorPull& p : pulls) {
-    if (p.group == worst.group || !(std::abs(p.pull) > kNear * std::abs(worst.pull))) continue;
-    if (!(p.image_relative > kLeastPullImage)) continue;
-    const auto it = std::find_if(out.begin(), out.end(),
-                                 [&](const PriorPull& other) { return other.group == p.group; });
-    if (it == out.end()) {
-      out.push_back(p);
-    } else if (std::abs(p.pull) > std::abs(it->pull)) {
-      *it = p;
-    }
-  }
-  std::stable_sort(out.begin(), out.end(), [](const PriorPull& a, const PriorPull& b) {
-    return std::abs(a.pull) > std::abs(b.pull);
-  });
-  if (out.size() > kMost) out.resize(kMost);
-  return out;
-}
-
-}  // namespace
 
 std::string contradiction_sentence(const PriorPull& worst, const std::vector<PriorPull>& pulls) {
   std::string out = fmt::format(

@@ -30,5 +30,13 @@ TEST(PositionCells, AreAlikeInSizeAndInOnePlace) {
   EXPECT_THROW(position_cells(centers, 1, 0), std::invalid_argument);
 }
 
+TEST(PositionCells, SquaresOfSums) {
+  const CellSquares found =
+      squares_of_sums({0, 2, 0, 2, 2}, (Eigen::VectorXd(5) << 1, -1, 2, 4, 3).finished());
+  EXPECT_DOUBLE_EQ(found.squares, 9.0 / 2.0 + 36.0 / 3.0);
+  EXPECT_EQ(found.cells, 2.0);
+  EXPECT_EQ(squares_of_sums({}, {}).cells, 0.0);
+}
+
 }  // namespace
 }  // namespace scattermeter
