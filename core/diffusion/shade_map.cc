@@ -7,13 +7,12 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/material/fresnel.h"
+#include "core/view/pixel_points.h"
 
 namespace scattermeter {
 namespace {
 
 constexpr std::int32_t kBackground = -1;
-// Of the lattice (i, kStep i mod 64) / 64: its shortest vector is 7.6 / 64 long, of 8.6 possible.
-constexpr int kStep = 19;
 
 }  // namespace
 
@@ -72,18 +71,11 @@ ShadeMap::ShadeMap(const RayGrid& rays, const RayScene& scene, const PatchMesh& 
   blocks_.resize(mixed.size() * kPoints);
   tbb::parallel_for(std::size_t{0}, mixed.size(), [&](std::size_t b) {
     const auto [x, y] = mixed[b];
-    // Directions inside the pixel by the differences to its neighbours (exact without distortion).
-    const int xn = x + 1 < width_ ? x + 1 : x - 1;
-    const int yn = y + 1 < height_ ? y + 1 : y - 1;
-    const Eigen::Vector3d d = direction(x, y);
-    const Eigen::Vector3d per_x = (direction(xn, y) - d) * (xn - x);
-    const Eigen::Vector3d per_y = (direction(x, yn) - d) * (yn - y);
+    const PixelPoints pixel(rays, x, y);
     for (int i = 0; i < kPoints; ++i) {
-      const double fx = (i + 0.5) / kPoints - 0.5;
-      const double fy = (kStep * i % kPoints + 0.5) / kPoints - 0.5;
       std::int32_t unused = 0;
       blocks_[b * kPoints + static_cast<std::size_t>(i)] =
-          trace(scene, patches, rays.origin_in_world_mm, d + fx * per_x + fy * per_y,
+          trace(scene, patches, rays.origin_in_world_mm, pixel.direction(i, kPoints),
                 eta_int_over_ext, &unused);
     }
   });

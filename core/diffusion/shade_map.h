@@ -13,9 +13,8 @@
 namespace scattermeter {
 
 // Each pixel of a rectangle is a mean over surface points: one for pixels inside a facet, 64 spread
-// over the pixel if it includes another facet, a step in depth or the background. They form a
-// lattice in which no two share a row or a column, so that an edge along the pixel grid is sampled
-// at 64 offsets: it appears within 1/128 px of its true position (4 x 4 on a grid: 1/8 px).
+// over the pixel (core/view/pixel_points.h) if it includes another facet, a step in depth or the
+// background.
 class ShadeMap {
  public:
   ShadeMap(const RayGrid& rays, const RayScene& scene, const PatchMesh& patches,

@@ -7,9 +7,9 @@
 #include <Eigen/Geometry>
 #include <oneapi/tbb/parallel_for.h>
 
-#include "core/material/fresnel.h"
 #include "core/mesh/triangle_parts.h"
 #include "core/view/adjacent_rows.h"
+#include "core/view/exit_transmittance.h"
 #include "core/view/seen_surface.h"
 
 namespace scattermeter {
@@ -145,14 +145,14 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
   map.height = rays.height;
   const std::size_t n = rays.directions_in_world.size();
   const SeenSurface surface(rays, scene, patches, options);
+  const ExitTransmittance transmittance(rays, scene, patches, surface, eta_int_over_ext);
   std::vector<std::int32_t> patch_of_sample(n, -1);
   map.pi_over_transmittance.assign(n, 0.0F);
   tbb::parallel_for(0, rays.height, [&](int y) {
     for (int x = 0; x < rays.width; ++x) {
       const std::size_t i = surface.index(x, y);
       if (surface.seen(i).patch < 0 || !surface.inside(x, y)) continue;
-      const double ft =
-          fresnel_transmittance(eta_int_over_ext, static_cast<double>(surface.seen(i).cos_theta));
+      const double ft = transmittance.of(x, y);
       if (!(ft > 0.0)) continue;
       patch_of_sample[i] = surface.seen(i).patch;
       map.pi_over_transmittance[i] = static_cast<float>(std::numbers::pi / ft);

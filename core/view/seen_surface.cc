@@ -10,6 +10,8 @@
 #include <Eigen/Geometry>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/view/pixel_points.h"
+
 namespace scattermeter {
 
 namespace {
@@ -128,17 +130,10 @@ int SeenSurface::reach_px(std::size_t i, int xn, int yn) const {
 
 double SeenSurface::footprint_mm2(int x, int y) const {
   const std::size_t i = index(x, y);
-  const auto direction = [&](int xx, int yy) {
-    return rays_.directions_in_world[index(xx, yy)].cast<double>().eval();
-  };
-  const int xn = x + 1 < rays_.width ? x + 1 : x - 1;
-  const int yn = y + 1 < rays_.height ? y + 1 : y - 1;
-  const Eigen::Vector3d d = direction(x, y);
-  const double cross = std::abs((direction(xn, y) - d).cross(direction(x, yn) - d).dot(d));
-  const double length = d.norm();
-  const double solid_angle = cross / (length * length * length);
+  const double length = rays_.directions_in_world[i].cast<double>().norm();
   const double distance_mm = static_cast<double>(seen_[i].distance) * length;
-  return solid_angle * distance_mm * distance_mm / static_cast<double>(seen_[i].cos_theta);
+  return PixelPoints(rays_, x, y).solid_angle_sr() * distance_mm * distance_mm /
+         static_cast<double>(seen_[i].cos_theta);
 }
 
 }  // namespace scattermeter
