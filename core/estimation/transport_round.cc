@@ -12,9 +12,6 @@
 namespace scattermeter {
 namespace {
 
-// A misfit of the parts less probable than this widens the estimate.
-constexpr double kWideningPValue = 1e-2;
-
 ScatteringImage part_of(const ScatteringImage& m, Eigen::Index first, Eigen::Index n) {
   return {m.l.segment(first, n), m.per_log_sigma_s.segment(first, n),
           m.per_sigma_a.segment(first, n),

@@ -97,7 +97,7 @@ class TransportSearch {
           {round.of_cells(round.look().by_half[0]), round.of_cells(round.look().by_half[1])},
           dipole(at));
       const ScatteringPoint to = round.step().to;
-      if (learned && is_close(round.step(), round.blocks())) {
+      if (learned && is_close(round.step(), round.blocks(), round.misfit())) {
         if (outliers_known || !leave_outliers_out(round)) return report(round, result);
         outliers_known = true;
         last = first_look(to);
@@ -151,7 +151,7 @@ class TransportSearch {
   void trace(TransportRound& round, int blocks, bool may_be_last) {
     const ChannelSimulation::Projections projections = round.projections();
     round.take(look(round.at(), blocks, projections));
-    while (may_be_last && is_close(round.step(), round.blocks()) &&
+    while (may_be_last && is_close(round.step(), round.blocks(), round.misfit()) &&
            !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
       stage_.check();
       int more = next_blocks(round.at(), round.blocks());

@@ -33,8 +33,9 @@ const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
 
 }  // namespace
 
-bool is_close(const ScatteringEquation::Step& step, int blocks) {
-  constexpr double kShort = 0.02, kLong = 0.25;
+bool is_close(const ScatteringEquation::Step& step, int blocks, const LackOfFit& misfit) {
+  constexpr double kShort = 0.02;
+  const double longest = misfit.p_value < kWideningPValue ? 0.05 : 0.25;
   constexpr double kOfStd = 0.15;
   const double more = blocks > kLeastBlocks ? 1.7 : 1.0;
   const Eigen::MatrixXd& paths = covariance_by(step, "Monte Carlo");
@@ -42,7 +43,7 @@ bool is_close(const ScatteringEquation::Step& step, int blocks) {
   for (Eigen::Index k = 0; k < step.taken.size(); ++k) {
     const double change = std::abs(step.taken[k]) * step.size[k] / more;
     // Whatever the deviation: it is that of a point too far off.
-    if (change > kLong) return false;
+    if (change > longest) return false;
     const double std = std::sqrt(step.covariance(k, k) - saved * paths(k, k)) * step.size[k];
     if (change > kShort && 0.5 * change * change > kOfStd * std) return false;
   }

@@ -17,10 +17,15 @@ inline constexpr int kLeastBlocks = 64;
 // The expected final number of blocks of a search; the weights assume its Monte Carlo errors.
 inline constexpr double kFinalPathBlocks = 512.0;
 
+// A misfit of the parts less probable than this widens the estimate.
+inline constexpr double kWideningPValue = 1e-2;
+
 // Whether the step is so short that its nonlinear part, about half its square, is small compared
 // with the final standard deviation of the result, or small in itself. With few blocks it has to be
-// shorter, lest paths be spent at a point that turns out to be too far away.
-bool is_close(const ScatteringEquation::Step& step, int blocks);
+// shorter, lest paths be spent at a point that turns out to be too far away. It also has to be
+// where the image is not explained there: Gauss-Newton steps towards a root far off are too short
+// as long as the residual is large, and the deviations that the residual widens excuse anything.
+bool is_close(const ScatteringEquation::Step& step, int blocks, const LackOfFit& misfit);
 
 // Whether the Monte Carlo error is small compared with all others, or smaller than ever needed.
 bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int blocks);
