@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/dense_solve.h"
+#include "core/estimation/transport_pilot.h"
 #include "core/fit/excess_scatter.h"
 #include "core/fit/part_light.h"
 
@@ -129,6 +130,13 @@ void TransportRound::take(ChannelSimulation::Look look) {
   misfit_ = misfit_of(rest);
   if (misfit_.p_value < kWideningPValue) scatter_ *= std::max(1.0, misfit_.chi2 / misfit_.dof);
   step_ = joint_.step(look_.halves, own, at_, scatter_);
+}
+
+Eigen::VectorXd TransportRound::row_variance(const std::vector<double>& area_mm2,
+                                             double scatter) const {
+  return shots_.system.std_l.cwiseAbs2() +
+         scatter * at_.scale * at_.scale *
+             smooth_path_variance(pilot_.l, area_mm2, image().variance);
 }
 
 ScatteringEquation::ScaleTest TransportRound::scale_test() const {

@@ -79,6 +79,8 @@ class TransportRound {
   double unexplained() const { return unexplained_; }
   double scatter_within() const { return scatter_within_; }
   double scatter() const { return scatter_; }
+  // Of each row: noise and smooth Monte Carlo (smooth_path_variance), times `scatter`.
+  Eigen::VectorXd row_variance(const std::vector<double>& area_mm2, double scatter) const;
   // Whether the image contradicts the stated scale.
   ScatteringEquation::ScaleTest scale_test() const;
 

@@ -12,6 +12,9 @@
 namespace scattermeter {
 namespace {
 
+// Mean free paths across the largest body, at least.
+constexpr double kThinnest = 5.0;
+
 bool determines(const Estimate& estimate) {
   return estimate.converged && !is_undetermined(estimate.sigma_s_prime_per_mm);
 }
@@ -72,13 +75,13 @@ bool start_as_before(std::span<const ChannelResult> found, ChannelResult& result
 
 ScatteringPoint nearest_point(double size_mm, bool has_free_scale,
                               const std::function<Eigen::ArrayXd(int, double)>& light) {
-  constexpr double kFewest = 5.0, kMost = 300.0;  // mean free paths across
-  constexpr int kStep = 2;                        // nodes
+  constexpr double kMost = 300.0;  // mean free paths across
+  constexpr int kStep = 2;         // nodes
   constexpr std::array<double, 9> kDark = {1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8};
   const auto node_at = [&](double paths_across) {
     return std::log(paths_across / size_mm) / TransportAtlas::kSpacing;
   };
-  const int first = static_cast<int>(std::ceil(node_at(kFewest)));
+  const int first = static_cast<int>(std::ceil(node_at(kThinnest)));
   const int steps = static_cast<int>(std::floor(node_at(kMost)) - first) / kStep + 1;
   Eigen::ArrayXXd distance(steps, kDark.size()), scale(steps, kDark.size());
   for (Eigen::Index i = 0; i < steps; ++i) {
@@ -99,6 +102,14 @@ ScatteringPoint nearest_point(double size_mm, bool has_free_scale,
   }
   const double sigma_s = std::exp(TransportAtlas::kSpacing * x);
   return {sigma_s, kDark[static_cast<std::size_t>(k)] * sigma_s, scale(i, k)};
+}
+
+ScatteringPoint starting_point(const Estimate& dipole, double size_mm, bool has_free_scale,
+                               const std::function<Eigen::ArrayXd(int, double)>& light) {
+  const Quantity& s = dipole.sigma_s_prime_per_mm;
+  if (is_undetermined(s)) return nearest_point(size_mm, has_free_scale, light);
+  return {std::max(s.value, kThinnest / size_mm), dipole.sigma_a_per_mm.value,
+          has_free_scale ? dipole.scale.value : 1.0};
 }
 
 }  // namespace scattermeter

@@ -33,4 +33,8 @@ bool start_as_before(std::span<const ChannelResult> found, ChannelResult& result
 ScatteringPoint nearest_point(double size_mm, bool has_free_scale,
                               const std::function<Eigen::ArrayXd(int, double)>& light);
 
+// From the dipole's estimate, or, where that determines nothing, the nearest_point().
+ScatteringPoint starting_point(const Estimate& dipole, double size_mm, bool has_free_scale,
+                               const std::function<Eigen::ArrayXd(int, double)>& light);
+
 }  // namespace scattermeter

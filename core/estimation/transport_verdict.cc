@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "core/fit/prior_pulls.h"
+#include "core/fit/residual.h"
 
 namespace scattermeter {
 namespace {
@@ -63,6 +64,14 @@ bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int
   return blocks >= kLeastBlocks;
 }
 
+bool is_ruled_by_paths(const ScatteringEquation::Step& step) {
+  double by_paths = 0.0;
+  for (const ScatteringEquation::Step::Cause& cause : step.causes) {
+    if (cause.name == "Monte Carlo" || cause.name == "scatter") by_paths += cause.covariance(0, 0);
+  }
+  return by_paths > 0.5 * step.covariance(0, 0);
+}
+
 void report_step(const ScatteringEquation::Step& step, Estimate& estimate) {
   const double s = step.to.sigma_s_per_mm;
   const Eigen::MatrixXd& c = step.covariance;
@@ -77,6 +86,21 @@ void report_step(const ScatteringEquation::Step& step, Estimate& estimate) {
   }
   estimate.scale =
       normal_quantity(step.to.scale, c.rows() > 2 ? std::sqrt(c(2, 2)) * step.to.scale : 0.0);
+}
+
+bool is_better(const Estimate& one, const Estimate& other) {
+  const Quantity &s = one.sigma_s_prime_per_mm, &t = other.sigma_s_prime_per_mm;
+  return s.std * t.value < t.std * s.value;
+}
+
+void report_residual(const DenseSystem& system, const Eigen::VectorXd& rest,
+                     const Eigen::VectorXd& settled, const Eigen::VectorXd& variance,
+                     Estimate& estimate) {
+  estimate.reduced_chi2 = settled.cwiseAbs2().cwiseQuotient(variance).mean();
+  const Residual whole = residual(system.l, system.l - rest, system.std_l);
+  estimate.rms_relative = whole.rms_relative;
+  estimate.psnr_db = whole.psnr_db;
+  estimate.rows = static_cast<std::size_t>(system.l.size());
 }
 
 ScatteringEquation::Step widened_by_scale(const ScatteringEquation& equation,

@@ -30,8 +30,21 @@ bool is_close(const ScatteringEquation::Step& step, int blocks, const LackOfFit&
 // Whether the Monte Carlo error is small compared with all others, or smaller than ever needed.
 bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int blocks);
 
+// Whether paths, by their own errors or by scatter that stands for a rendering's, make up most of
+// the variance of sigma_s'.
+bool is_ruled_by_paths(const ScatteringEquation::Step& step);
+
 // Writes values, standard deviations, budget and scale at the step's end into the estimate.
 void report_step(const ScatteringEquation::Step& step, Estimate& estimate);
+
+// Whether sigma_s' has the smaller relative deviation.
+bool is_better(const Estimate& one, const Estimate& other);
+
+// Writes how far the image is off: rest, before and after (`settled`) the nuisances take their most
+// probable values, the latter against `variance`; W/mm^2 and its square, of the system's rows.
+void report_residual(const DenseSystem& system, const Eigen::VectorXd& rest,
+                     const Eigen::VectorXd& settled, const Eigen::VectorXd& variance,
+                     Estimate& estimate);
 
 // The step, with a larger covariance if the image contradicts the stated scale.
 ScatteringEquation::Step widened_by_scale(const ScatteringEquation& equation,

@@ -40,6 +40,15 @@ TEST(TransportVerdict, StepsAreCloseWhereTheirSquaresAreSmall) {
   EXPECT_FALSE(is_close(made_step(0.251, 1.0, 0.0), 8, {}));
 }
 
+TEST(TransportVerdict, PathsRuleWhereTheyAreMostOfTheVariance) {
+  EXPECT_FALSE(is_ruled_by_paths(made_step(0.0, 0.011, 0.01)));
+  EXPECT_TRUE(is_ruled_by_paths(made_step(0.0, 0.01, 0.011)));
+  ScatteringEquation::Step scattered = made_step(0.0, 0.011, 0.01);
+  scattered.causes.push_back({"scatter", 0.01 * Eigen::Matrix2d::Identity()});
+  scattered.covariance += 0.01 * Eigen::Matrix2d::Identity();
+  EXPECT_TRUE(is_ruled_by_paths(scattered));
+}
+
 // Deviations of paths that further blocks will remove do not excuse a long step.
 TEST(TransportVerdict, ClosenessCountsOnTheFinalPaths) {
   EXPECT_FALSE(is_close(made_step(0.1, 0.03 * 0.03, 0.03 * 0.03), 8, {}));
