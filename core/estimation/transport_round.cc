@@ -139,6 +139,12 @@ Eigen::VectorXd TransportRound::row_variance(const std::vector<double>& area_mm2
              smooth_path_variance(pilot_.l, area_mm2, image().variance);
 }
 
+double TransportRound::efficiency() const {
+  const Eigen::MatrixXd information = 0.5 * (joint_.projection(0) + joint_.projection(1)) *
+                                      ScatteringEquation::jacobian(pilot_, at_, unknowns() == 3);
+  return inverse_lu(information)(0, 0) / step_.covariance(0, 0);
+}
+
 ScatteringEquation::ScaleTest TransportRound::scale_test() const {
   if (!tests_scale()) return {};
   const Eigen::MatrixXd& covariance = look_.covariance;

@@ -66,6 +66,9 @@ class TransportRound {
   Eigen::MatrixXd of_cells(const Eigen::MatrixXd& covariance) const;
   // The step to the joint estimate, scatter included.
   const ScatteringEquation::Step& step() const { return step_; }
+  // Variance of log sigma_s that the weights promise, over that of the step: 1 where paths and
+  // pilots have the same derivatives.
+  double efficiency() const;
   // Measured minus predicted l at its end.
   Eigen::VectorXd residual() const { return joint_.residual(image(), at_, step_.to); }
   // Error variance of the shots beyond their noise, over the Monte Carlo variance: within their
@@ -79,6 +82,7 @@ class TransportRound {
   double unexplained() const { return unexplained_; }
   double scatter_within() const { return scatter_within_; }
   double scatter() const { return scatter_; }
+  PathErrors errors() const { return {scatter(), blocks()}; }
   // Of each row: noise and smooth Monte Carlo (smooth_path_variance), times `scatter`.
   Eigen::VectorXd row_variance(const std::vector<double>& area_mm2, double scatter) const;
   // Whether the image contradicts the stated scale.

@@ -31,12 +31,10 @@ constexpr int kPatience = 5;
 constexpr double kLongest = 1.5;
 // Relative change of the image by a step beyond which earlier paths do not apply to the new point.
 constexpr double kFarStep = 0.3;
-// Scatter beyond that which the weights of a round assume leaves them far from the best: a cube of
-// 1.5 per mm was measured to 28 % where the next round, with the scatter known, had 8 %.
-constexpr double kLikeScatter = 1.5;
-// Weights depend on the point and its look. Where paths make up most of the deviation, further
-// rounds may have far better ones (of a cube's, 44 %, 8 % and 14 %): the best of so many is
-// reported.
+// Weights depend on the point and its look. Where they are far less efficient than they promise,
+// those of further rounds may be far better (a cube's deviations: 44 %, 8 % and 14 %): the best of
+// so many is reported.
+constexpr double kEfficient = 0.1;
 constexpr int kMostReports = 4;
 // Rows farther off, in robust deviations, are dust and scratches; Monte Carlo has long tails.
 constexpr double kTransportOutlierStd = 8.0;
@@ -90,6 +88,7 @@ class TransportSearch {
     ScatteringImage image;
     int blocks = 0;
     double scatter = 1;
+    PathErrors errors() const { return {scatter, blocks}; }
   };
 
   // found: where the search ends, a report on `before`.
@@ -108,13 +107,13 @@ class TransportSearch {
       }
       const bool learned = pilots_.have_learned();
       // During the search, a scale with a prior is taken as exact: that is more stable.
-      TransportRound round(
-          {system_, parts_}, learned || has_free_scale() ? scale_ : ScalePrior{}, at,
-          pilots_.pilots(parts_, dipole(at), simulation_.area_mm2(), last.image.variance,
-                         1.0 / kFinalPathBlocks + (last.scatter - 1.0) / last.blocks),
-          last.blocks / kFinalPathBlocks + last.scatter - 1.0);
-      trace(round, blocks, learned);
-      const bool is_weighted = round.scatter() < kLikeScatter * last.scatter;
+      TransportRound round({system_, parts_}, learned || has_free_scale() ? scale_ : ScalePrior{},
+                           at,
+                           pilots_.pilots(parts_, dipole(at), simulation_.area_mm2(),
+                                          last.image.variance, last.errors().of_block()),
+                           last.blocks / kFinalPathBlocks + last.scatter - 1.0);
+      trace(round, blocks, learned, last);
+      const bool is_weighted = fits_weights(round.errors(), last.errors());
       if (round.step().change > kFarStep) pilots_.forget();
       last = {round.image(), round.blocks(), round.scatter()};
       pilots_.learn(
@@ -122,14 +121,14 @@ class TransportSearch {
           {round.of_cells(round.look().by_half[0]), round.of_cells(round.look().by_half[1])},
           dipole(at));
       const ScatteringPoint to = round.step().to;
-      if (learned && is_weighted && is_close(round.step(), round.blocks(), round.misfit())) {
+      if (learned && is_close(round.step(), round.blocks(), round.misfit())) {
         if (!outliers_known && leave_outliers_out(round)) {
           last = first_look(to, round.scatter());
         } else {
           ChannelResult now = before;
           report(round, now);
           if (!found || is_better(now.estimate, found->estimate)) found = std::move(now);
-          if (!is_ruled_by_paths(round.step()) || ++reports == kMostReports) return;
+          if (is_weighted && (round.efficiency() > kEfficient || ++reports == kMostReports)) return;
         }
         outliers_known = true;
       } else if (round.step().change < 0.2 || i >= kPatience ||
@@ -164,11 +163,12 @@ class TransportSearch {
   }
 
   // `blocks` of paths at the round's point; where that is close enough to the root (may_be_last),
-  // as many as are useful and as time and options allow.
-  void trace(TransportRound& round, int blocks, bool may_be_last) {
+  // as many as are useful and as time and options allow. by: the look that made its weights.
+  void trace(TransportRound& round, int blocks, bool may_be_last, const Look& by) {
     const ChannelSimulation::Projections projections = round.projections();
     round.take(look(round.at(), blocks, projections));
-    while (may_be_last && is_close(round.step(), round.blocks(), round.misfit()) &&
+    while (may_be_last && fits_weights(round.errors(), by.errors()) &&
+           is_close(round.step(), round.blocks(), round.misfit()) &&
            !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
       stage_.check();
       int more = next_blocks(round.at(), round.blocks());

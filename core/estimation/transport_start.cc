@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/atlas/transport_atlas.h"
+#include "core/estimation/model_choice.h"
 
 namespace scattermeter {
 namespace {
@@ -70,6 +71,8 @@ bool start_as_before(std::span<const ChannelResult> found, ChannelResult& result
   result.estimate.sigma_s_prime_per_mm = same->estimate.sigma_s_prime_per_mm;
   result.estimate.sigma_a_per_mm = same->estimate.sigma_a_per_mm;
   result.estimate.scale = same->estimate.scale;
+  result.estimate.misfit_p_value = same->estimate.misfit_p_value;
+  result.estimate.misfit_relative = same->estimate.misfit_relative;
   return true;
 }
 
@@ -106,8 +109,12 @@ ScatteringPoint nearest_point(double size_mm, bool has_free_scale,
 
 ScatteringPoint starting_point(const Estimate& dipole, double size_mm, bool has_free_scale,
                                const std::function<Eigen::ArrayXd(int, double)>& light) {
+  // Of the image: the dipole's estimates are then off by factors.
+  constexpr double kFarOff = 5e-3;
   const Quantity& s = dipole.sigma_s_prime_per_mm;
-  if (is_undetermined(s)) return nearest_point(size_mm, has_free_scale, light);
+  if (is_undetermined(s) || (misses_image(dipole) && dipole.misfit_relative > kFarOff)) {
+    return nearest_point(size_mm, has_free_scale, light);
+  }
   return {std::max(s.value, kThinnest / size_mm), dipole.sigma_a_per_mm.value,
           has_free_scale ? dipole.scale.value : 1.0};
 }

@@ -34,6 +34,11 @@ const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
 
 }  // namespace
 
+bool fits_weights(const PathErrors& found, const PathErrors& assumed) {
+  constexpr double kLike = 1.5;
+  return found.of_block() < kLike * assumed.of_block();
+}
+
 bool is_close(const ScatteringEquation::Step& step, int blocks, const LackOfFit& misfit) {
   constexpr double kShort = 0.02;
   const double longest = misfit.p_value < kWideningPValue ? 0.05 : 0.25;
@@ -62,14 +67,6 @@ bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int
     if (own > kOfRest * rest && own > floor * floor) return false;
   }
   return blocks >= kLeastBlocks;
-}
-
-bool is_ruled_by_paths(const ScatteringEquation::Step& step) {
-  double by_paths = 0.0;
-  for (const ScatteringEquation::Step::Cause& cause : step.causes) {
-    if (cause.name == "Monte Carlo" || cause.name == "scatter") by_paths += cause.covariance(0, 0);
-  }
-  return by_paths > 0.5 * step.covariance(0, 0);
 }
 
 void report_step(const ScatteringEquation::Step& step, Estimate& estimate) {

@@ -136,5 +136,36 @@ TEST_P(NearestPoint, IsWithinAStepAndAHalfOfTheMedium) {
 
 INSTANTIATE_TEST_SUITE_P(Media, NearestPoint, ::testing::Values(0.3, 1.0, 2.5, 9.0));
 
+// Nearest is the node of about 1 per mm, whatever sigma_a.
+ScatteringPoint started_from(const Estimate& estimate) {
+  return starting_point(estimate, 20.0, false, [](int node, double) -> Eigen::ArrayXd {
+    return Eigen::ArrayXd::Constant(4, TransportAtlas::sigma_s_per_mm(node));
+  });
+}
+
+TEST(StartingPoint, IsTheDipolesUnlessItMissesTheImageByFar) {
+  Estimate dipole;
+  dipole.sigma_s_prime_per_mm = normal_quantity(0.42, 0.07);
+  dipole.sigma_a_per_mm = normal_quantity(0.003, 0.001);
+  dipole.misfit_p_value = 1e-9;
+  dipole.misfit_relative = 0.004;
+  EXPECT_EQ(started_from(dipole).sigma_s_per_mm, 0.42);
+  EXPECT_EQ(started_from(dipole).sigma_a_per_mm, 0.003);
+  dipole.misfit_relative = 0.012;
+  EXPECT_NEAR(std::log(started_from(dipole).sigma_s_per_mm), 0.0, 0.36);
+}
+
+TEST(StartingPoint, IsTheNearestWhereTheDipoleDeterminesNothing) {
+  Estimate dipole;
+  dipole.sigma_s_prime_per_mm = normal_quantity(0.42, 0.3);
+  EXPECT_NEAR(std::log(started_from(dipole).sigma_s_per_mm), 0.0, 0.36);
+}
+
+TEST(StartingPoint, IsFiveMeanFreePathsAcrossAtLeast) {
+  Estimate dipole;
+  dipole.sigma_s_prime_per_mm = normal_quantity(0.1, 0.01);
+  EXPECT_EQ(started_from(dipole).sigma_s_per_mm, 0.25);
+}
+
 }  // namespace
 }  // namespace scattermeter

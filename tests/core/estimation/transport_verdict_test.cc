@@ -40,13 +40,13 @@ TEST(TransportVerdict, StepsAreCloseWhereTheirSquaresAreSmall) {
   EXPECT_FALSE(is_close(made_step(0.251, 1.0, 0.0), 8, {}));
 }
 
-TEST(TransportVerdict, PathsRuleWhereTheyAreMostOfTheVariance) {
-  EXPECT_FALSE(is_ruled_by_paths(made_step(0.0, 0.011, 0.01)));
-  EXPECT_TRUE(is_ruled_by_paths(made_step(0.0, 0.01, 0.011)));
-  ScatteringEquation::Step scattered = made_step(0.0, 0.011, 0.01);
-  scattered.causes.push_back({"scatter", 0.01 * Eigen::Matrix2d::Identity()});
-  scattered.covariance += 0.01 * Eigen::Matrix2d::Identity();
-  EXPECT_TRUE(is_ruled_by_paths(scattered));
+// Scatter that is no error of paths grows in their terms as they become more.
+TEST(TransportVerdict, WeightsFitScatterThatGrowsWithThePaths) {
+  const PathErrors assumed{2.0, 100};
+  EXPECT_DOUBLE_EQ(assumed.of_block(), 1.0 / 512.0 + 0.01);
+  EXPECT_TRUE(fits_weights({4.0, 300}, assumed));
+  EXPECT_FALSE(fits_weights({3.0, 100}, assumed));
+  EXPECT_FALSE(fits_weights({2.0, 100}, {1.0, 8}));
 }
 
 // Deviations of paths that further blocks will remove do not excuse a long step.
