@@ -67,5 +67,22 @@ TEST(SampledPatches, AreUnbiasedAtEverySiteOfTheFilter) {
   }
 }
 
+// Pixels at the edges of a sphere's facets see several slants. With the transmittance of the one at
+// their centre, the residual without noise was 0.25 to 0.32 %.
+TEST(SampledPatches, FacetsOfASphereLeaveNoResidual) {
+  const Rig rig = seen_rig({"sphere", {1.3, 0.005, 1.49}, {0, -100, 150}, 0.5, "BGGR"});
+  const ObjectScenes objects = bodies_scenes(rig);
+  VirtualShots shots(rig, objects, {.noise = true});
+  const Measurement m = Instrument(rig, objects, MeasureOptions{}).measure(shots.ideal_source());
+  for (const ChannelResult& r : m.results) {
+    const Estimate& e = r.estimate;
+    EXPECT_TRUE(e.reasons.empty()) << e.reasons.front();
+    // Measured: at most 0.14 %, 0.028 % and 0.051 %.
+    EXPECT_LT(e.rms_relative, 1.8e-3) << r.channel;
+    EXPECT_NEAR(e.sigma_s_prime_per_mm.value / 1.3, 1.0, 7e-4) << r.channel;
+    EXPECT_NEAR(e.sigma_a_per_mm.value / 0.005, 1.0, 1e-3) << r.channel;
+  }
+}
+
 }  // namespace
 }  // namespace scattermeter::apps
