@@ -33,9 +33,9 @@ inline constexpr double kWideningPValue = 1e-2;
 
 // Whether the step is so short that its nonlinear part, about half its square, is small compared
 // with the final standard deviation of the result, or small in itself. With few blocks it has to be
-// shorter, lest paths be spent at a point that turns out to be too far away. It also has to be
-// where the image is not explained there: Gauss-Newton steps towards a root far off are too short
-// as long as the residual is large, and the deviations that the residual widens excuse anything.
+// shorter, lest paths be spent at a point that turns out to be too far away; and so it has where
+// the image is not explained: Gauss-Newton steps towards a root far off are too short as long as
+// the residual is large, and the deviations that the residual widens excuse anything.
 bool is_close(const ScatteringEquation::Step& step, int blocks, const LackOfFit& misfit);
 
 // Whether the Monte Carlo error is small compared with all others, or smaller than ever needed.
