@@ -9,6 +9,7 @@
 
 #include "apps/instrument/rig_places.h"
 #include "core/camera/cfa_samples.h"
+#include "core/view/pixel_points.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -50,27 +51,16 @@ void add_board(const CameraView& view, const calib::CharucoBoard& board,
   const Rigid3d board_from_world = inverse(board.world_from_board);
   const Eigen::Vector3d origin = board_from_world * rays.origin_in_world_mm;
   const Eigen::Vector3d normal = board.world_from_board.rotation * Eigen::Vector3d::UnitZ();
-  const auto direction = [&](int x, int y) {
-    return rays
-        .directions_in_world[static_cast<std::size_t>(y) * static_cast<std::size_t>(rays.width) +
-                             static_cast<std::size_t>(x)]
-        .cast<double>()
-        .eval();
-  };
   const auto shade = [&](int x, int y) {
-    const Eigen::Vector3d d = direction(x, y);
-    if (object.first_hit(rays.origin_in_world_mm, d).facet_idx >= 0)
+    const PixelPoints pixel(rays, x, y);
+    if (object.first_hit(rays.origin_in_world_mm, pixel.direction_at(0.0, 0.0)).facet_idx >= 0)
       return;  // the object is nearer
-    const Eigen::Vector3d per_x =
-        x + 1 < rays.width ? (direction(x + 1, y) - d).eval() : d - direction(x - 1, y);
-    const Eigen::Vector3d per_y =
-        y + 1 < rays.height ? (direction(x, y + 1) - d).eval() : d - direction(x, y - 1);
     const auto sampled = [&](int side) {
       PixelSamples out;
       for (int i = 0; i < side * side; ++i) {
         const double fx = (i % side + 0.5) / side - 0.5;
         const double fy = (static_cast<int>(i / side) + 0.5) / side - 0.5;
-        const Eigen::Vector3d w = board_from_world.rotation * (d + fx * per_x + fy * per_y);
+        const Eigen::Vector3d w = board_from_world.rotation * pixel.direction_at(fx, fy);
         if (!(origin.z() > 0.0) || !(w.z() < 0.0)) continue;
         const Eigen::Vector3d p = origin - origin.z() / w.z() * w;
         const double print = pattern.reflectance(p.x(), p.y());

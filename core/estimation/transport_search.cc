@@ -74,9 +74,7 @@ class TransportSearch {
                                       estimate.rows, TransportRound::kLeastRows)};
       return;
     }
-    std::optional<ChannelResult> found;
-    search(start(estimate), result, found);
-    if (found) {
+    if (std::optional<ChannelResult> found = search(start(estimate), result)) {
       result = std::move(*found);
     } else {
       estimate.reasons = {"the search for the medium by transport did not converge in time"};
@@ -86,14 +84,12 @@ class TransportSearch {
  private:
   struct Look {  // the errors to be expected, by an earlier look
     ScatteringImage image;
-    int blocks = 0;
-    double scatter = 1;
-    PathErrors errors() const { return {scatter, blocks}; }
+    PathErrors errors;
   };
 
-  // found: where the search ends, a report on `before`.
-  void search(ScatteringPoint at, const ChannelResult& before,
-              std::optional<ChannelResult>& found) {
+  // A report on `before` where the search ends; empty if it does not.
+  std::optional<ChannelResult> search(ScatteringPoint at, const ChannelResult& before) {
+    std::optional<ChannelResult> found;
     int blocks = kFirstBlocks;  // per light and view; more as the search closes in
     Look last = first_look(at);
     bool outliers_known = false;
@@ -110,12 +106,12 @@ class TransportSearch {
       TransportRound round({system_, parts_}, learned || has_free_scale() ? scale_ : ScalePrior{},
                            at,
                            pilots_.pilots(parts_, dipole(at), simulation_.area_mm2(),
-                                          last.image.variance, last.errors().of_block()),
-                           last.blocks / kFinalPathBlocks + last.scatter - 1.0);
+                                          last.image.variance, last.errors.of_block()),
+                           last.errors.blocks * last.errors.of_block());
       trace(round, blocks, learned, last);
-      const bool is_weighted = fits_weights(round.errors(), last.errors());
+      const bool is_weighted = fits_weights(round.errors(), last.errors);
       if (round.step().change > kFarStep) pilots_.forget();
-      last = {round.image(), round.blocks(), round.scatter()};
+      last = {round.image(), round.errors()};
       pilots_.learn(
           parts_, round.look(),
           {round.of_cells(round.look().by_half[0]), round.of_cells(round.look().by_half[1])},
@@ -128,7 +124,7 @@ class TransportSearch {
           ChannelResult now = before;
           report(round, now);
           if (!found || is_better(now.estimate, found->estimate)) found = std::move(now);
-          if (is_weighted && (round.efficiency() > kEfficient || ++reports == kMostReports)) return;
+          if (is_weighted && (round.efficiency() > kEfficient || ++reports == kMostReports)) break;
         }
         outliers_known = true;
       } else if (round.step().change < 0.2 || i >= kPatience ||
@@ -138,6 +134,7 @@ class TransportSearch {
       }
       at = to;
     }
+    return found;
   }
 
   ScatteringPoint start(const Estimate& dipole) {
@@ -167,7 +164,7 @@ class TransportSearch {
   void trace(TransportRound& round, int blocks, bool may_be_last, const Look& by) {
     const ChannelSimulation::Projections projections = round.projections();
     round.take(look(round.at(), blocks, projections));
-    while (may_be_last && fits_weights(round.errors(), by.errors()) &&
+    while (may_be_last && fits_weights(round.errors(), by.errors) &&
            is_close(round.step(), round.blocks(), round.misfit()) &&
            !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
       stage_.check();
@@ -189,7 +186,7 @@ class TransportSearch {
   Look first_look(const ScatteringPoint& at, double scatter = 1.0) {
     ChannelSimulation::Look seen = look(at, kFirstBlocks, {parts_.cells(), parts_.cells()});
     pilots_.learn(parts_, seen, seen.by_half, dipole(at));
-    return {std::move(seen.image), seen.blocks, scatter};
+    return {std::move(seen.image), {scatter, seen.blocks}};
   }
 
   // Keeps rows of which `state_of(shot, row of its view, row of the system so far)` is kUsed.

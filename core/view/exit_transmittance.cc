@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "core/material/fresnel.h"
 #include "core/view/pixel_points.h"
@@ -25,15 +26,13 @@ double ExitTransmittance::at_center(std::size_t i) const {
   return fresnel_transmittance(eta_, static_cast<double>(surface_.seen(i).cos_theta));
 }
 
-bool ExitTransmittance::mixed(int x, int y) const {
-  const std::size_t own = surface_.index(x, y);
-  const double t = at_center(own);
+bool ExitTransmittance::mixed(int x, int y, double own) const {
+  const std::int32_t facet = surface_.seen(surface_.index(x, y)).facet;
   for (int yn = std::max(0, y - 1); yn <= std::min(rays_.height - 1, y + 1); ++yn) {
     for (int xn = std::max(0, x - 1); xn <= std::min(rays_.width - 1, x + 1); ++xn) {
       const std::size_t other = surface_.index(xn, yn);
-      if (surface_.seen(other).patch < 0 || surface_.seen(other).facet == surface_.seen(own).facet)
-        continue;
-      if (std::abs(at_center(other) - t) > kContrast * t) return true;
+      if (surface_.seen(other).patch < 0 || surface_.seen(other).facet == facet) continue;
+      if (std::abs(at_center(other) - own) > kContrast * own) return true;
     }
   }
   return false;
@@ -41,7 +40,7 @@ bool ExitTransmittance::mixed(int x, int y) const {
 
 double ExitTransmittance::of(int x, int y) const {
   const double at_middle = at_center(surface_.index(x, y));
-  if (rays_.width < 2 || rays_.height < 2 || !mixed(x, y)) return at_middle;
+  if (rays_.width < 2 || rays_.height < 2 || !mixed(x, y, at_middle)) return at_middle;
   const PixelPoints pixel(rays_, x, y);
   std::array<Eigen::Vector3f, kPoints> directions;
   for (int i = 0; i < kPoints; ++i) {

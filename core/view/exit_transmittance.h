@@ -23,7 +23,8 @@ class ExitTransmittance {
 
  private:
   double at_center(std::size_t i) const;
-  bool mixed(int x, int y) const;
+  // Whether a neighbour sees another facet with a transmittance that differs from `own`.
+  bool mixed(int x, int y, double own) const;
 
   const RayGrid& rays_;
   const RayScene& scene_;

@@ -30,9 +30,7 @@ PixelPoints::PixelPoints(const RayGrid& rays, int x, int y) {
 }
 
 Eigen::Vector3d PixelPoints::direction(int i, int n) const {
-  const double fx = (i + 0.5) / n - 0.5;
-  const double fy = (kStep * i % n + 0.5) / n - 0.5;
-  return center_ + fx * per_x_ + fy * per_y_;
+  return direction_at((i + 0.5) / n - 0.5, (kStep * i % n + 0.5) / n - 0.5);
 }
 
 double PixelPoints::solid_angle_sr() const {
