@@ -27,11 +27,24 @@ ScatteringImage mean_of(const ScatteringImage& a, const ScatteringImage& b) {
 // Of `n` rows from the `first` on.
 std::vector<EquationPilot> pilots_of(const ShotParts& parts, double scale,
                                      const std::array<TransportRound::Pilot, 2>& pilots,
-                                     Eigen::Index first, Eigen::Index n) {
+                                     bool is_free, Eigen::Index first, Eigen::Index n) {
   std::vector<EquationPilot> out;
   for (const TransportRound::Pilot& pilot : pilots) {
-    out.push_back({part_of(pilot.image, first, n),
-                   correlated_rows(parts, scale * pilot.image.l, pilot.cells, first, n)});
+    const ScatteringImage& image = pilot.image;
+    out.push_back({part_of(image, first, n),
+                   correlated_rows(parts, scale * image.l, pilot.cells, first, n),
+                   {}});
+    // The derivatives without their detail, and the light itself.
+    const Eigen::Index unknowns = is_free ? 3 : 2;
+    EquationPilot& to = out.back();
+    to.further.resize(n, is_free ? 2 : 3);
+    to.further.col(0) = parts.levelled(image.l, image.per_log_sigma_s).segment(first, n);
+    to.further.col(1) = parts.levelled(image.l, image.per_sigma_a).segment(first, n);
+    if (!is_free) to.further.col(2) = image.l.segment(first, n);
+    // Half of the dipole's detail is found, more or less.
+    to.expected = Eigen::MatrixXd::Zero(5, unknowns);
+    for (Eigen::Index u = 0; u < 2; ++u) to.expected(u, u) = to.expected(unknowns + u, u) = 0.5;
+    if (is_free) to.expected(2, 2) = 1.0;
   }
   return out;
 }
@@ -54,7 +67,9 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
       at_(at),
       pilot_(mean_of(pilots[0].image, pilots[1].image)),
       joint_(shots.system, scale,
-             pilots_of(shots.parts, at.scale, pilots, 0, shots.system.l.size()), at, expected) {
+             pilots_of(shots.parts, at.scale, pilots, !std::isfinite(scale.relative_std), 0,
+                       shots.system.l.size()),
+             at, expected) {
   const std::vector<Eigen::Index>& shot_rows = shots.system.shot_rows;
   if (shot_rows.size() < 2) return;
   Eigen::Index first = 0;
@@ -68,8 +83,9 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
     std::iota(rows.begin(), rows.end(), single.first);
     single.system = selected(shots.system, rows);
     single.equation.emplace(single.system, scale,
-                            pilots_of(shots.parts, at.scale, pilots, single.first, n), at,
-                            expected);
+                            pilots_of(shots.parts, at.scale, pilots,
+                                      !std::isfinite(scale.relative_std), single.first, n),
+                            at, expected);
   }
 }
 
@@ -83,7 +99,7 @@ ChannelSimulation::Projections TransportRound::projections() const {
 
 Eigen::SparseMatrix<double> TransportRound::projection(std::size_t half) const {
   const Eigen::Index n_cells = shots_.parts.n_cells();
-  const Eigen::Index n_estimates = unknowns() * (1 + static_cast<Eigen::Index>(singles_.size()));
+  const Eigen::Index n_estimates = instruments() * (1 + static_cast<Eigen::Index>(singles_.size()));
   const Eigen::Index before_cells = n_estimates + (tests_scale() ? 1 : 0);
   std::vector<Eigen::Triplet<double>> values;
   const auto add = [&](Eigen::Index to, Eigen::Index first, const Eigen::MatrixXd& block) {
@@ -95,7 +111,7 @@ Eigen::SparseMatrix<double> TransportRound::projection(std::size_t half) const {
   };
   add(0, 0, joint_.projection(half));
   for (std::size_t i = 0; i < singles_.size(); ++i) {
-    add(static_cast<Eigen::Index>(i + 1) * unknowns(), singles_[i].first,
+    add(static_cast<Eigen::Index>(i + 1) * instruments(), singles_[i].first,
         singles_[i].equation->projection(half));
   }
   if (tests_scale()) add(n_estimates, 0, joint_.scale_form(half));
@@ -111,7 +127,7 @@ Eigen::SparseMatrix<double> TransportRound::projection(std::size_t half) const {
 
 void TransportRound::take(ChannelSimulation::Look look) {
   look_ = std::move(look);
-  const Eigen::MatrixXd own = look_.covariance.topLeftCorner(unknowns(), unknowns());
+  const Eigen::MatrixXd own = look_.covariance.topLeftCorner(instruments(), instruments());
   step_ = joint_.step(look_.halves, own, at_);
   // Smoothed images, such as renderings, scatter less from row to row than over several rows; both
   // are noise. Offsets of whole parts are not.
@@ -137,12 +153,6 @@ Eigen::VectorXd TransportRound::row_variance(const std::vector<double>& area_mm2
   return shots_.system.std_l.cwiseAbs2() +
          scatter * at_.scale * at_.scale *
              smooth_path_variance(pilot_.l, area_mm2, image().variance);
-}
-
-double TransportRound::efficiency() const {
-  const Eigen::MatrixXd information = 0.5 * (joint_.projection(0) + joint_.projection(1)) *
-                                      ScatteringEquation::jacobian(pilot_, at_, unknowns() == 3);
-  return inverse_lu(information)(0, 0) / step_.covariance(0, 0);
 }
 
 ScatteringEquation::ScaleTest TransportRound::scale_test() const {
@@ -185,12 +195,12 @@ std::vector<std::size_t> TransportRound::shots() const {
 std::vector<ScatteringEquation::Step> TransportRound::steps_of_shots() const {
   std::vector<ScatteringEquation::Step> steps;
   for (std::size_t i = 0; i < singles_.size(); ++i) {
-    const Eigen::Index first = static_cast<Eigen::Index>(i + 1) * unknowns();
+    const Eigen::Index first = static_cast<Eigen::Index>(i + 1) * instruments();
     const Eigen::Index n = singles_[i].system.l.size();
     steps.push_back(singles_[i].equation->step(
         {part_of(look_.halves[0], singles_[i].first, n),
          part_of(look_.halves[1], singles_[i].first, n)},
-        look_.covariance.block(first, first, unknowns(), unknowns()), at_, scatter_));
+        look_.covariance.block(first, first, instruments(), instruments()), at_, scatter_));
   }
   return steps;
 }
@@ -208,8 +218,8 @@ ShotAgreement TransportRound::agreement(const std::vector<ScatteringEquation::St
       // Shots under the same light share paths.
       const Eigen::MatrixXd paths =
           at_.scale * at_.scale *
-          look_.covariance.block((i + 1) * unknowns(), (k + 1) * unknowns(), unknowns(),
-                                 unknowns());
+          look_.covariance.block((i + 1) * instruments(), (k + 1) * instruments(), instruments(),
+                                 instruments());
       const Eigen::MatrixXd shared =
           a.common_causes * b.common_causes.transpose() + a.inverse * paths * b.inverse.transpose();
       all.block<2, 2>(2 * i, 2 * k) = shared.topLeftCorner<2, 2>();

@@ -66,9 +66,8 @@ class TransportRound {
   Eigen::MatrixXd of_cells(const Eigen::MatrixXd& covariance) const;
   // The step to the joint estimate, scatter included.
   const ScatteringEquation::Step& step() const { return step_; }
-  // Variance of log sigma_s that the weights promise, over that of the step: 1 where paths and
-  // pilots have the same derivatives.
-  double efficiency() const;
+  // Variance of log sigma_s that the weights promise, over that of the step.
+  double efficiency() const { return step_.promised(0, 0) / step_.covariance(0, 0); }
   // Measured minus predicted l at its end.
   Eigen::VectorXd residual() const { return joint_.residual(image(), at_, step_.to); }
   // Error variance of the shots beyond their noise, over the Monte Carlo variance: within their
@@ -110,7 +109,8 @@ class TransportRound {
     DenseSystem system;
     std::optional<ScatteringEquation> equation;
   };
-  Eigen::Index unknowns() const { return joint_.projection(0).rows(); }
+  Eigen::Index unknowns() const { return joint_.unknowns(); }
+  Eigen::Index instruments() const { return joint_.projection(0).rows(); }
   bool tests_scale() const;
   Eigen::SparseMatrix<double> projection(std::size_t half) const;
   double scatter_of_cells(const Eigen::VectorXd& rest) const;

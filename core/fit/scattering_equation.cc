@@ -1,7 +1,9 @@
 #include "core/fit/scattering_equation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -16,6 +18,16 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 bool has_prior(const ScalePrior& scale) {
   return scale.relative_std > 0.0 && std::isfinite(scale.relative_std);
+}
+
+// x of a * x = b, for a positive matrix whose rows differ in units and may be all but dependent.
+Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
+  constexpr double kRidge = 1e-9;
+  const Eigen::VectorXd unit =
+      a.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+  Eigen::MatrixXd scaled = unit.asDiagonal() * a * unit.asDiagonal();
+  scaled.diagonal().array() += kRidge;
+  return unit.cwiseProduct(inverse_lu(scaled) * unit.cwiseProduct(b));
 }
 
 }  // namespace
@@ -85,14 +97,24 @@ ScatteringEquation::Weights::Weights(const DenseSystem& system, const ScalePrior
   relative_size = z.colwise().norm() / (at.scale * image.l.norm());
   // A change of sigma_s counts even if it hardly affects the image.
   relative_size[0] = std::max(relative_size[0], 1.0);
-  projection.resize(z.cols(), rows);
-  for (Eigen::Index k = 0; k < z.cols(); ++k) {
-    projection.row(k) = solve_covariance(z.col(k)).transpose();
+  Eigen::MatrixXd instruments(rows, z.cols() + pilot.further.cols());
+  instruments.leftCols(z.cols()) = z;
+  instruments.rightCols(pilot.further.cols()) = pilot.further;
+  projection.resize(instruments.cols(), rows);
+  for (Eigen::Index k = 0; k < instruments.cols(); ++k) {
+    projection.row(k) = solve_covariance(instruments.col(k)).transpose();
   }
+  gram = projection * instruments;
+  expected = std::move(pilot.expected);
+  // In the mean over the rows, a departure from what is expected is of this share of a derivative.
+  constexpr double kSpread = 0.5;
+  inverse_spread = instruments.colwise().squaredNorm().transpose() *
+                   (kSpread * kSpread * z.colwise().squaredNorm()).cwiseInverse();
   if (z.cols() > 2) return;
   const Eigen::RowVectorXd direct = solve_covariance(per_log_scale).transpose();
-  const Eigen::RowVectorXd form =
-      direct - (projection * per_log_scale).transpose() * inverse_lu(projection * z) * projection;
+  const Eigen::MatrixXd own_projection = projection.topRows(z.cols());
+  const Eigen::RowVectorXd form = direct - (own_projection * per_log_scale).transpose() *
+                                               inverse_lu(own_projection * z) * own_projection;
   const double information = form.dot(per_log_scale);
   constexpr double kRounding = 1e-9;
   if (information > kRounding * direct.dot(per_log_scale)) scale_form = form / information;
@@ -121,33 +143,60 @@ Eigen::VectorXd ScatteringEquation::Weights::solve_covariance(const Eigen::Vecto
   return direct - in_rows(capacitance * in_columns(direct)).cwiseQuotient(row_variance);
 }
 
+Eigen::MatrixXd ScatteringEquation::mixing(const PathHalves& m, const ScatteringPoint& at,
+                                           std::size_t half) const {
+  const Weights& w = of(1 - half);
+  const Eigen::Index n = unknowns(), k = w.gram.rows();
+  if (k == n) return Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd seen = w.projection * jacobian(m[1 - half], at, n == 3);
+  const Eigen::MatrixXd apart = seen - w.projection * jacobian(m[half], at, n == 3);
+  Eigen::MatrixXd out(n, k);
+  for (Eigen::Index u = 0; u < n; ++u) {
+    // The variance of the derivatives of one half, over that of its light.
+    const double noise =
+        apart.col(u).dot(solve_positive(w.gram, apart.col(u))) / (2.0 * static_cast<double>(k));
+    const Eigen::VectorXd prior = noise * w.inverse_spread.col(u);
+    out.row(u) = solve_positive(w.gram + Eigen::MatrixXd(prior.asDiagonal()),
+                                seen.col(u) + prior.cwiseProduct(w.expected.col(u)))
+                     .transpose();
+  }
+  return out;
+}
+
 ScatteringEquation::Step ScatteringEquation::step(const PathHalves& m,
                                                   const Eigen::MatrixXd& projected_covariance,
                                                   const ScatteringPoint& at, double scatter) const {
-  const Eigen::Index n = projection(0).rows();
+  const Eigen::Index n = unknowns();
+  const std::array<Eigen::MatrixXd, 2> mix = {mixing(m, at, 0), mixing(m, at, 1)};
   const Eigen::MatrixXd slope = mean([&](const Weights& w, std::size_t half) -> Eigen::MatrixXd {
-    return w.projection * jacobian(m[half], at, n == 3);
+    return mix[half] * (w.projection * jacobian(m[half], at, n == 3));
   });
   const Eigen::VectorXd misfit = mean([&](const Weights& w, std::size_t half) -> Eigen::MatrixXd {
-    return w.projection * (system_.l - at.scale * m[half].l);
+    return mix[half] * (w.projection * (system_.l - at.scale * m[half].l));
   });
-  const Eigen::MatrixXd inverse = inverse_lu(slope);
   Step out;
-  out.move = inverse * misfit;
-  out.inverse = inverse;
+  out.promised = inverse_lu(slope);
+  out.move = out.promised * misfit;
+  out.inverse = 0.5 * out.promised * (mix[0] + mix[1]);
   out.size = weights_.front().relative_size;
-  const auto add = [&](const std::string& name, const Eigen::MatrixXd& of_projection) {
-    out.causes.push_back({name, inverse * of_projection * inverse.transpose()});
+  const auto add = [&](const std::string& name, const Eigen::MatrixXd& of_misfit) {
+    out.causes.push_back({name, out.promised * of_misfit * out.promised.transpose()});
   };
-  const Eigen::MatrixXd both =
-      mean([](const Weights& w, std::size_t) -> Eigen::MatrixXd { return w.projection; });
+  const Eigen::MatrixXd both = mean([&](const Weights& w, std::size_t half) -> Eigen::MatrixXd {
+    return mix[half] * w.projection;
+  });
   add("noise", both * system_.std_l.cwiseAbs2().asDiagonal() * both.transpose());
-  const Eigen::MatrixXd monte_carlo = at.scale * at.scale * projected_covariance;
+  // The halves' errors are alike and independent.
+  const Eigen::MatrixXd monte_carlo =
+      at.scale * at.scale * mean([&](const Weights&, std::size_t half) -> Eigen::MatrixXd {
+        return mix[half] * projected_covariance * mix[half].transpose();
+      });
   add("Monte Carlo", monte_carlo);
   if (scatter > 1.0) add("scatter", (scatter - 1.0) * monte_carlo);
-  out.common_causes = inverse * mean([](const Weights& w, std::size_t) -> Eigen::MatrixXd {
-                        return w.projection * w.nuisances;
-                      });
+  out.common_causes =
+      out.promised * mean([&](const Weights& w, std::size_t half) -> Eigen::MatrixXd {
+        return mix[half] * (w.projection * w.nuisances);
+      });
   std::map<std::string, Eigen::MatrixXd> groups;
   for (Eigen::Index i = 0; i < out.common_causes.cols(); ++i) {
     groups.try_emplace(causes_[static_cast<std::size_t>(i)], Eigen::MatrixXd::Zero(n, n))

@@ -35,6 +35,11 @@ struct EquationPilot {
   ScatteringImage image;  // smooth, at the point of the equation
   // The correlation between rows of errors to be expected; used in the weights only.
   CorrelatedErrors errors = {};
+  // Rows x any: smooth images of which, with the derivatives of `image`, the true derivatives are
+  // sums, about. expected: (derivatives of `image`, further) x unknowns, the coefficients of that
+  // sum before any path is seen.
+  Eigen::MatrixXd further = {};
+  Eigen::MatrixXd expected = {};
 };
 
 // By half of the paths, which share none.
@@ -47,7 +52,11 @@ using PathHalves = std::array<ScatteringImage, 2>;
 // estimating equation; Chernozhukov et al. 2018: cross-fitting). Its deviations are unbiased for
 // the same reason: W favours what its own half's paths happen to know well. W is the inverse of the
 // full covariance of the rows: their noise, the pilot's Monte Carlo variance, and the priors of the
-// nuisances.
+// nuisances. Z is the regression, with these weights, of the derivatives that the paths of the
+// other half show on the instruments: the pilot's derivatives and its further images (two-stage
+// least squares; Hansen 1982), with a prior, as few paths tell little. The pilot's derivatives
+// alone have detail that paths do not show; weights of a cube's shots with them left 4 to 20 times
+// the deviation.
 class ScatteringEquation {
  public:
   // pilots: images at `at`, with the system's rows (l for the shots' real lights: W/mm^2 at scale
@@ -61,9 +70,10 @@ class ScatteringEquation {
                      const ScatteringImage& pilot, const ScatteringPoint& at)
       : ScatteringEquation(system, scale, {{pilot, {}}}, at) {}
 
-  // Unknowns x rows: Z^T W for the image of a half (0 or 1). Unknowns: log sigma_s, sigma_a, and
-  // log scale where it is free. A scale with a prior is a nuisance, since noisy derivatives leave
-  // the sign of an equation of its own undetermined.
+  // Log sigma_s, sigma_a, and log scale where it is free. A scale with a prior is a nuisance, since
+  // noisy derivatives leave the sign of an equation of its own undetermined.
+  Eigen::Index unknowns() const { return weights_.front().relative_size.size(); }
+  // Instruments x rows: these, transposed, times W, for the image of a half (0 or 1).
   const Eigen::MatrixXd& projection(std::size_t half) const { return of(half).projection; }
 
   struct Step {
@@ -85,6 +95,8 @@ class ScatteringEquation {
     // other unknowns follow by their covariance with it. Before the step is cut.
     Eigen::VectorXd taken;
     Eigen::MatrixXd inverse;  // from the mean of projection(half) * l(half) to the move
+    // The covariance if W is right: the inverse of what the paths' derivatives tell.
+    Eigen::MatrixXd promised;
     // Moves caused by one deviation of each common cause: a column for every nuisance, and one for
     // a scale with a prior.
     Eigen::MatrixXd common_causes;
@@ -143,14 +155,19 @@ class ScatteringEquation {
     CorrelatedErrors errors;
     Eigen::MatrixXd capacitance;  // of Woodbury's identity, inverted
     Eigen::MatrixXd projection;
-    Eigen::VectorXd relative_size;  // of the image's change with each unknown
-    Eigen::VectorXd per_log_scale;  // scale * image.l
+    Eigen::MatrixXd gram;            // projection times instruments
+    Eigen::MatrixXd expected;        // coefficients of Z
+    Eigen::MatrixXd inverse_spread;  // of these, squared
+    Eigen::VectorXd relative_size;   // of the image's change with each unknown
+    Eigen::VectorXd per_log_scale;   // scale * image.l
     Eigen::RowVectorXd scale_form;
   };
   // Those for the image of a half.
   const Weights& of(std::size_t half) const {
     return weights_.size() == 1 ? weights_.front() : weights_[1 - half];
   }
+  // Unknowns x instruments, for the image of a half: the coefficients of Z.
+  Eigen::MatrixXd mixing(const PathHalves& m, const ScatteringPoint& at, std::size_t half) const;
   // The mean of `f(weights, half)` over the halves.
   template <class F>
   Eigen::MatrixXd mean(const F& f) const {

@@ -70,4 +70,10 @@ ShotParts::ShotParts(const std::vector<Eigen::Index>& shot_rows,
   about_parts_ -= Sums(Sums(holds.transpose()) * parts_);
 }
 
+Eigen::VectorXd ShotParts::levelled(const Eigen::VectorXd& light,
+                                    const Eigen::VectorXd& rows) const {
+  const Eigen::VectorXd ratio = (parts_ * (cells_ * rows)).cwiseQuotient(parts_ * (cells_ * light));
+  return light.cwiseProduct(ratio(part_of_row_));
+}
+
 }  // namespace scattermeter

@@ -54,6 +54,22 @@ TEST(ShotParts, RelativeLight) {
   EXPECT_LT((parts.parts() * about).norm(), 1e-12);
 }
 
+// Levelled light has the detail of one image and the sums, in the parts, of another.
+TEST(ShotParts, Levelled) {
+  const PartShots s;
+  const ShotParts parts(s.rows, s.center, s.area, s.l, {2, 96.0, 2, 10});
+  const Eigen::VectorXd rows = Eigen::VectorXd::LinSpaced(1024, -1.0, 3.0);
+  const Eigen::VectorXd light = s.l.cwiseSqrt();
+  const Eigen::VectorXd levelled = parts.levelled(light, rows);
+  const ShotParts::Sums sums = parts.parts() * parts.cells();
+  EXPECT_LT((sums * (levelled - rows)).norm(), 1e-12);
+  const Eigen::VectorXd ratio = levelled.cwiseQuotient(light);
+  for (Eigen::Index j = 1; j < 1024; ++j) {
+    if (parts.part_of_row(j) != parts.part_of_row(0)) continue;
+    EXPECT_NEAR(ratio[j], ratio[0], 1e-12);
+  }
+}
+
 // No part and no cell holds rows of two shots; many shots have fewer parts each.
 TEST(ShotParts, KeepShotsApart) {
   const PartShots s;
