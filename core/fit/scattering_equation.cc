@@ -100,11 +100,9 @@ ScatteringEquation::Weights::Weights(const DenseSystem& system, const ScalePrior
   Eigen::MatrixXd instruments(rows, z.cols() + pilot.further.cols());
   instruments.leftCols(z.cols()) = z;
   instruments.rightCols(pilot.further.cols()) = pilot.further;
-  projection.resize(instruments.cols(), rows);
-  for (Eigen::Index k = 0; k < instruments.cols(); ++k) {
-    projection.row(k) = solve_covariance(instruments.col(k)).transpose();
-  }
+  projection = solve_covariance(instruments).transpose();
   gram = projection * instruments;
+  of_nuisances = projection * nuisances;
   expected = std::move(pilot.expected);
   // In the mean over the rows, a departure from what is expected is of this share of a derivative.
   constexpr double kSpread = 0.5;
@@ -130,17 +128,18 @@ Eigen::MatrixXd ScatteringEquation::Weights::in_columns(const Eigen::MatrixXd& r
   return out;
 }
 
-Eigen::VectorXd ScatteringEquation::Weights::in_rows(const Eigen::VectorXd& columns) const {
-  Eigen::VectorXd out = nuisances * columns.head(nuisances.cols());
+Eigen::MatrixXd ScatteringEquation::Weights::in_rows(const Eigen::MatrixXd& columns) const {
+  Eigen::MatrixXd out = nuisances * columns.topRows(nuisances.cols());
   if (errors.root.size() > 0) {
-    out += errors.of_row * (errors.root * columns.tail(errors.root.cols()));
+    out += errors.of_row * (errors.root * columns.bottomRows(errors.root.cols()));
   }
   return out;
 }
 
-Eigen::VectorXd ScatteringEquation::Weights::solve_covariance(const Eigen::VectorXd& rows) const {
-  const Eigen::VectorXd direct = rows.cwiseQuotient(row_variance);
-  return direct - in_rows(capacitance * in_columns(direct)).cwiseQuotient(row_variance);
+Eigen::MatrixXd ScatteringEquation::Weights::solve_covariance(const Eigen::MatrixXd& rows) const {
+  const Eigen::DiagonalMatrix<double, Eigen::Dynamic> inverse(row_variance.cwiseInverse());
+  const Eigen::MatrixXd direct = inverse * rows;
+  return direct - inverse * in_rows(capacitance * in_columns(direct));
 }
 
 Eigen::MatrixXd ScatteringEquation::mixing(const PathHalves& m, const ScatteringPoint& at,
@@ -195,7 +194,7 @@ ScatteringEquation::Step ScatteringEquation::step(const PathHalves& m,
   if (scatter > 1.0) add("scatter", (scatter - 1.0) * monte_carlo);
   out.common_causes =
       out.promised * mean([&](const Weights& w, std::size_t half) -> Eigen::MatrixXd {
-        return mix[half] * (w.projection * w.nuisances);
+        return mix[half] * w.of_nuisances;
       });
   std::map<std::string, Eigen::MatrixXd> groups;
   for (Eigen::Index i = 0; i < out.common_causes.cols(); ++i) {
@@ -256,7 +255,7 @@ double ScatteringEquation::settled_log_scale(const Eigen::VectorXd& residual) co
   if (!has_prior(scale_)) return 0.0;
   const Weights& w = weights_.front();
   return scale_.relative_std *
-         w.nuisances.col(w.nuisances.cols() - 1).dot(w.solve_covariance(residual));
+         w.nuisances.col(w.nuisances.cols() - 1).dot(w.solve_covariance(residual).col(0));
 }
 
 Eigen::VectorXd ScatteringEquation::without_nuisances(const Eigen::VectorXd& residual) const {

@@ -148,14 +148,15 @@ class ScatteringEquation {
             const ScatteringPoint& at, double monte_carlo);
     // Nuisances and correlated errors, as columns: transposed times rows, and times coefficients.
     Eigen::MatrixXd in_columns(const Eigen::MatrixXd& rows) const;
-    Eigen::VectorXd in_rows(const Eigen::VectorXd& columns) const;
-    Eigen::VectorXd solve_covariance(const Eigen::VectorXd& rows) const;
+    Eigen::MatrixXd in_rows(const Eigen::MatrixXd& columns) const;
+    Eigen::MatrixXd solve_covariance(const Eigen::MatrixXd& rows) const;
     Eigen::VectorXd row_variance;  // noise and Monte Carlo
     Eigen::MatrixXd nuisances;     // columns times their standard deviations
     CorrelatedErrors errors;
     Eigen::MatrixXd capacitance;  // of Woodbury's identity, inverted
     Eigen::MatrixXd projection;
     Eigen::MatrixXd gram;            // projection times instruments
+    Eigen::MatrixXd of_nuisances;    // projection times nuisances
     Eigen::MatrixXd expected;        // coefficients of Z
     Eigen::MatrixXd inverse_spread;  // of these, squared
     Eigen::VectorXd relative_size;   // of the image's change with each unknown
