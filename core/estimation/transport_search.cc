@@ -94,7 +94,8 @@ class TransportSearch {
     Look last = first_look(at);
     bool outliers_known = false;
     int reports = 0;
-    for (int i = 0; i < kMaxRounds && budget_.left_s() > 0.0; ++i) {
+    bool is_owed = false;  // a round without the outliers, with the paths that there are
+    for (int i = 0; i < kMaxRounds && (budget_.left_s() > 0.0 || is_owed); ++i) {
       stage_.check();
       system_.nuisance_columns.col(0) = phase_.change(system_.weights, at);
       if (channel_.surface_alpha_std > 0.0) {
@@ -118,7 +119,8 @@ class TransportSearch {
           dipole(at));
       const ScatteringPoint to = round.step().to;
       if (learned && is_close(round.step(), round.blocks(), round.misfit())) {
-        if (!outliers_known && leave_outliers_out(round)) {
+        is_owed = !outliers_known && leave_outliers_out(round);
+        if (is_owed) {
           last = first_look(to, round.scatter());
         } else {
           ChannelResult now = before;
@@ -127,7 +129,7 @@ class TransportSearch {
           if (is_weighted && (round.efficiency() > kEfficient || ++reports == kMostReports)) break;
         }
         outliers_known = true;
-      } else if (round.step().change < 0.2 || i >= kPatience ||
+      } else if (round.step().change < 0.2 || i >= kPatience || is_noise(round.step()) ||
                  (round.step().change < kFarStep && round.scatter_within() > 1.5)) {
         // Noise of the paths dominates the step. With the same paths, steps may lead in a circle.
         blocks = std::max(blocks, next_blocks(to, blocks));

@@ -11,12 +11,14 @@ namespace scattermeter {
 
 // An estimating equation (core/fit/scattering_equation.h) is solved by Newton steps that start from
 // the dipole's result. The light is that of the atlas, which traces what is missing: more paths as
-// the search converges, until the Monte Carlo error is small. Z is the dipole's, corrected part by
-// part with the same paths (core/fit/part_light.h): their errors in the light of whole parts are
-// some per mille, so that what they share biases the root by their square only. The weights account
-// for the errors common to the rows of a cell. Errors of the shots beyond their noise widen the
-// result like errors of the paths; if whole parts deviate, it is refused. How far the atlas is
-// traced already changes the estimate, within its Monte Carlo error.
+// the search converges, until the Monte Carlo error is small. The pilot is the dipole's image,
+// corrected part by part with the same paths (core/fit/part_light.h): their errors in the light of
+// whole parts are some per mille, so that what they share biases the root by their square only. Z
+// is the sum of the pilot's derivatives, with their detail and without, and of its light that the
+// paths' own derivatives show. The weights account for the errors common to the rows of a cell.
+// Errors of the shots beyond their noise widen the result like errors of the paths; if whole parts
+// deviate, it is refused. How far the atlas is traced already changes the estimate, within its
+// Monte Carlo error.
 //
 // Cube and pyramid under two LEDs (four shots, eta 1.3), exact scale, 60 s on two cores a channel,
 // per mm. 2.19 / 0.002, three truths of 1.2 10^7 paths a light: 2.193, 2.194, 2.192 (each +- 0.005)

@@ -56,6 +56,12 @@ bool is_close(const ScatteringEquation::Step& step, int blocks, const LackOfFit&
   return true;
 }
 
+bool is_noise(const ScatteringEquation::Step& step) {
+  constexpr double kStds = 2.0;
+  const Eigen::ArrayXd std = step.covariance.diagonal().cwiseSqrt();
+  return step.change < kStds * (std * step.size.array()).maxCoeff();
+}
+
 bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int blocks) {
   constexpr double kOfRest = 0.1;  // of the variance
   constexpr double kFloor[2] = {1e-3, 5e-3};

@@ -38,6 +38,9 @@ inline constexpr double kWideningPValue = 1e-2;
 // the residual is large, and the deviations that the residual widens excuse anything.
 bool is_close(const ScatteringEquation::Step& step, int blocks, const LackOfFit& misfit);
 
+// Whether a step is no longer than its error, about, so that further paths tell more than the step.
+bool is_noise(const ScatteringEquation::Step& step);
+
 // Whether the Monte Carlo error is small compared with all others, or smaller than ever needed.
 bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int blocks);
 

@@ -40,6 +40,18 @@ TEST(TransportVerdict, StepsAreCloseWhereTheirSquaresAreSmall) {
   EXPECT_FALSE(is_close(made_step(0.251, 1.0, 0.0), 8, {}));
 }
 
+// A step within two deviations of its own is noise, whatever their causes.
+TEST(TransportVerdict, StepsWithinTheirErrorAreNoise) {
+  ScatteringEquation::Step step = made_step(0.3, 0.01, 0.0144);
+  step.change = 0.311;
+  EXPECT_TRUE(is_noise(step));
+  step.change = 0.313;
+  EXPECT_FALSE(is_noise(step));
+  // By the effect on the image.
+  step.size[1] = 2.0;
+  EXPECT_TRUE(is_noise(step));
+}
+
 // Scatter that is no error of paths grows in their terms as they become more.
 TEST(TransportVerdict, WeightsFitScatterThatGrowsWithThePaths) {
   const PathErrors assumed{2.0, 100};
