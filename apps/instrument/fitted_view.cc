@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "core/base/chi_square.h"
@@ -22,6 +24,9 @@ std::vector<ChannelResult> fitted_from_where_seen(
     const std::function<std::vector<ChannelResult>(const EstimateOptions&)>& fit,
     Stopwatch& watch) {
   constexpr int kMostViews = 8;
+  // The dipole misfits of media that it does not describe may move the object from fit to fit:
+  // after so many, transport looks from the stated place.
+  constexpr int kMostByDipole = 4;
   // Round bodies approach their place in turns from either side.
   constexpr int kWholeSteps = 2;
   constexpr double kHalf = 0.5;
@@ -35,6 +40,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
   constexpr double kContradicted = 1e-6;
   const std::int64_t paths = options.paths;
   bool by_transport = false;  // the view is where transport shows the objects to lie
+  bool is_stated = false;     // the view is back where the rig says
   for (int views = 1;; ++views) {
     const auto from = [&](const JointJudgement& joint) {
       return seen_elsewhere(scene, seen.shots(), joint.pulls, views <= kWholeSteps ? 1.0 : kHalf);
@@ -42,8 +48,10 @@ std::vector<ChannelResult> fitted_from_where_seen(
     const bool is_last = views == kMostViews || by_transport;
     SeenElsewhere found;
     // Where the dipole does not hold, its derivatives do not tell where the object lies.
+    bool asks_for_paths = false;
     options.goes_on_from_dipole = [&](const std::vector<ChannelResult>& results) {
-      if (by_transport) return true;
+      asks_for_paths = true;
+      if (by_transport || is_stated) return true;
       found = from(joint_pulls_of(results));
       // Paths are traced to all rows only.
       return !seen.levels() && (is_last || !(found.motion > kVisibleMotion));
@@ -75,7 +83,8 @@ std::vector<ChannelResult> fitted_from_where_seen(
       return results;
     }
     if (by_transport) options.found = std::move(results);
-    seen.open_from(found.shifts);
+    is_stated = views == kMostByDipole && asks_for_paths && !by_transport;
+    seen.open_from(is_stated ? std::map<std::string, PoseShift>() : found.shifts);
     watch.lap("shots");
   }
 }

@@ -1,6 +1,9 @@
 #include "apps/instrument/fitted_view.h"
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -8,6 +11,7 @@
 #include "apps/instrument/instrument.h"
 #include "apps/instrument/open_objects.h"
 #include "apps/simulation/virtual_shots.h"
+#include "calib/pose/shot_pose.h"
 #include "core/mesh/bodies.h"
 #include "core/scene/default_uncertainty.h"
 #include "tests/fixtures/apps/body_rig.h"
@@ -49,6 +53,55 @@ TEST(ShiftedInstrument, PieceOffItsMeshWithinWhatTheRigStates) {
     EXPECT_LT(e.sigma_s_prime_per_mm.std, 0.05 * truth.sigma_s_prime_per_mm);
     EXPECT_LT(e.reduced_chi2, 1.3);
   }
+}
+
+// Fits by the dipole whose size of the piece changes sides from view to view, as where the dipole
+// does not hold: after a few, transport looks from the stated place, and its answers stand.
+TEST(ShiftedInstrument, PieceThatTheDipoleKeepsMovingIsLeftToTransport) {
+  const Rig rig = body_rig("cube", 1);
+  const ObjectScenes objects = bodies_scenes(rig);
+  const VirtualShots shots(rig, objects, {});
+  LitObjects lit(rig.scene, objects, 2.0, 0.0);
+  KeptLight kept;
+  const capture::ShotSource source = shots.source(3);
+  const SharedView view =
+      see_all(rig.scene, objects, lit, calib::pose_from_points(rig.scene, rig.pose));
+  SeenShots seen(rig, objects, lit, source, view, false, {}, kept, nullptr);
+  seen.open();
+  std::vector<double> size_off;  // of the views of the fits
+  const auto fit = [&](const EstimateOptions& options) {
+    size_off.push_back(seen.shots().front().seen->shift.norm());
+    ChannelResult r;
+    r.material = "plastic";
+    r.channel = 'G';
+    r.model = "dipole";
+    r.estimate.converged = true;
+    const double side = size_off.size() % 2 == 0 ? -1.0 : 0.5;
+    constexpr double kKnown = 1e6;
+    r.evidence = {{{"mesh scale", 0.01, true, "cube.size"}},
+                  Eigen::MatrixXd::Constant(1, 1, kKnown),
+                  Eigen::VectorXd::Constant(1, side * kKnown),
+                  Eigen::VectorXd::Constant(1, 0.01),
+                  100.0};
+    if (options.goes_on_from_dipole({r})) {
+      r.model = "transport";
+      r.evidence = {};
+    }
+    return std::vector<ChannelResult>{r};
+  };
+  std::vector<std::pair<std::string, double>> timing_s;
+  Stopwatch watch(timing_s);
+  EstimateOptions options;
+  options.paths = 0;
+  const std::vector<ChannelResult> results =
+      fitted_from_where_seen(rig.scene, seen, options, fit, watch);
+  ASSERT_EQ(size_off.size(), 5U);
+  EXPECT_EQ(size_off.front(), 0.0);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_GT(size_off[i], 0.0);
+  EXPECT_EQ(size_off.back(), 0.0);
+  ASSERT_EQ(results.size(), 1U);
+  EXPECT_EQ(results.front().model, "transport");
+  EXPECT_TRUE(results.front().estimate.reasons.empty());
 }
 
 }  // namespace
