@@ -24,8 +24,8 @@ std::vector<ChannelResult> fitted_from_where_seen(
     const std::function<std::vector<ChannelResult>(const EstimateOptions&)>& fit,
     Stopwatch& watch) {
   constexpr int kMostViews = 8;
-  // The dipole misfits of media that it does not describe may move the object from fit to fit:
-  // after so many, transport looks from the stated place.
+  // Where the dipole does not describe the medium, its misfit may move the object from fit to fit:
+  // after so many, transport looks from the stated position.
   constexpr int kMostByDipole = 4;
   // Round bodies approach their place in turns from either side.
   constexpr int kWholeSteps = 2;

@@ -31,6 +31,22 @@ Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector
   return share * (noisy_variance.sum() / share.sum());
 }
 
+Eigen::MatrixXd further_images(const ShotParts& parts, const ScatteringImage& image, bool is_free) {
+  Eigen::MatrixXd out(image.l.size(), is_free ? 2 : 3);
+  out.col(0) = parts.levelled(image.l, image.per_log_sigma_s);
+  out.col(1) = parts.levelled(image.l, image.per_sigma_a);
+  if (!is_free) out.col(2) = image.l;
+  return out;
+}
+
+Eigen::MatrixXd expected_coefficients(bool is_free) {
+  const Eigen::Index unknowns = is_free ? 3 : 2;
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(5, unknowns);
+  for (Eigen::Index u = 0; u < 2; ++u) out(u, u) = out(unknowns + u, u) = 0.5;
+  if (is_free) out(2, 2) = 1.0;
+  return out;
+}
+
 bool PathPilots::have_learned() const {
   constexpr double kBlocks = 32.0;
   return light_[0].blocks() >= kBlocks;

@@ -28,6 +28,12 @@ ScatteringImage dipole_pilot(const WeightMatrix& weights, const DistanceKnots& k
 Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector<double>& area_mm2,
                                      const Eigen::VectorXd& noisy_variance);
 
+// EquationPilot::further of a pilot's image, rows x (2 or 3): its derivatives without their detail
+// and, unless the scale is an unknown (`is_free`), its light.
+Eigen::MatrixXd further_images(const ShotParts& parts, const ScatteringImage& image, bool is_free);
+// EquationPilot::expected of these, 5 x unknowns: half of the dipole's detail is found, about.
+Eigen::MatrixXd expected_coefficients(bool is_free);
+
 // The pilots of a search: the dipole's image and derivatives, corrected part by part by what either
 // half of the paths shows.
 class PathPilots {

@@ -25,26 +25,17 @@ ScatteringImage mean_of(const ScatteringImage& a, const ScatteringImage& b) {
 }
 
 // Of `n` rows from the `first` on.
-std::vector<EquationPilot> pilots_of(const ShotParts& parts, double scale,
+std::vector<EquationPilot> pilots_of(const ShotParts& parts, const ScatteringPoint& at,
+                                     bool is_free,
                                      const std::array<TransportRound::Pilot, 2>& pilots,
-                                     bool is_free, Eigen::Index first, Eigen::Index n) {
+                                     const std::array<Eigen::MatrixXd, 2>& further,
+                                     Eigen::Index first, Eigen::Index n) {
   std::vector<EquationPilot> out;
-  for (const TransportRound::Pilot& pilot : pilots) {
-    const ScatteringImage& image = pilot.image;
+  for (std::size_t half = 0; half < 2; ++half) {
+    const ScatteringImage& image = pilots[half].image;
     out.push_back({part_of(image, first, n),
-                   correlated_rows(parts, scale * image.l, pilot.cells, first, n),
-                   {}});
-    // The derivatives without their detail, and the light itself.
-    const Eigen::Index unknowns = is_free ? 3 : 2;
-    EquationPilot& to = out.back();
-    to.further.resize(n, is_free ? 2 : 3);
-    to.further.col(0) = parts.levelled(image.l, image.per_log_sigma_s).segment(first, n);
-    to.further.col(1) = parts.levelled(image.l, image.per_sigma_a).segment(first, n);
-    if (!is_free) to.further.col(2) = image.l.segment(first, n);
-    // Half of the dipole's detail is found, more or less.
-    to.expected = Eigen::MatrixXd::Zero(5, unknowns);
-    for (Eigen::Index u = 0; u < 2; ++u) to.expected(u, u) = to.expected(unknowns + u, u) = 0.5;
-    if (is_free) to.expected(2, 2) = 1.0;
+                   correlated_rows(parts, at.scale * image.l, pilots[half].cells, first, n),
+                   further[half].middleRows(first, n), expected_coefficients(is_free)});
   }
   return out;
 }
@@ -62,13 +53,20 @@ double most_scatter(double most, const Eigen::VectorXd& light, const Eigen::Vect
 TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& scale,
                                const ScatteringPoint& at, const std::array<Pilot, 2>& pilots,
                                double expected)
+    : TransportRound(shots, scale, at, pilots,
+                     {further_images(shots.parts, pilots[0].image, scale.is_free()),
+                      further_images(shots.parts, pilots[1].image, scale.is_free())},
+                     expected) {}
+
+TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& scale,
+                               const ScatteringPoint& at, const std::array<Pilot, 2>& pilots,
+                               const std::array<Eigen::MatrixXd, 2>& further, double expected)
     : shots_(shots),
       scale_(scale),
       at_(at),
       pilot_(mean_of(pilots[0].image, pilots[1].image)),
       joint_(shots.system, scale,
-             pilots_of(shots.parts, at.scale, pilots, !std::isfinite(scale.relative_std), 0,
-                       shots.system.l.size()),
+             pilots_of(shots.parts, at, scale.is_free(), pilots, further, 0, shots.system.l.size()),
              at, expected) {
   const std::vector<Eigen::Index>& shot_rows = shots.system.shot_rows;
   if (shot_rows.size() < 2) return;
@@ -82,10 +80,10 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
     std::vector<Eigen::Index> rows(static_cast<std::size_t>(n));
     std::iota(rows.begin(), rows.end(), single.first);
     single.system = selected(shots.system, rows);
-    single.equation.emplace(single.system, scale,
-                            pilots_of(shots.parts, at.scale, pilots,
-                                      !std::isfinite(scale.relative_std), single.first, n),
-                            at, expected);
+    single.equation.emplace(
+        single.system, scale,
+        pilots_of(shots.parts, at, scale.is_free(), pilots, further, single.first, n), at,
+        expected);
   }
 }
 

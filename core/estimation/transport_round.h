@@ -103,6 +103,10 @@ class TransportRound {
   ModelJudgement judgement() const;
 
  private:
+  // further: of the pilots (EquationPilot), for all rows.
+  TransportRound(const TransportShots& shots, const ScalePrior& scale, const ScatteringPoint& at,
+                 const std::array<Pilot, 2>& pilots, const std::array<Eigen::MatrixXd, 2>& further,
+                 double expected);
   struct Single {
     std::size_t shot;
     Eigen::Index first;  // row

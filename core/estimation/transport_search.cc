@@ -104,7 +104,7 @@ class TransportSearch {
       }
       const bool learned = pilots_.have_learned();
       // During the search, a scale with a prior is taken as exact: that is more stable.
-      TransportRound round({system_, parts_}, learned || has_free_scale() ? scale_ : ScalePrior{},
+      TransportRound round({system_, parts_}, learned || scale_.is_free() ? scale_ : ScalePrior{},
                            at,
                            pilots_.pilots(parts_, dipole(at), simulation_.area_mm2(),
                                           last.image.variance, last.errors.of_block()),
@@ -142,14 +142,10 @@ class TransportSearch {
   ScatteringPoint start(const Estimate& dipole) {
     const auto light = [&](int node, double sigma_a_per_mm) -> Eigen::ArrayXd {
       stage_.check();
-      return parts_.parts() *
-             Eigen::VectorXd(parts_.cells() *
-                             simulation_.light_at_node(node, sigma_a_per_mm, kFirstBlocks / 2));
+      return parts_.of_parts(simulation_.light_at_node(node, sigma_a_per_mm, kFirstBlocks / 2));
     };
-    return starting_point(dipole, simulation_.largest_size_mm(), has_free_scale(), light);
+    return starting_point(dipole, simulation_.largest_size_mm(), scale_.is_free(), light);
   }
-
-  bool has_free_scale() const { return !std::isfinite(scale_.relative_std); }
 
   ChannelSimulation::Look look(const ScatteringPoint& at, int blocks,
                                const ChannelSimulation::Projections& projections) {
@@ -240,7 +236,7 @@ class TransportSearch {
     const ScatteringEquation::ScaleTest scale_test = round.scale_test();
     report_step(widened_by_scale(round.equation(), scale_test, round.step()), estimate);
     const Eigen::VectorXd rest = round.residual();
-    if (!has_free_scale()) {
+    if (!scale_.is_free()) {
       const double scale = std::exp(round.equation().settled_log_scale(rest));
       estimate.scale = normal_quantity(scale, scale * scale_.relative_std);
     }

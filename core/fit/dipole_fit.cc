@@ -142,7 +142,7 @@ double set_misfit(const RecoveredReflectance& recovered, double l2,
   // Every prior adds one term and its parameter takes one away.
   const auto unbound = std::count_if(fitted.begin(), fitted.end(),
                                      [](const Nuisance& n) { return !std::isfinite(n.std); });
-  const double dof = static_cast<double>(rank - 2 - (std::isfinite(scale.relative_std) ? 0 : 1) -
+  const double dof = static_cast<double>(rank - 2 - (scale.is_free() ? 1 : 0) -
                                          static_cast<Eigen::Index>(unbound));
   if (!(dof > 0.0)) return 0.0;
   const double noise = recovered.noise_excess();

@@ -124,7 +124,7 @@ bool can_start(const ceres::CostFunction& cost, const std::vector<double*>& bloc
 void solve(ceres::Problem& problem, const ScalePrior& scale, DipoleSolver::Point& p) {
   if (scale.relative_std == 0.0) {
     problem.SetParameterBlockConstant(&p.log_s);
-  } else if (std::isfinite(scale.relative_std)) {
+  } else if (!scale.is_free()) {
     problem.AddResidualBlock(new ScalePriorCost(scale.relative_std), nullptr, &p.log_s);
   }
   // A search that fails is reported by `converged`, not on the terminal.

@@ -90,6 +90,7 @@ struct MoreRows {
 // Prior of the scale (LED power x camera gain x exposure).
 struct ScalePrior {
   double relative_std = 0;  // 0: exact; infinity: free
+  bool is_free() const { return !std::isfinite(relative_std); }
 };
 
 }  // namespace scattermeter

@@ -36,7 +36,7 @@ FitUncertainty::FitUncertainty(const RecoveredReflectance& recovered,
   causes_ = {"", "", "scale"};
   if (prior.relative_std > 0.0) {
     movable_.push_back(2);
-    if (std::isfinite(prior.relative_std)) {
+    if (!prior.is_free()) {
       information_(2, 2) += 1.0 / (prior.relative_std * prior.relative_std);
     }
   }

@@ -15,9 +15,7 @@ void PartLight::learn(const ShotParts& parts, const ScatteringImage& image,
   if (blocks_ == 0.0) cell_variance_ = 0.0 * cell_covariance;
   cell_variance_ += n * n * cell_covariance;
   blocks_ += n;
-  const auto light = [&](const Eigen::VectorXd& l) -> Eigen::ArrayXd {
-    return parts.parts() * (parts.cells() * l);
-  };
+  const auto light = [&](const Eigen::VectorXd& l) -> Eigen::ArrayXd { return parts.of_parts(l); };
   const Eigen::ArrayXd own = light(image.l);
   const Eigen::ArrayXd dipoles = light(dipole.l);
   if (!(own.minCoeff() > 0.0 && dipoles.minCoeff() > 0.0)) return;

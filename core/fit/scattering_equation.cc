@@ -16,9 +16,7 @@ namespace {
 
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-bool has_prior(const ScalePrior& scale) {
-  return scale.relative_std > 0.0 && std::isfinite(scale.relative_std);
-}
+bool has_prior(const ScalePrior& scale) { return scale.relative_std > 0.0 && !scale.is_free(); }
 
 // x of a * x = b, for a positive matrix whose rows differ in units and may be all but dependent.
 Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
@@ -27,7 +25,7 @@ Eigen::VectorXd solve_positive(const Eigen::MatrixXd& a, const Eigen::VectorXd& 
       a.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd scaled = unit.asDiagonal() * a * unit.asDiagonal();
   scaled.diagonal().array() += kRidge;
-  return unit.cwiseProduct(inverse_lu(scaled) * unit.cwiseProduct(b));
+  return unit.cwiseProduct(solve_lu(scaled, unit.cwiseProduct(b)));
 }
 
 }  // namespace
@@ -93,7 +91,7 @@ ScatteringEquation::Weights::Weights(const DenseSystem& system, const ScalePrior
     c.bottomRightCorner(all - own, all - own) += errors.root.transpose() * groups * errors.root;
   }
   capacitance = inverse_lu(c);
-  const Eigen::MatrixXd z = jacobian(image, at, !std::isfinite(scale.relative_std));
+  const Eigen::MatrixXd z = jacobian(image, at, scale.is_free());
   relative_size = z.colwise().norm() / (at.scale * image.l.norm());
   // A change of sigma_s counts even if it hardly affects the image.
   relative_size[0] = std::max(relative_size[0], 1.0);
@@ -110,7 +108,7 @@ ScatteringEquation::Weights::Weights(const DenseSystem& system, const ScalePrior
                    (kSpread * kSpread * z.colwise().squaredNorm()).cwiseInverse();
   if (z.cols() > 2) return;
   const Eigen::RowVectorXd direct = solve_covariance(per_log_scale).transpose();
-  const Eigen::MatrixXd own_projection = projection.topRows(z.cols());
+  const auto own_projection = projection.topRows(z.cols());
   const Eigen::RowVectorXd form = direct - (own_projection * per_log_scale).transpose() *
                                                inverse_lu(own_projection * z) * own_projection;
   const double information = form.dot(per_log_scale);
@@ -142,21 +140,19 @@ Eigen::MatrixXd ScatteringEquation::Weights::solve_covariance(const Eigen::Matri
   return direct - inverse * in_rows(capacitance * in_columns(direct));
 }
 
-Eigen::MatrixXd ScatteringEquation::mixing(const PathHalves& m, const ScatteringPoint& at,
-                                           std::size_t half) const {
-  const Weights& w = of(1 - half);
-  const Eigen::Index n = unknowns(), k = w.gram.rows();
+Eigen::MatrixXd ScatteringEquation::Weights::mixing(const Eigen::MatrixXd& seen,
+                                                    const Eigen::MatrixXd& by_other) const {
+  const Eigen::Index n = seen.cols(), k = seen.rows();
   if (k == n) return Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd seen = w.projection * jacobian(m[1 - half], at, n == 3);
-  const Eigen::MatrixXd apart = seen - w.projection * jacobian(m[half], at, n == 3);
+  const Eigen::MatrixXd apart = seen - by_other;
   Eigen::MatrixXd out(n, k);
   for (Eigen::Index u = 0; u < n; ++u) {
     // The variance of the derivatives of one half, over that of its light.
     const double noise =
-        apart.col(u).dot(solve_positive(w.gram, apart.col(u))) / (2.0 * static_cast<double>(k));
-    const Eigen::VectorXd prior = noise * w.inverse_spread.col(u);
-    out.row(u) = solve_positive(w.gram + Eigen::MatrixXd(prior.asDiagonal()),
-                                seen.col(u) + prior.cwiseProduct(w.expected.col(u)))
+        apart.col(u).dot(solve_positive(gram, apart.col(u))) / (2.0 * static_cast<double>(k));
+    const Eigen::VectorXd prior = noise * inverse_spread.col(u);
+    out.row(u) = solve_positive(gram + Eigen::MatrixXd(prior.asDiagonal()),
+                                seen.col(u) + prior.cwiseProduct(expected.col(u)))
                      .transpose();
   }
   return out;
@@ -166,10 +162,16 @@ ScatteringEquation::Step ScatteringEquation::step(const PathHalves& m,
                                                   const Eigen::MatrixXd& projected_covariance,
                                                   const ScatteringPoint& at, double scatter) const {
   const Eigen::Index n = unknowns();
-  const std::array<Eigen::MatrixXd, 2> mix = {mixing(m, at, 0), mixing(m, at, 1)};
-  const Eigen::MatrixXd slope = mean([&](const Weights& w, std::size_t half) -> Eigen::MatrixXd {
-    return mix[half] * (w.projection * jacobian(m[half], at, n == 3));
-  });
+  // Instruments x unknowns: the derivatives by the paths of a half, and by those of the other.
+  std::array<Eigen::MatrixXd, 2> seen, by_other;
+  for (std::size_t half = 0; half < 2; ++half) {
+    const Eigen::MatrixXd derivatives = jacobian(m[half], at, n == 3);
+    seen[half] = projection(half) * derivatives;
+    by_other[1 - half] = projection(1 - half) * derivatives;
+  }
+  const std::array<Eigen::MatrixXd, 2> mix = {of(1).mixing(seen[1], by_other[1]),
+                                              of(0).mixing(seen[0], by_other[0])};
+  const Eigen::MatrixXd slope = 0.5 * (mix[0] * seen[0] + mix[1] * seen[1]);
   const Eigen::VectorXd misfit = mean([&](const Weights& w, std::size_t half) -> Eigen::MatrixXd {
     return mix[half] * (w.projection * (system_.l - at.scale * m[half].l));
   });

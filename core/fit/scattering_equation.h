@@ -150,6 +150,9 @@ class ScatteringEquation {
     Eigen::MatrixXd in_columns(const Eigen::MatrixXd& rows) const;
     Eigen::MatrixXd in_rows(const Eigen::MatrixXd& columns) const;
     Eigen::MatrixXd solve_covariance(const Eigen::MatrixXd& rows) const;
+    // Unknowns x instruments: the coefficients of Z for the image of the other half, from the
+    // projected derivatives of the half that these weights are for (`seen`) and of the other.
+    Eigen::MatrixXd mixing(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& by_other) const;
     Eigen::VectorXd row_variance;  // noise and Monte Carlo
     Eigen::MatrixXd nuisances;     // columns times their standard deviations
     CorrelatedErrors errors;
@@ -167,8 +170,6 @@ class ScatteringEquation {
   const Weights& of(std::size_t half) const {
     return weights_.size() == 1 ? weights_.front() : weights_[1 - half];
   }
-  // Unknowns x instruments, for the image of a half: the coefficients of Z.
-  Eigen::MatrixXd mixing(const PathHalves& m, const ScatteringPoint& at, std::size_t half) const;
   // The mean of `f(weights, half)` over the halves.
   template <class F>
   Eigen::MatrixXd mean(const F& f) const {

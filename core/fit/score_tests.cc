@@ -56,7 +56,7 @@ ScoreTests score_tests(const RecoveredReflectance& recovered,
   const Eigen::VectorXd predicted = image.information.kernel * (s * curve.r);
   image.residual = image.information.data - predicted;
   image.length = std::max(image.information.data.norm(), 1e-300);
-  const bool free = !std::isfinite(scale.relative_std);
+  const bool free = scale.is_free();
   Eigen::MatrixXd fitted(predicted.size(), 3);
   fitted.col(0) = image.information.kernel * (s * curve.d_u);
   fitted.col(1) = image.information.kernel * (s * curve.d_q);

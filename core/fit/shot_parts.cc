@@ -72,7 +72,7 @@ ShotParts::ShotParts(const std::vector<Eigen::Index>& shot_rows,
 
 Eigen::VectorXd ShotParts::levelled(const Eigen::VectorXd& light,
                                     const Eigen::VectorXd& rows) const {
-  const Eigen::VectorXd ratio = (parts_ * (cells_ * rows)).cwiseQuotient(parts_ * (cells_ * light));
+  const Eigen::VectorXd ratio = of_parts(rows).cwiseQuotient(of_parts(light));
   return light.cwiseProduct(ratio(part_of_row_));
 }
 

@@ -42,6 +42,8 @@ class ShotParts {
   const Sums& parts() const { return parts_; }
   // Cells x cells: relative light of a cell minus that of its part.
   const Sums& about_parts() const { return about_parts_; }
+  // From the light of the rows to that of the parts, relative to their l.
+  Eigen::VectorXd of_parts(const Eigen::VectorXd& rows) const { return parts_ * (cells_ * rows); }
   // By row: `light`, scaled in every part to the sum of `rows` there. Precondition: no part of
   // `light` is dark.
   Eigen::VectorXd levelled(const Eigen::VectorXd& light, const Eigen::VectorXd& rows) const;

@@ -171,7 +171,7 @@ void add_reasons(bool converged, const ScalePrior& scale, SmoothReflectance& out
                    [](const ReflectanceKnot& k) { return k.determined; })) {
     out.reasons.push_back("these shots do not determine the reflectance at any distance");
   }
-  if (!std::isfinite(scale.relative_std)) {
+  if (scale.is_free()) {
     out.reasons.push_back("the scale is free: only the shape of the reflectance is known");
   }
 }

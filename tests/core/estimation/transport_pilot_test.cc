@@ -39,6 +39,38 @@ TEST(TransportPilot, DerivativesAreThoseOfTheLight) {
       Eigen::Vector2d(std::log(at.sigma_s_per_mm), at.sigma_a_per_mm), jacobian);
 }
 
+// Together with the expected coefficients, the instruments of a pilot are halfway between its
+// derivatives and these without their detail; a free scale's own derivative is kept.
+TEST(TransportPilot, FurtherImagesHaveNoDetail) {
+  const ScatteringImage image = dipole_pilot(plate().w, plate().knots, {1.2, 0.02, 1.0}, kPilotEta);
+  const auto rows = static_cast<std::size_t>(image.l.size());
+  std::vector<Eigen::Vector3d> centers;
+  for (std::size_t j = 0; j < rows; ++j) centers.emplace_back(static_cast<double>(j), 0.0, 0.0);
+  const ShotParts parts({image.l.size()}, centers, std::vector<double>(rows, 1.0), image.l,
+                        {1, 2.0, 1, 2});
+  for (const bool is_free : {false, true}) {
+    const Eigen::MatrixXd further = further_images(parts, image, is_free);
+    EXPECT_EQ(further.col(0), parts.levelled(image.l, image.per_log_sigma_s));
+    EXPECT_EQ(further.col(1), parts.levelled(image.l, image.per_sigma_a));
+    Eigen::MatrixXd derivatives(image.l.size(), is_free ? 3 : 2);
+    derivatives.leftCols(2) << image.per_log_sigma_s, image.per_sigma_a;
+    derivatives.rightCols(1) = is_free ? image.l : image.per_sigma_a;
+    Eigen::MatrixXd instruments(image.l.size(), derivatives.cols() + further.cols());
+    instruments << derivatives, further;
+    const Eigen::MatrixXd sums = instruments * expected_coefficients(is_free);
+    ASSERT_EQ(sums.cols(), derivatives.cols());
+    for (Eigen::Index u = 0; u < 2; ++u) {
+      EXPECT_LT((sums.col(u) - 0.5 * (derivatives.col(u) + further.col(u))).norm(),
+                1e-12 * sums.col(u).norm());
+    }
+    if (is_free) {
+      EXPECT_EQ(sums.col(2), image.l);
+    } else {
+      EXPECT_EQ(further.col(2), image.l);
+    }
+  }
+}
+
 // Shares l / area of 2, 4 and none (negative light) of a sum of 12.
 TEST(TransportPilot, PathVarianceFollowsLightOverArea) {
   const std::vector<double> area_mm2 = {1.0, 0.5, 2.0};
