@@ -19,8 +19,10 @@
 #include "core/base/stopwatch.h"
 #include "core/diffusion/dipole_curve.h"
 #include "core/estimation/estimation.h"
+#include "core/estimation/joint_evidence.h"
 #include "core/estimation/model_choice.h"
 #include "core/estimation/transport_search.h"
+#include "core/estimation/view_shift.h"
 #include "core/fit/prior_pulls.h"
 #include "core/view/row_selection.h"
 
@@ -244,28 +246,40 @@ void compare_objects(LightLook& look, const Estimation& e, const capture::ShotDe
 }  // namespace
 
 CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotSource& source,
-                       const std::vector<ObservedShot>& shots, LitObjects& lit,
-                       const std::optional<SharedView>& shared, Progress* progress) {
+                       SeenShots& seen, LitObjects& lit, Progress* progress) {
+  constexpr int kMostViews = 4;
+  constexpr int kWholeSteps = 2;
+  constexpr double kHalf = 0.5;
   EstimateOptions options;
   options.keep_rows = true;
   options.time_limit_s = kTransport_s;
   std::vector<std::pair<std::string, double>> timing_s;
   Stopwatch watch(timing_s);
-  KeptLight kept;
-  Estimation e(rig.scene, lit, shots, useful_channels(rig, shots), options, kept, watch, progress);
-  CheckFit out;
-  std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
-  estimate_dipole(e, &systems);
-  LightLook look(e.scene, lit, shots, kept.weights);
-  for (std::size_t i = 0; i < shots.size(); ++i) {
-    ShotLikeness& likeness = out.likeness.emplace_back(look.likeness(i));
-    if (likeness.own > kDoubtfulImage && shared) {
-      compare_objects(look, e, rig.decoding, source, *shared, i, shots[i], likeness);
+  for (int views = 1;; ++views) {
+    const std::vector<ObservedShot>& shots = seen.whole();
+    KeptLight kept;
+    Estimation e(rig.scene, lit, shots, useful_channels(rig, shots), options, kept, watch,
+                 progress);
+    std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
+    estimate_dipole(e, &systems);
+    const SeenElsewhere elsewhere = seen_elsewhere(
+        rig.scene, shots, joint_pulls_of(e.results).pulls, views <= kWholeSteps ? 1.0 : kHalf);
+    if (views < kMostViews && elsewhere.motion > kVisibleMotion) {
+      seen.open_from(elsewhere.shifts);
+      continue;
     }
+    CheckFit out;
+    LightLook look(e.scene, lit, shots, kept.weights);
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+      ShotLikeness& likeness = out.likeness.emplace_back(look.likeness(i));
+      if (likeness.own > kDoubtfulImage && seen.view()) {
+        compare_objects(look, e, rig.decoding, source, *seen.view(), i, shots[i], likeness);
+      }
+    }
+    out.findings = look.findings();
+    out.channels = fitted_channels(stated, e, systems, shots, out.findings);
+    return out;
   }
-  out.findings = look.findings();
-  out.channels = fitted_channels(stated, e, systems, shots, out.findings);
-  return out;
 }
 
 }  // namespace scattermeter::apps

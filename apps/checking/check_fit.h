@@ -10,7 +10,7 @@
 #include "apps/instrument/finding.h"
 #include "apps/instrument/light_look.h"
 #include "apps/instrument/measure.h"
-#include "apps/instrument/open_shots.h"
+#include "apps/instrument/seen_shots.h"
 #include "capture/shots/shot_source.h"
 #include "core/base/progress.h"
 #include "core/fit/linear_shot.h"
@@ -42,11 +42,11 @@ struct CheckFit {
 };
 
 // Fits the material to all shots of the source by the model that would measure it (the dipole where
-// the shots show that it holds, else transport in one channel of the material), which were opened
-// for `rig` with `lit` and `shared`; entirely dark or clipped shots are left out. stated: the scene
-// before the positions of its LEDs were loosened for `rig`.
+// the shots show that it holds, else transport in one channel of the material), which are open for
+// `rig` with `lit`; entirely dark or clipped shots are left out. Opens them again from where the
+// fit shows the objects to be seen, as `measure` does (apps/instrument/fitted_view.h). stated: the
+// scene before the positions of its LEDs were loosened for `rig`.
 CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotSource& source,
-                       const std::vector<ObservedShot>& shots, LitObjects& lit,
-                       const std::optional<SharedView>& shared, Progress* progress);
+                       SeenShots& seen, LitObjects& lit, Progress* progress);
 
 }  // namespace scattermeter::apps

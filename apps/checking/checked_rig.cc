@@ -12,7 +12,8 @@
 #include "apps/instrument/calibration_inputs.h"
 #include "apps/instrument/first_look.h"
 #include "apps/instrument/open_objects.h"
-#include "apps/instrument/open_shots.h"
+#include "apps/instrument/piece_places.h"
+#include "apps/instrument/seen_shots.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/file_kind.h"
 #include "capture/sensor/corrected_samples.h"
@@ -169,7 +170,11 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   }
   const capture::ShotSource source =
       capture::shots_in_files(loose.scene, loose.decoding, folder.paths);
-  out.shots = open_shots(loose, source, geometry->objects, *geometry->lit, view, options.progress);
+  KeptLight kept;
+  SeenShots seen(loose, geometry->objects, *geometry->lit, source, std::move(view), false,
+                 std::nullopt, kept, options.progress);
+  seen.open();
+  out.shots = seen.whole();
   out.frames.resize(out.shots.size());
   std::optional<OutlineWatch> watch;
   if (out.shared_pose) watch.emplace(loose, geometry->objects, *out.shared_pose);
@@ -183,13 +188,26 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   });
   if (watch) {
     out.looks = watch->findings(source);
+  } else if (loose.pose.charuco) {
+    PieceFindings pieces = look_at_pieces(loose, geometry->objects, out.shots,
+                                          std::get<capture::FrameSource>(source.open));
+    out.looks = OutlineFindings{std::move(pieces.findings),
+                                std::move(pieces.notes),
+                                std::move(pieces.shifts),
+                                std::nullopt,
+                                {}};
+  }
+  if (out.looks) {
     out.notes.insert(out.notes.end(), out.looks->notes.begin(), out.looks->notes.end());
+    // `measure` begins there, too.
+    if (!out.looks->shifts.empty()) seen.open_from(out.looks->shifts);
+    out.shots = seen.whole();
   }
   if (rig.lens) out.lens = *rig.lens;
   out.outline = checked_outline(*geometry, source, out);
   out.leds = checked_leds(rig, shots_folder);
-  out.fit =
-      fit_for_check(rig.scene, loose, source, out.shots, *geometry->lit, view, options.progress);
+  out.fit = fit_for_check(rig.scene, loose, source, seen, *geometry->lit, options.progress);
+  out.shots = seen.whole();
   if (!rig.scene.camera.responsivity) {
     out.notes.emplace_back(
         "no responsivity in the rig: the scale is free, sigma_a will be uncertain");

@@ -85,7 +85,8 @@ struct CheckedRig {
   std::optional<calib::CameraCalibrationFile> lens;
   std::optional<calib::SilhouetteCheck> outline;
   std::vector<calib::LedCheck> leds;  // those whose calibration shots are all in the folder
-  // What `measure` would see before any fit: for a camera that does not move.
+  // What `measure` would see before any fit, of bodies whose outlines can be judged; for a board in
+  // every shot without a diagnosis.
   std::optional<OutlineFindings> looks = {};
 
   // What is wrong according to the looks before any fit, the most probable first: `measure` refuses

@@ -8,13 +8,7 @@
 #include "calib/pose/silhouette_check.h"
 
 namespace scattermeter::apps {
-
 namespace {
-
-double px_per_mm(const CameraIntrinsics& intrinsics, const ObjectScene& object,
-                 const PoseResult& pose) {
-  return intrinsics.fx_px / (pose.camera_from_world * object.box.center_mm()).z();
-}
 
 // Of each end of a straight edge in the picture: besides the search's own error, that of the mesh's
 // size.
@@ -43,6 +37,11 @@ calib::SilhouetteCheck careful_search(const Rig& rig, const ObjectScenes& object
 }
 
 }  // namespace
+
+double px_per_mm(const CameraIntrinsics& intrinsics, const ObjectScene& object,
+                 const PoseResult& pose) {
+  return intrinsics.fx_px / (pose.camera_from_world * object.box.center_mm()).z();
+}
 
 double edge_cut_px(const CameraIntrinsics& intrinsics, const ObjectScene& object,
                    const PoseResult& pose) {

@@ -14,6 +14,10 @@
 
 namespace scattermeter::apps {
 
+// Pixels of the picture to a length at the object.
+double px_per_mm(const CameraIntrinsics& intrinsics, const ObjectScene& object,
+                 const PoseResult& pose);
+
 // How far the object's outline may lie farther in than that of its mesh, px: its edges may be cut
 // back by edge_std_mm, of which the outline of a bevel seen from any side shows some 0.7.
 double edge_cut_px(const CameraIntrinsics& intrinsics, const ObjectScene& object,

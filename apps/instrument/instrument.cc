@@ -12,6 +12,7 @@
 #include "apps/instrument/frame_watch.h"
 #include "apps/instrument/light_look.h"
 #include "apps/instrument/outline_watch.h"
+#include "apps/instrument/piece_places.h"
 #include "apps/instrument/rig_places.h"
 #include "apps/instrument/row_precision.h"
 #include "apps/instrument/seen_shots.h"
@@ -207,6 +208,12 @@ FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
     }
   } else {
     seen.open();
+    if (const auto* frames = std::get_if<capture::FrameSource>(&source.open); rig_.pose.charuco) {
+      PieceFindings pieces = look_at_pieces(rig_, objects_, seen.shots(), *frames);
+      outlines.findings = std::move(pieces.findings);
+      outlines.notes = std::move(pieces.notes);
+      if (!pieces.shifts.empty()) seen.open_from(pieces.shifts);
+    }
   }
   watch.lap("shots");
   std::vector<Finding> of_light;

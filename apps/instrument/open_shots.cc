@@ -39,12 +39,14 @@ void subtract_pedestal(ObservedShot& shot) {
 class ShotOpener {
  public:
   ShotOpener(const Rig& rig, const capture::ShotSource& source, const ObjectScenes& objects,
-             const LitObjects& lit, const std::optional<SharedView>& shared)
+             const LitObjects& lit, const std::optional<SharedView>& shared,
+             const std::map<std::string, OwnView>& own)
       : rig_(rig),
         source_(source),
         objects_(objects),
         lit_(lit),
         shared_(shared),
+        own_(own),
         frames_(std::get_if<capture::FrameSource>(&source.open)),
         responsivity_(
             rig.scene.camera.responsivity.value_or(std::array<double, 3>{1.0, 1.0, 1.0})) {
@@ -109,7 +111,7 @@ class ShotOpener {
     const std::vector<std::string>& names = source_.names.at(i);
     shot.iso = exposures.front().iso;
     shot.f_number = exposures.front().f_number;
-    if (!shared_) find_own_pose(i, exposures.front(), shot);
+    if (!shared_) see_alone(i, exposures.front(), shot);
     const SampleMap& map = shot.seen->map;
     capture::ShotSamples out;
     // Neither needs the other.
@@ -133,17 +135,23 @@ class ShotOpener {
   }
 
   // From points or a board, then, if the rig asks for it, from the silhouette.
-  void find_own_pose(std::size_t i, const capture::RawFrame& frame, ObservedShot& shot) const {
+  PoseResult own_pose(std::size_t i, const capture::RawFrame& frame) const {
     const std::string& name = source_.names.at(i).at(0);
-    shot.pose = points_ ? *points_ : calib::pose_from_board(rig_.scene, rig_.pose, frame, name);
-    if (rig_.pose.refine_by_silhouette) {
-      shot.pose = calib::pose_from_silhouette(rig_.scene, rig_.pose, objects_, shot.pose,
-                                              source_.shot_idxs[i], frame, name);
-    }
+    const PoseResult pose =
+        points_ ? *points_ : calib::pose_from_board(rig_.scene, rig_.pose, frame, name);
+    if (!rig_.pose.refine_by_silhouette) return pose;
+    return calib::pose_from_silhouette(rig_.scene, rig_.pose, objects_, pose, source_.shot_idxs[i],
+                                       frame, name);
+  }
+
+  void see_alone(std::size_t i, const capture::RawFrame& frame, ObservedShot& shot) const {
+    const auto known = own_.find(shot.stated->file);
+    const OwnView view = known != own_.end() ? known->second : OwnView{own_pose(i, frame)};
+    shot.pose = view.pose;
     require_in_view(rig_.scene, objects_,
                     {rig_.scene.camera.intrinsics, shot.pose.camera_from_world},
                     shot.stated->object);
-    shot.seen = see(rig_.scene, objects_, lit_, shot.stated->object, shot.pose);
+    shot.seen = see(rig_.scene, objects_, lit_, shot.stated->object, shot.pose, view.shift);
     shot.has_own_pose = true;
   }
 
@@ -152,6 +160,7 @@ class ShotOpener {
   const ObjectScenes& objects_;
   const LitObjects& lit_;
   const std::optional<SharedView>& shared_;
+  const std::map<std::string, OwnView>& own_;
   const capture::FrameSource* frames_;  // null: the source delivers samples
   // With a free scale, the unit of light is a count per second.
   std::array<double, 3> responsivity_;
@@ -163,8 +172,9 @@ class ShotOpener {
 
 std::vector<ObservedShot> open_shots(const Rig& rig, const capture::ShotSource& source,
                                      const ObjectScenes& objects, const LitObjects& lit,
-                                     const std::optional<SharedView>& shared, Progress* progress) {
-  const ShotOpener opener(rig, source, objects, lit, shared);
+                                     const std::optional<SharedView>& shared, Progress* progress,
+                                     const std::map<std::string, OwnView>& own) {
+  const ShotOpener opener(rig, source, objects, lit, shared, own);
   std::vector<ObservedShot> shots(source.shot_idxs.size());
   ProgressStage stage(progress, "reading shots", shots.size());
   tbb::parallel_for(std::size_t{0}, shots.size(), [&](std::size_t i) {

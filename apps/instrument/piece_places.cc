@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/core.h>
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "apps/instrument/open_objects.h"
 #include "calib/pose/piece_pose.h"
@@ -18,21 +20,29 @@
 #include "calib/pose/silhouette_check.h"
 #include "capture/files/file_kind.h"
 #include "capture/shots/raw_shot.h"
+#include "core/base/chi_square.h"
+#include "core/base/dense_solve.h"
 #include "core/base/input_error.h"
 #include "core/base/symmetric_eigen.h"
+#include "core/estimation/view_shift.h"
+#include "core/mesh/creases.h"
 
 namespace scattermeter::apps {
 namespace {
 
 constexpr std::size_t kShots = 4;
 
+const SceneShot& stated(const SceneShot& shot) { return shot; }
+const SceneShot& stated(const ObservedShot& shot) { return *shot.stated; }
+
 // Of the object, first those under lights that no earlier one has.
-std::vector<const SceneShot*> shots_of(const Scene& scene, const std::string& object) {
-  std::vector<const SceneShot*> out, others;
+template <class Shot>
+std::vector<const Shot*> shots_of(const std::vector<Shot>& shots, const std::string& object) {
+  std::vector<const Shot*> out, others;
   std::set<std::vector<std::string>> lights;
-  for (const SceneShot& shot : scene.shots) {
-    if (shot.object != object) continue;
-    (lights.insert(shot.lights).second ? out : others).push_back(&shot);
+  for (const Shot& shot : shots) {
+    if (stated(shot).object != object) continue;
+    (lights.insert(stated(shot).lights).second ? out : others).push_back(&shot);
   }
   out.insert(out.end(), others.begin(), others.end());
   out.resize(std::min(out.size(), kShots));
@@ -61,16 +71,53 @@ std::vector<calib::PieceView> views_of(const Rig& rig, const ObjectScenes& objec
   return views;
 }
 
-std::string sentence(const SceneObject& object, const calib::PiecePose& found,
-                     const Eigen::Vector3d& moved_mm) {
-  const Eigen::AngleAxisd turn(found.moved.rotation);
+calib::PiecePoseOptions options_for(const Rig& rig, const ObjectScene& object) {
+  calib::PiecePoseOptions out;
+  out.silhouette.line_std_px = rig.pose.edge_std_px;
+  out.silhouette.may_lack_parts = rig.pose.charuco.has_value();
+  out.scale_relative_std = object.stated->scale_relative_std;
+  out.size_mm = object.size_mm();
+  return out;
+}
+
+double degrees(const Eigen::Vector3d& turn_rad) {
+  return 180.0 / std::numbers::pi * turn_rad.norm();
+}
+
+std::string sentence(const SceneObject& object, const calib::PiecePose& found) {
   return fmt::format(
       "{} was found by its outline [{:.2f}, {:.2f}, {:.2f}] mm from where the rig states it, "
       "turned "
       "by {:.2f} degrees; its position is known to {:.2g} mm",
-      object.name, moved_mm.x(), moved_mm.y(), moved_mm.z(),
-      180.0 / std::numbers::pi * std::min(turn.angle(), 2.0 * std::numbers::pi - turn.angle()),
+      object.name, found.off[0], found.off[1], found.off[2], degrees(found.off.tail<3>()),
       object.position_std_mm);
+}
+
+// Covariance of (displacement of the centre, turn) as stated.
+Eigen::Matrix<double, 6, 6> stated_covariance(const ObjectScene& object) {
+  const double std_mm = object.stated->position_std_mm;
+  Eigen::Matrix<double, 6, 1> std;
+  std << Eigen::Vector3d::Constant(std_mm), Eigen::Vector3d::Constant(std_mm / object.size_mm());
+  return std.cwiseAbs2().asDiagonal();
+}
+
+// Without shots; absent for an object that stands as stated.
+std::optional<Finding> misplaced(const std::string& name, const calib::PiecePose& found,
+                                 const Eigen::Matrix<double, 6, 6>& stated) {
+  constexpr double kDoubt = 1e-4;
+  const Eigen::Matrix<double, 6, 6> expected = stated + found.covariance;
+  if (chi_square_tail(found.off.dot(SymmetricSolver(expected).solve(found.off)), 6.0) > kDoubt) {
+    return std::nullopt;
+  }
+  return Finding{
+      "mesh displaced",
+      fmt::format("mesh displaced: by its outline, {} stands [{:.2f}, {:.2f}, {:.2f}] "
+                  "mm from where the rig states it, turned by {:.1f} degrees",
+                  name, found.off[0], found.off[1], found.off[2], degrees(found.off.tail<3>())),
+      fmt::format("put the object back, or have it found by its outline "
+                  "(objects.{}.pose: {{from: silhouette}})",
+                  name),
+      {}};
 }
 
 }  // namespace
@@ -85,19 +132,13 @@ std::vector<std::string> place_pieces(Rig& rig, const std::string& shots_folder,
   ProgressStage stage(progress, "finding the pieces", n);
   const ObjectScenes objects = open_objects(rig);
   for (SceneObject& object : rig.scene.objects) {
-    const std::vector<const SceneShot*> shots = shots_of(rig.scene, object.name);
+    const std::vector<const SceneShot*> shots = shots_of(rig.scene.shots, object.name);
     if (!is_wanted(object) || shots.empty()) continue;
-    const ObjectScene& stated = objects.at(object.name);
-    calib::PiecePoseOptions options;
-    options.silhouette.line_std_px = rig.pose.edge_std_px;
-    options.silhouette.may_lack_parts = rig.pose.charuco.has_value();
-    options.scale_relative_std = object.scale_relative_std;
+    calib::PiecePoseOptions options = options_for(rig, objects.at(object.name));
     options.is_on_plane = object.to_be_found->is_on_plane;
-    options.size_mm = stated.size_mm();
-    const Eigen::Vector3d center_mm = stated.box.center_mm();
-    const calib::PiecePose found =
-        calib::find_piece(views_of(rig, objects, shots, shots_folder, options.silhouette),
-                          rig.scene.camera.intrinsics, center_mm, options);
+    const calib::PiecePose found = calib::find_piece(
+        views_of(rig, objects, shots, shots_folder, options.silhouette),
+        rig.scene.camera.intrinsics, objects.at(object.name).box.center_mm(), options);
     if (!found.problem.empty()) {
       std::vector<std::string> names;
       for (const SceneShot* shot : shots) names.push_back(shot->file);
@@ -109,9 +150,61 @@ std::vector<std::string> place_pieces(Rig& rig, const std::string& shots_folder,
       return std::sqrt(symmetric_eigen(found.covariance.block<3, 3>(first, first)).values[2]);
     };
     object.position_std_mm = std::max(largest(0), options.size_mm * largest(3));
-    out.push_back(sentence(object, found, found.moved * center_mm - center_mm));
+    out.push_back(sentence(object, found));
     stage.step();
   }
+  return out;
+}
+
+PieceFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
+                             const std::vector<ObservedShot>& shots,
+                             const capture::FrameSource& frames) {
+  const auto idx_of = [&](const ObservedShot& shot) {
+    return static_cast<std::size_t>(shot.stated - rig.scene.shots.data());
+  };
+  constexpr double kNear = 0.08;  // of the frame's width: 5 mm on an object that fills a third
+  PieceFindings out;
+  bool moves = false;
+  for (const auto& [name, object] : objects) {
+    const std::vector<const ObservedShot*> telling = shots_of(shots, name);
+    if (telling.empty() || is_round(object.mesh())) continue;
+    calib::PiecePoseOptions options = options_for(rig, object);
+    options.silhouette.search = kNear;
+    options.may_be_turned = false;
+    std::vector<calib::PieceView> views(telling.size());
+    tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+      const ObservedShot& shot = *telling[i];
+      views[i].camera = shot.pose;
+      views[i].shots.push_back(calib::edge_shot(rig.scene, rig.pose, objects, *shot.stated,
+                                                frames(idx_of(shot), 0),
+                                                shot.pose.camera_from_world, options.silhouette));
+    });
+    const Eigen::Vector3d center_mm = object.box.center_mm();
+    const calib::PiecePose found =
+        calib::find_piece(views, rig.scene.camera.intrinsics, center_mm, options);
+    if (!found.problem.empty()) {
+      out.notes.push_back(
+          fmt::format("outline of {} is not judged, so pose and mesh are not checked: {}", name,
+                      found.problem));
+      continue;
+    }
+    const Eigen::Matrix<double, 6, 6> stated = stated_covariance(object);
+    std::optional<Finding> finding = misplaced(name, found, stated);
+    const Eigen::Matrix<double, 6, 1> probable =
+        stated * SymmetricSolver(stated + found.covariance).solve(found.off);
+    for (const ObservedShot& shot : shots) {
+      if (shot.stated->object != name) continue;
+      if (finding) {
+        finding->shots.push_back(idx_of(shot));
+      } else {
+        const PoseShift& by = out.shifts[shot.stated->file] =
+            pose_shift_by_place(shot.pose.camera_from_world, center_mm) * probable;
+        moves = moves || motion_in_patches(shot, by) > kVisibleMotion;
+      }
+    }
+    if (finding) out.findings.push_back(std::move(*finding));
+  }
+  if (!moves) out.shifts.clear();
   return out;
 }
 

@@ -6,7 +6,6 @@
 
 #include <oneapi/tbb/parallel_invoke.h>
 
-#include "apps/instrument/open_shots.h"
 #include "capture/shots/shot_cache.h"
 #include "core/estimation/channel_weights.h"
 
@@ -33,8 +32,9 @@ SeenShots::SeenShots(const Rig& rig, const ObjectScenes& objects, LitObjects& li
       progress_(progress) {}
 
 void SeenShots::open(const capture::ShotSource& from) {
-  shots_ = view_ && on_smooth_knots_ ? open_and_light(from)
-                                     : open_shots(rig_, from, objects_, lit_, view_, progress_);
+  shots_ = view_ && on_smooth_knots_
+               ? open_and_light(from)
+               : open_shots(rig_, from, objects_, lit_, view_, progress_, own_);
   if (!is_worth_choosing(shots_)) levels_ = std::nullopt;
   choose(levels_);
 }
@@ -77,10 +77,16 @@ void SeenShots::choose(std::optional<int> levels) {
 }
 
 void SeenShots::open_from(const std::map<std::string, PoseShift>& shifts) {
-  if (!view_) return;
   shifted_ = {{}, {}, kept_->atlas};
   kept_ = &shifted_;
-  view_ = see_all(rig_.scene, objects_, lit_, view_->pose, shifts, rig_.scene.objects_in_shots());
+  if (view_) {
+    view_ = see_all(rig_.scene, objects_, lit_, view_->pose, shifts, rig_.scene.objects_in_shots());
+  } else {
+    for (const ObservedShot& shot : shots_) {
+      OwnView& own = own_[shot.stated->file] = {shot.pose};
+      if (const auto by = shifts.find(shot.view_name()); by != shifts.end()) own.shift = by->second;
+    }
+  }
   open();
 }
 

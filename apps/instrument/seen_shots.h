@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/instrument/open_shots.h"
 #include "apps/rig/rig.h"
 #include "capture/shots/shot_source.h"
 #include "core/base/progress.h"
@@ -36,6 +37,8 @@ class SeenShots {
 
   // With the chosen rows.
   const std::vector<ObservedShot>& shots() const { return levels_ ? chosen_ : shots_; }
+  // Common to all shots, as it is now; absent: each has its own.
+  const std::optional<SharedView>& view() const { return view_; }
   // With all rows.
   const std::vector<ObservedShot>& whole() const { return shots_; }
   std::optional<int> levels() const { return levels_; }
@@ -50,8 +53,7 @@ class SeenShots {
   void open() { open(source_); }
   // From another source of the same shots.
   void open(const capture::ShotSource& from);
-  // Again, from a view that is shifted against each object (see_all()); does nothing without a
-  // common view.
+  // Again, from views that are shifted: by ObservedShot::view_name(). Precondition: they are open.
   void open_from(const std::map<std::string, PoseShift>& shifts);
   // Takes these shots out of the cache, and keeps none from now on.
   void forget();
@@ -68,6 +70,7 @@ class SeenShots {
   LitObjects& lit_;
   capture::ShotSource source_;
   std::optional<SharedView> view_;
+  std::map<std::string, OwnView> own_;  // without a common view
   bool on_smooth_knots_;
   std::optional<int> levels_;
   KeptLight shifted_;

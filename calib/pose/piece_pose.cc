@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/core.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "calib/pose/silhouette_pose.h"
 #include "core/base/chi_square.h"
@@ -44,16 +45,16 @@ Rigid3d followed_by(const Rigid3d& motion, const Vector6d& step, const Eigen::Ve
 
 // From the stated position, or, where that is too far off, from a few others.
 Silhouette silhouette_from_near(const PieceView& view, const CameraIntrinsics& intrinsics,
-                                const Eigen::Vector3d& center_mm,
-                                const SilhouetteOptions& options) {
+                                const Eigen::Vector3d& center_mm, const PiecePoseOptions& options) {
   constexpr double kTurn_rad = 0.07;
+  const int turns = options.may_be_turned ? 6 : 0;
   const Rigid3d& camera = view.camera.camera_from_world;
-  Silhouette best = find_silhouette(view.shots, intrinsics, camera, options);
-  for (int k = 0; k < 6 && best.status != SilhouetteStatus::kOk; ++k) {
+  Silhouette best = find_silhouette(view.shots, intrinsics, camera, options.silhouette);
+  for (int k = 0; k < turns && best.status != SilhouetteStatus::kOk; ++k) {
     Vector6d turned = Vector6d::Zero();
     turned[3 + k / 2] = k % 2 == 0 ? kTurn_rad : -kTurn_rad;
-    Silhouette other = find_silhouette(view.shots, intrinsics,
-                                       camera * followed_by({}, turned, center_mm), options);
+    Silhouette other = find_silhouette(
+        view.shots, intrinsics, camera * followed_by({}, turned, center_mm), options.silhouette);
     if (other.status == SilhouetteStatus::kOk) best = std::move(other);
   }
   return best;
@@ -142,15 +143,18 @@ std::string settle_on_plane(const Eigen::Vector3d& center_mm, const PiecePoseOpt
 PiecePose find_piece(const std::vector<PieceView>& views, const CameraIntrinsics& intrinsics,
                      const Eigen::Vector3d& center_mm, const PiecePoseOptions& options) {
   if (views.empty()) throw std::invalid_argument("find_piece: no views");
+  std::vector<Silhouette> found(views.size());
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+    found[i] = silhouette_from_near(views[i], intrinsics, center_mm, options);
+  });
   std::vector<Seen> seen;
   PiecePose out;
-  for (const PieceView& view : views) {
-    const Silhouette found = silhouette_from_near(view, intrinsics, center_mm, options.silhouette);
-    if (found.status != SilhouetteStatus::kOk) {
-      out.problem = found.message;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (found[i].status != SilhouetteStatus::kOk) {
+      out.problem = found[i].message;
       return out;
     }
-    seen.push_back(seen_in(view, found, intrinsics, center_mm));
+    seen.push_back(seen_in(views[i], found[i], intrinsics, center_mm));
   }
   Seen piece;
   if (!combine_views(seen, center_mm, piece)) {
@@ -166,6 +170,7 @@ PiecePose find_piece(const std::vector<PieceView>& views, const CameraIntrinsics
                                             from_camera_mm.transpose();
   if (options.is_on_plane) out.problem = settle_on_plane(center_mm, options, piece);
   out.moved = piece.moved;
+  out.off = between({}, piece.moved, center_mm);
   out.covariance = piece.covariance;
   return out;
 }

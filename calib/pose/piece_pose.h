@@ -21,6 +21,9 @@ struct PieceView {
 
 struct PiecePoseOptions {
   SilhouetteOptions silhouette = {.search = 0.2};
+  // Where the outline is not found from the stated position, it is searched for from six others, 4
+  // degrees about the piece's axes.
+  bool may_be_turned = true;
   // Of all lengths of the mesh: a piece that is larger looks like one that is nearer.
   double scale_relative_std = 0;
   // The piece stands on a plane as stated: it is displaced along the world's x and y and turned
@@ -33,8 +36,9 @@ struct PiecePoseOptions {
 struct PiecePose {
   std::string problem;  // why it was not found; "" if it was
   Rigid3d moved;        // from the stated position to that found, both in the world
-  // Of (displacement of the piece's centre, mm; turn about it, rad), in world axes, from the
-  // position found to the true one.
+  // The same: (displacement of the piece's centre, mm; turn about it, rad), in world axes.
+  Eigen::Matrix<double, 6, 1> off = Eigen::Matrix<double, 6, 1>::Zero();
+  // Of the same from the position found to the true one.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 

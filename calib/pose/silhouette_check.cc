@@ -17,7 +17,15 @@ namespace scattermeter::calib {
 namespace {
 
 constexpr double kDriftDoubt = 1e-4;
-constexpr int kPaperBorder_px = 3;  // for the blur of the lens
+// Of the paper beside the body, px: for the blur of the lens, and where the body may stand by three
+// of its standard deviations.
+int paper_border_px(const ObjectScene& object, const CameraIntrinsics& intrinsics,
+                    const Rigid3d& camera_from_world) {
+  constexpr double kBlur_px = 3.0;
+  const double depth_mm = (camera_from_world * object.box.center_mm()).z();
+  return static_cast<int>(
+      std::ceil(kBlur_px + 3.0 * object.stated->position_std_mm * intrinsics.fx_px / depth_mm));
+}
 
 struct Shift {
   Eigen::Vector2d px;
@@ -113,7 +121,7 @@ EdgeShot edge_shot(const Scene& scene, const PoseSource& source, const ObjectSce
                                        w.y0, w.width, w.height)};
   if (source.charuco) {
     mask_paper(*source.charuco, *object.rays, scene.camera.intrinsics, camera_from_world,
-               kPaperBorder_px, out.samples);
+               paper_border_px(object, scene.camera.intrinsics, camera_from_world), out.samples);
   }
   return out;
 }

@@ -92,9 +92,8 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
         lens_root;
   }
   // One pose for all shots, or one per shot.
-  const std::string name = shot.has_own_pose ? "pose " + shot.stated->file : "pose";
   for (Eigen::Index k = 0; k < 6; ++k) {
-    columns.add(name + std::to_string(k), "pose", 1.0, by_pose_root.col(k));
+    columns.add(shot.pose_name() + std::to_string(k), "pose", 1.0, by_pose_root.col(k));
   }
   for (Eigen::Index k = 0; k < 2 && !shot.has_own_pose && scene_.shot_shift_std_px > 0.0; ++k) {
     columns.add(fmt::format("shift{} {}", k, shot.stated->file), "camera shift",

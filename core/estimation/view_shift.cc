@@ -58,23 +58,23 @@ PoseShift shift_like_lens(const ObservedShot& shot, const CameraIntrinsics& intr
   return unit.asDiagonal() * solver.solve(by_lens);
 }
 
-// Of the shot's sites across the line of sight, when the pose shifts.
-double rms_motion_mm(const ObservedShot& shot, const PoseShift& by) {
+}  // namespace
+
+double motion_in_patches(const ObservedShot& shot, const PoseShift& by) {
   const Rigid3d& pose = shot.pose.camera_from_world;
-  double sum = 0.0;
+  double squares_mm2 = 0.0;
   for (const ExitSite& site : shot.seen->sites) {
     const double depth_mm = (pose * site.center_mm).z();
-    sum += (depth_mm * ray_by_shift(pose, site.center_mm) * by).squaredNorm();
+    squares_mm2 += (depth_mm * ray_by_shift(pose, site.center_mm) * by).squaredNorm();
   }
-  return std::sqrt(sum / static_cast<double>(shot.seen->sites.size()));
+  return std::sqrt(squares_mm2 / static_cast<double>(shot.seen->sites.size())) /
+         shot.seen->patches->patch_size_mm();
 }
-
-}  // namespace
 
 PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
                               const std::vector<PriorPull>& pulls) {
   const ObjectScene& object = *shot.seen->object;
-  PoseShift out = covariance_root(shot.pose.covariance) * values_of("pose", 6, pulls);
+  PoseShift out = covariance_root(shot.pose.covariance) * values_of(shot.pose_name(), 6, pulls);
   out += pose_shift_by_place(shot.pose.camera_from_world, object.box.center_mm()) *
          values_of(object.stated->name + ".position", 6, pulls);
   for (const PriorPull& p : pulls) {
@@ -103,14 +103,12 @@ SeenElsewhere seen_elsewhere(const Scene& scene, std::span<const ObservedShot> s
   SeenElsewhere out;
   if (pulls.empty()) return out;
   for (const ObservedShot& shot : shots) {
-    if (shot.has_own_pose) return {};
     const PoseShift& now = shot.seen->shift;
-    const auto [it, is_new] = out.shifts.try_emplace(shot.stated->object, now);
+    const auto [it, is_new] = out.shifts.try_emplace(shot.view_name(), now);
     if (!is_new) continue;
     const PoseShift by = most_probable_shift(scene, shot, pulls) - now;
     it->second += step * by;
-    out.motion =
-        std::max(out.motion, rms_motion_mm(shot, by) / shot.seen->patches->patch_size_mm());
+    out.motion = std::max(out.motion, motion_in_patches(shot, by));
   }
   return out;
 }

@@ -16,7 +16,7 @@ namespace scattermeter {
 // The shift of the shot's pose relative to its object by the most probable values of pose, lens,
 // position and size of the object (`pulls`: those of all channels together; a quantity that is not
 // among them keeps its stated value). A change of the lens counts as that shift of the pose which
-// is nearest to it on the object. Precondition: the pose is common to all shots.
+// is nearest to it on the object.
 PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
                               const std::vector<PriorPull>& pulls);
 
@@ -25,9 +25,12 @@ PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
 // exactly enough: it is to be seen from elsewhere.
 inline constexpr double kVisibleMotion = 0.02;
 
+// The same of the shot's sites when its pose shifts, in patches.
+double motion_in_patches(const ObservedShot& shot, const PoseShift& by);
+
 struct SeenElsewhere {
-  double motion = 0;                        // of the object that moves most, in patches
-  std::map<std::string, PoseShift> shifts;  // by object: for the next view (see_all())
+  double motion = 0;                        // of the view that moves most, in patches
+  std::map<std::string, PoseShift> shifts;  // by ObservedShot::view_name(): for the next views
 };
 
 // Whether the images determine that they were taken from elsewhere: a quantity by which the view
@@ -35,8 +38,7 @@ struct SeenElsewhere {
 bool is_determined_elsewhere(const std::vector<PriorPull>& joint_pulls);
 
 // Where the shots show the objects to lie, against their views, by the pulls of all channels
-// together. The next view goes the share `step` of the way. Nothing without pulls, and for shots
-// with poses of their own.
+// together. The next view goes the share `step` of the way. Nothing without pulls.
 SeenElsewhere seen_elsewhere(const Scene& scene, std::span<const ObservedShot> shots,
                              const std::vector<PriorPull>& pulls, double step = 1.0);
 

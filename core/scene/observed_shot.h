@@ -58,6 +58,11 @@ struct ObservedShot : DecodedShot {
   PoseResult pose;
   bool has_own_pose = false;        // estimated from this shot alone; otherwise common to all shots
   std::size_t samples_outside = 0;  // in no object's rectangle: not converted
+
+  // The name of its view: shots of one object with a common pose have the same.
+  const std::string& view_name() const { return has_own_pose ? stated->file : stated->object; }
+  // The name of its pose among the nuisances, without the number of the combination.
+  std::string pose_name() const { return has_own_pose ? "pose " + stated->file : "pose"; }
 };
 
 }  // namespace scattermeter

@@ -1,5 +1,6 @@
 #include "core/scene/seen_object.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -19,10 +20,17 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
   seen->camera_center_mm = view.center_in_world_mm();
   // Standard deviations of the edges: they hardly reach farther.
   constexpr double kReachOfEdges = 3.0;
+  // Seen more slantingly, the surface under a sample moves by more than so many patches when the
+  // object is displaced by its standard deviation. Of a position that was found by outline, most of
+  // that is along the line of sight.
+  constexpr double kPatches = 2.0;
+  constexpr double kMostSlant = 0.15;
   SampleMapOptions options;
   if (!is_round(seen->object->mesh())) {
     options.edge_reach_mm = kReachOfEdges * seen->object->stated->edge_std_mm;
   }
+  options.least_cosine = std::min(kMostSlant, seen->object->stated->position_std_mm /
+                                                  (kPatches * seen->patches->patch_size_mm()));
   const RayGrid rays = rays_around(view, seen->object->mesh(), 2 * options.guard_px);
   seen->map = map_samples(rays, *seen->object->rays, *seen->patches,
                           seen->object->stated->eta_int_over_ext, options);

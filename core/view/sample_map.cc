@@ -151,7 +151,10 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
   tbb::parallel_for(0, rays.height, [&](int y) {
     for (int x = 0; x < rays.width; ++x) {
       const std::size_t i = surface.index(x, y);
-      if (surface.seen(i).patch < 0 || !surface.inside(x, y)) continue;
+      if (surface.seen(i).patch < 0 || surface.seen(i).cos_theta < options.least_cosine ||
+          !surface.inside(x, y)) {
+        continue;
+      }
       const double ft = transmittance.of(x, y);
       if (!(ft > 0.0)) continue;
       patch_of_sample[i] = surface.seen(i).patch;

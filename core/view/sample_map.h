@@ -38,6 +38,9 @@ struct SampleMapOptions {
   // Samples this near a convex crease or the body's own silhouette, along the surface, are left out
   // too: there, the edges of the piece may be cut back from those of the mesh.
   double edge_reach_mm = 0;
+  // Samples that see the surface at a smaller cosine to its normal are left out too: what they see
+  // depends on where exactly the object stands. In [0, 1).
+  double least_cosine = 0;
 };
 
 // The visible patches, each a row of the linear system, and the samples of each row.

@@ -51,6 +51,23 @@ TEST_F(CheckOutline, ADiagnosisCountsWhereItIsLargeEnough) {
   EXPECT_FALSE(check_outline(made_.checked)[0].passed);
 }
 
+// The object may stand elsewhere by as much as the rig states.
+TEST_F(CheckOutline, WithinTheStatedPosition) {
+  outline_->diagnosis.agrees = false;
+  OutlineFindings& looks = made_.checked.looks.emplace();
+  EXPECT_FALSE(check_outline(made_.checked)[0].passed);
+  looks.shifts["cube"] = PoseShift::Zero();
+  EXPECT_TRUE(check_outline(made_.checked)[0].passed);
+  looks.findings.push_back({"mesh displaced", "it lies elsewhere", "put it back", {}});
+  EXPECT_FALSE(check_outline(made_.checked)[0].passed);
+  // Before a board, where the search of the outline did not reach that far.
+  outline_->shots_found = 0;
+  made_.checked.shared_pose.reset();
+  const CheckItem item = check_outline(made_.checked)[0];
+  EXPECT_FALSE(item.passed);
+  EXPECT_EQ(item.advice, "it lies elsewhere; put it back");
+}
+
 TEST_F(CheckOutline, Drift) {
   outline_->drifts = true;
   outline_->drift_px = 0.1;

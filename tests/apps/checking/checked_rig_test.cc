@@ -1,5 +1,6 @@
 #include "apps/checking/checked_rig.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -7,7 +8,7 @@
 
 #include "core/base/input_error.h"
 #include "core/scene/default_uncertainty.h"
-#include "tests/fixtures/apps/small_rig.h"
+#include "tests/fixtures/apps/charuco_rig.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -52,6 +53,28 @@ TEST(CheckedRig, OpensTheShotsAndFitsThem) {
   EXPECT_EQ(checked.rig.scene.light("led1").led()->position_std_mm,
             default_uncertainty::kLedPosition_mm);
   EXPECT_EQ(checked.geometry->rig.scene.light("led1").led()->position_std_mm, 2.0);
+}
+
+// The piece stands 0.2 mm from where the rig puts it, which states 0.1 mm for each coordinate.
+TEST(CheckedRig, LooksFromWhereAPieceBesideABoardStands) {
+  CharucoRig files("POM_pyramid");
+  files.simulate();
+  const auto checked_at = [&](const Rig& rig) {
+    const CheckedRig checked = open_checked_rig(rig, files.shots(), {});
+    EXPECT_TRUE(checked.findings().empty());
+    EXPECT_EQ(checked.fit.channels.size(), 3U);
+    double worst = 0.0;
+    for (const CheckedChannel& c : checked.fit.channels) {
+      EXPECT_TRUE(c.departures.has_value());
+      if (!c.departures) continue;
+      for (const double r : c.departures->residual_relative) worst = std::max(worst, r);
+    }
+    return worst;
+  };
+  const double exact = checked_at(read_rig(files.rig()));
+  files.write(replaced(files.text(), "pyramid.obj, eta: 1.4}",
+                       "pyramid.obj, eta: 1.4, pose: {position_mm: [0.2, 0, 0]}}"));
+  EXPECT_LT(checked_at(read_rig(files.rig())), 1.5 * exact);
 }
 
 TEST(CheckedRig, RefusesWhatMeasureRefuses) {

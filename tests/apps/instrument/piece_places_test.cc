@@ -8,7 +8,7 @@
 
 #include "apps/instrument/measure.h"
 #include "core/base/input_error.h"
-#include "tests/fixtures/apps/small_rig.h"
+#include "tests/fixtures/apps/charuco_rig.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -120,6 +120,62 @@ TEST(PieceMoved, BetweenItsShots) {
   ASSERT_GE(m.notes.size(), 2U);
   EXPECT_THAT(m.notes[0], HasSubstr("cube in POM_cube_1.dng was found by its outline [2.0"));
   EXPECT_THAT(m.notes[1], HasSubstr("cube in POM_cube_2.dng was found by its outline [-1.5"));
+}
+
+// A board in every shot tells where the camera is, and the outline where the piece is.
+class PieceBesideBoardTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    files_ = new CharucoRig("POM_pyramid");
+    // In front of the pyramid, not below it.
+    files_->write(replaced(replaced(files_->text(), "squares: [10, 8]", "squares: [10, 7]"),
+                           "origin_mm: [-30, -22, 0]", "origin_mm: [-30, -60, 0]"));
+    files_->write(replaced(files_->text(), "[0, -100, 150], look_at_mm: [0, 0, 9]",
+                           "[-14, -256, 173], look_at_mm: [0, -25, 5]"));
+    text_ = new std::string(files_->text());
+    files_->simulate();
+  }
+  static void TearDownTestSuite() {
+    delete files_;
+    delete text_;
+  }
+  static Measurement measured_at(const std::string& position_mm) {
+    files_->write(replaced(*text_, "pyramid.obj, eta: 1.4}",
+                           "pyramid.obj, eta: 1.4, pose: {position_mm: " + position_mm + "}}"));
+    return measure(read_rig(files_->rig()), files_->shots(), {});
+  }
+  static CharucoRig* files_;
+  static std::string* text_;
+};
+CharucoRig* PieceBesideBoardTest::files_ = nullptr;
+std::string* PieceBesideBoardTest::text_ = nullptr;
+
+// 0.25 mm off, where the rig states 0.1 mm for each coordinate.
+TEST_F(PieceBesideBoardTest, IsSeenWhereItStands) {
+  const Measurement off = measured_at("[0.15, -0.2, 0]");
+  const Measurement exact = measured_at("[0, 0, 0]");
+  const auto& truth = read_rig(files_->rig()).truth.materials.at("POM");
+  ASSERT_THAT(off.results, SizeIs(3));
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Estimate& e = off.results[c].estimate;
+    EXPECT_FALSE(off.results[c].refused()) << ::testing::PrintToString(e.reasons);
+    const Quantity& s = e.sigma_s_prime_per_mm;
+    EXPECT_NEAR(s.value, truth[c].sigma_s_prime_per_mm, 3.0 * s.std);
+    EXPECT_NEAR(e.sigma_a_per_mm.value, truth[c].sigma_a_per_mm, 3.0 * e.sigma_a_per_mm.std);
+    // The other view has other patches beside the edges.
+    const Quantity& of_exact = exact.results[c].estimate.sigma_s_prime_per_mm;
+    EXPECT_NEAR(s.value, of_exact.value, 1.5 * s.std);
+    EXPECT_LT(s.std, 1.3 * of_exact.std);
+  }
+}
+
+TEST_F(PieceBesideBoardTest, IsRefusedByNameFartherOff) {
+  for (const ChannelResult& r : measured_at("[2, 0, 0]").results) {
+    ASSERT_TRUE(r.refused());
+    EXPECT_THAT(r.estimate.reasons.front(),
+                HasSubstr("mesh displaced: by its outline, pyramid stands [-"));
+    EXPECT_EQ(r.estimate.sigma_s_prime_per_mm.value, 0.0);  // before any fit
+  }
 }
 
 }  // namespace

@@ -54,6 +54,25 @@ TEST_F(SeenShotsTest, OpensFromWhereTheObjectIsSeen) {
   EXPECT_TRUE(shots->kept().weights.contains({shot.seen.get(), shot.stated->lights.at(0), 0}));
 }
 
+// Each from its own pose, of which only the shift changes.
+TEST_F(SeenShotsTest, OpensShotsWithTheirOwnPosesFromElsewhere) {
+  setup_.rig.pose.refine_by_silhouette = setup_.rig.pose.per_shot = true;
+  const auto shots = seen(std::nullopt);
+  shots->open();
+  const std::vector<ObservedShot> before = shots->shots();
+  PoseShift shift = PoseShift::Zero();
+  shift[3] = 1.0;
+  shots->open_from({{before[0].stated->file, shift}});
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const ObservedShot& shot = shots->shots()[i];
+    EXPECT_TRUE(shot.has_own_pose);
+    EXPECT_EQ(shot.pose.camera_from_world.translation_mm,
+              before[i].pose.camera_from_world.translation_mm);
+    EXPECT_EQ(shot.seen->shift, i == 0 ? shift : PoseShift(PoseShift::Zero()));
+    EXPECT_EQ(shot.observation.channel[1].l == before[i].observation.channel[1].l, i != 0);
+  }
+}
+
 // The light of the view is whole after a shot that could not be read, for the next one.
 TEST_F(SeenShotsTest, AnUnreadableShotLeavesNoHalfLight) {
   seen(setup_.view)->open();

@@ -102,8 +102,19 @@ TEST_F(ViewShiftTest, IsVisibleAgainstThePatch) {
       see(cube_.scene, cube_.objects, cube_.lit, "cube", shot().pose, far.shifts.at("cube"));
   EXPECT_LT(seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2)).motion, 1e-9);
   EXPECT_EQ(seen_elsewhere(cube_.scene, cube_.shots, {}).motion, 0.0);
+}
+
+// By its file, and moved by its own pose.
+TEST_F(ViewShiftTest, AShotWithItsOwnPoseHasItsOwnView) {
   cube_.shots[0].has_own_pose = true;
-  EXPECT_EQ(seen_elsewhere(cube_.scene, cube_.shots, at_side(0.5)).motion, 0.0);
+  const SeenElsewhere moved = seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2));
+  ASSERT_EQ(moved.shifts.size(), cube_.shots.size());
+  EXPECT_NEAR(moved.shifts.at(shot().stated->file).tail<3>().norm(), 0.2, 1e-3);
+  EXPECT_EQ(most_probable_shift(cube_.scene, shot(), {{"pose3", "pose", 0.0, 1.0}}).norm(), 0.0);
+  EXPECT_GT(most_probable_shift(cube_.scene, shot(),
+                                {{"pose " + shot().stated->file + "3", "pose", 0.0, 1.0}})
+                .norm(),
+            0.0);
 }
 
 }  // namespace
