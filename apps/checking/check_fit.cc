@@ -14,6 +14,7 @@
 
 #include "apps/checking/edge_rows.h"
 #include "apps/checking/transport_departures.h"
+#include "apps/instrument/fitted_view.h"
 #include "capture/shots/shot_samples.h"
 #include "core/base/progress.h"
 #include "core/base/stopwatch.h"
@@ -248,8 +249,6 @@ void compare_objects(LightLook& look, const Estimation& e, const capture::ShotDe
 CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotSource& source,
                        SeenShots& seen, LitObjects& lit, Progress* progress) {
   constexpr int kMostViews = 4;
-  constexpr int kWholeSteps = 2;
-  constexpr double kHalf = 0.5;
   EstimateOptions options;
   options.keep_rows = true;
   options.time_limit_s = kTransport_s;
@@ -262,8 +261,8 @@ CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotS
                  progress);
     std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
     estimate_dipole(e, &systems);
-    const SeenElsewhere elsewhere = seen_elsewhere(
-        rig.scene, shots, joint_pulls_of(e.results).pulls, views <= kWholeSteps ? 1.0 : kHalf);
+    const SeenElsewhere elsewhere =
+        seen_elsewhere(rig.scene, shots, joint_pulls_of(e.results).pulls, view_step(views));
     if (views < kMostViews && elsewhere.motion > kVisibleMotion) {
       seen.open_from(elsewhere.shifts);
       continue;

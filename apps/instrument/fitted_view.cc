@@ -19,6 +19,12 @@ constexpr const char* kUnsettledReason =
 
 }  // namespace
 
+double view_step(int views) {
+  constexpr int kWholeSteps = 2;
+  constexpr double kHalf = 0.5;
+  return views <= kWholeSteps ? 1.0 : kHalf;
+}
+
 std::vector<ChannelResult> fitted_from_where_seen(
     const Scene& scene, SeenShots& seen, EstimateOptions options,
     const std::function<std::vector<ChannelResult>(const EstimateOptions&)>& fit,
@@ -27,9 +33,6 @@ std::vector<ChannelResult> fitted_from_where_seen(
   // Where the dipole does not describe the medium, its misfit may move the object from fit to fit:
   // after so many, transport looks from the stated position.
   constexpr int kMostByDipole = 4;
-  // Round bodies approach their place in turns from either side.
-  constexpr int kWholeSteps = 2;
-  constexpr double kHalf = 0.5;
   constexpr double kUnsettled = 2.0 * kVisibleMotion;
   // Paths are traced anew for the larger motions only, beyond what the paths' own noise makes up,
   // and once.
@@ -43,7 +46,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
   bool is_stated = false;     // the view is back where the rig says
   for (int views = 1;; ++views) {
     const auto from = [&](const JointJudgement& joint) {
-      return seen_elsewhere(scene, seen.shots(), joint.pulls, views <= kWholeSteps ? 1.0 : kHalf);
+      return seen_elsewhere(scene, seen.shots(), joint.pulls, view_step(views));
     };
     const bool is_last = views == kMostViews || by_transport;
     SeenElsewhere found;

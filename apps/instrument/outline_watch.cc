@@ -11,6 +11,7 @@
 
 #include "apps/instrument/closer_look.h"
 #include "apps/instrument/outline_finding.h"
+#include "apps/instrument/piece_places.h"
 #include "core/mesh/creases.h"
 #include "core/view/camera_view.h"
 
@@ -238,6 +239,19 @@ void OutlineWatch::conclude(const Looks& looks, OutlineFindings& out) const {
   out.findings.push_back(finding);
 }
 
+// The quick look hardly tells how far along the line of sight a displaced object stands.
+void OutlineWatch::say_exactly(const capture::FrameSource& frames, OutlineFindings& out) const {
+  const calib::OutlineExplanation& best = out.diagnosis->explanations.at(1);
+  if (best.cause != OutlineCause::kMeshDisplaced && best.cause != OutlineCause::kMeshMisplaced) {
+    return;
+  }
+  Finding& told = out.findings.back();
+  if (std::optional<Finding> exact =
+          misplaced_piece(rig_, objects_, names_[best.which], pose_, told.shots, frames)) {
+    told = std::move(*exact);
+  }
+}
+
 OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const {
   OutlineFindings out;
   const auto* frames = std::get_if<capture::FrameSource>(&source.open);
@@ -260,6 +274,8 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
       closer_look_agrees(rig_, objects_, pose_, *frames, out.findings.back().shots)) {
     out.findings.pop_back();
     out.diagnosis->agrees = true;
+  } else if (out.findings.size() > others) {
+    say_exactly(*frames, out);
   }
   return out;
 }

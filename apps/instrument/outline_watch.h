@@ -61,6 +61,7 @@ class OutlineWatch {
                                      calib::OutlineDiagnosis first,
                                      std::vector<std::size_t>& looked_at) const;
   void conclude(const Looks& looks, OutlineFindings& out) const;
+  void say_exactly(const capture::FrameSource& frames, OutlineFindings& out) const;
 
   const Rig& rig_;
   const ObjectScenes& objects_;

@@ -32,8 +32,8 @@ namespace {
 
 constexpr std::size_t kShots = 4;
 
-const SceneShot& stated(const SceneShot& shot) { return shot; }
-const SceneShot& stated(const ObservedShot& shot) { return *shot.stated; }
+const SceneShot& in_scene(const SceneShot& shot) { return shot; }
+const SceneShot& in_scene(const ObservedShot& shot) { return *shot.stated; }
 
 // Of the object, first those under lights that no earlier one has.
 template <class Shot>
@@ -41,8 +41,8 @@ std::vector<const Shot*> shots_of(const std::vector<Shot>& shots, const std::str
   std::vector<const Shot*> out, others;
   std::set<std::vector<std::string>> lights;
   for (const Shot& shot : shots) {
-    if (stated(shot).object != object) continue;
-    (lights.insert(stated(shot).lights).second ? out : others).push_back(&shot);
+    if (in_scene(shot).object != object) continue;
+    (lights.insert(in_scene(shot).lights).second ? out : others).push_back(&shot);
   }
   out.insert(out.end(), others.begin(), others.end());
   out.resize(std::min(out.size(), kShots));
@@ -101,9 +101,9 @@ Eigen::Matrix<double, 6, 6> stated_covariance(const ObjectScene& object) {
   return std.cwiseAbs2().asDiagonal();
 }
 
-// Without shots; absent for an object that stands as stated.
+// Without shots; absent for an object that stands as stated. by_points: the camera's pose is.
 std::optional<Finding> misplaced(const std::string& name, const calib::PiecePose& found,
-                                 const Eigen::Matrix<double, 6, 6>& stated) {
+                                 const Eigen::Matrix<double, 6, 6>& stated, bool by_points) {
   constexpr double kDoubt = 1e-4;
   const Eigen::Matrix<double, 6, 6> expected = stated + found.covariance;
   if (chi_square_tail(found.off.dot(SymmetricSolver(expected).solve(found.off)), 6.0) > kDoubt) {
@@ -115,9 +115,34 @@ std::optional<Finding> misplaced(const std::string& name, const calib::PiecePose
                   "mm from where the rig states it, turned by {:.1f} degrees",
                   name, found.off[0], found.off[1], found.off[2], degrees(found.off.tail<3>())),
       fmt::format("put the object back, or have it found by its outline "
-                  "(objects.{}.pose: {{from: silhouette}})",
-                  name),
+                  "(objects.{}.pose: {{from: silhouette}}){}",
+                  name, by_points ? "; if the camera was moved, take the pose points again" : ""),
       {}};
+}
+
+struct ShotsOfPose {
+  PoseResult camera;
+  std::vector<std::size_t> shots;  // indices into the scene's
+};
+
+// By the outline of an object about where it is stated to stand.
+calib::PiecePose found_near(const Rig& rig, const ObjectScenes& objects, const ObjectScene& object,
+                            const std::vector<ShotsOfPose>& poses,
+                            const capture::FrameSource& frames) {
+  constexpr double kNear = 0.08;  // of the frame's width: 5 mm on an object that fills a third
+  calib::PiecePoseOptions options = options_for(rig, object);
+  options.silhouette.search = kNear;
+  options.may_be_turned = false;
+  std::vector<calib::PieceView> views(poses.size());
+  tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
+    views[i].camera = poses[i].camera;
+    for (const std::size_t idx : poses[i].shots) {
+      views[i].shots.push_back(calib::edge_shot(rig.scene, rig.pose, objects, rig.scene.shots[idx],
+                                                frames(idx, 0), poses[i].camera.camera_from_world,
+                                                options.silhouette));
+    }
+  });
+  return calib::find_piece(views, rig.scene.camera.intrinsics, object.box.center_mm(), options);
 }
 
 }  // namespace
@@ -162,26 +187,15 @@ PieceFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
   const auto idx_of = [&](const ObservedShot& shot) {
     return static_cast<std::size_t>(shot.stated - rig.scene.shots.data());
   };
-  constexpr double kNear = 0.08;  // of the frame's width: 5 mm on an object that fills a third
   PieceFindings out;
   bool moves = false;
   for (const auto& [name, object] : objects) {
     const std::vector<const ObservedShot*> telling = shots_of(shots, name);
-    if (telling.empty() || is_round(object.mesh())) continue;
-    calib::PiecePoseOptions options = options_for(rig, object);
-    options.silhouette.search = kNear;
-    options.may_be_turned = false;
-    std::vector<calib::PieceView> views(telling.size());
-    tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
-      const ObservedShot& shot = *telling[i];
-      views[i].camera = shot.pose;
-      views[i].shots.push_back(calib::edge_shot(rig.scene, rig.pose, objects, *shot.stated,
-                                                frames(idx_of(shot), 0),
-                                                shot.pose.camera_from_world, options.silhouette));
-    });
-    const Eigen::Vector3d center_mm = object.box.center_mm();
-    const calib::PiecePose found =
-        calib::find_piece(views, rig.scene.camera.intrinsics, center_mm, options);
+    // Those to be found stand where their outline showed them already.
+    if (telling.empty() || is_round(object.mesh()) || object.stated->to_be_found) continue;
+    std::vector<ShotsOfPose> views;
+    for (const ObservedShot* shot : telling) views.push_back({shot->pose, {idx_of(*shot)}});
+    const calib::PiecePose found = found_near(rig, objects, object, views, frames);
     if (!found.problem.empty()) {
       out.notes.push_back(
           fmt::format("outline of {} is not judged, so pose and mesh are not checked: {}", name,
@@ -189,7 +203,7 @@ PieceFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
       continue;
     }
     const Eigen::Matrix<double, 6, 6> stated = stated_covariance(object);
-    std::optional<Finding> finding = misplaced(name, found, stated);
+    std::optional<Finding> finding = misplaced(name, found, stated, false);
     const Eigen::Matrix<double, 6, 1> probable =
         stated * SymmetricSolver(stated + found.covariance).solve(found.off);
     for (const ObservedShot& shot : shots) {
@@ -198,13 +212,28 @@ PieceFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
         finding->shots.push_back(idx_of(shot));
       } else {
         const PoseShift& by = out.shifts[shot.stated->file] =
-            pose_shift_by_place(shot.pose.camera_from_world, center_mm) * probable;
+            pose_shift_by_place(shot.pose.camera_from_world, object.box.center_mm()) * probable;
         moves = moves || motion_in_patches(shot, by) > kVisibleMotion;
       }
     }
     if (finding) out.findings.push_back(std::move(*finding));
   }
   if (!moves) out.shifts.clear();
+  return out;
+}
+
+std::optional<Finding> misplaced_piece(const Rig& rig, const ObjectScenes& objects,
+                                       const std::string& object, const PoseResult& pose,
+                                       std::vector<std::size_t> shots,
+                                       const capture::FrameSource& frames) {
+  const ObjectScene& stated = objects.at(object);
+  std::vector<std::size_t> telling = shots;
+  telling.resize(std::min(telling.size(), kShots));
+  const calib::PiecePose found =
+      found_near(rig, objects, stated, {{pose, std::move(telling)}}, frames);
+  std::optional<Finding> out;
+  if (found.problem.empty()) out = misplaced(object, found, stated_covariance(stated), true);
+  if (out) out->shots = std::move(shots);
   return out;
 }
 

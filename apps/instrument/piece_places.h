@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,18 @@ struct PieceFindings {
   std::map<std::string, PoseShift> shifts;
 };
 
-// By up to four shots of each object. Not judged: objects without straight edges, and those whose
-// outline is not found or differs between the shots. Takes some
-// tenths of a second a shot. frames: of the source of the shots.
+// By up to four shots of each object. Not judged: objects without straight edges, those that are to
+// be found, and those whose outline is not found or differs between the shots. Takes some tenths of
+// a second a shot. frames: of the source of the shots.
 PieceFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
                              const std::vector<ObservedShot>& shots,
                              const capture::FrameSource& frames);
+
+// The same for one object in shots from a common pose; absent where it is not judged or stands as
+// stated. shots: indices into the scene's, not empty.
+std::optional<Finding> misplaced_piece(const Rig& rig, const ObjectScenes& objects,
+                                       const std::string& object, const PoseResult& pose,
+                                       std::vector<std::size_t> shots,
+                                       const capture::FrameSource& frames);
 
 }  // namespace scattermeter::apps
