@@ -150,12 +150,14 @@ PiecePose find_piece(const std::vector<PieceView>& views, const CameraIntrinsics
   std::vector<Seen> seen;
   PiecePose out;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (found[i].status != SilhouetteStatus::kOk) {
+    if (found[i].status == SilhouetteStatus::kOk) {
+      seen.push_back(seen_in(views[i], found[i], intrinsics, center_mm));
+    } else {
       out.problem = found[i].message;
-      return out;
     }
-    seen.push_back(seen_in(views[i], found[i], intrinsics, center_mm));
   }
+  if (seen.empty()) return out;
+  out.problem.clear();
   Seen piece;
   if (!combine_views(seen, center_mm, piece)) {
     out.problem =

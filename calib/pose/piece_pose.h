@@ -43,11 +43,12 @@ struct PiecePose {
 };
 
 // The silhouettes of each view (find_silhouette()) give the piece's pose relative to the camera;
-// with the camera's own pose, its pose in the world. Views are combined by their information, and a
-// plane by that of its height and tilt. center_mm: of the piece as stated, world. A problem is
-// reported where an outline is not found, where views contradict each other, or a piece its plane
-// (p below 1e-6). A body that looks the same after a turn is found in the position next to the
-// stated one. Throws std::invalid_argument without views and for options out of range.
+// with the camera's own pose, its pose in the world. Views are combined by their information,
+// without those in which no outline is found, and a plane by that of its height and tilt.
+// center_mm: of the piece as stated, world. A problem is reported where no view shows an outline,
+// where views contradict each other, or a piece its plane (p below 1e-6). A body that looks the
+// same after a turn is found in the position next to the stated one. Throws std::invalid_argument
+// without views and for options out of range.
 PiecePose find_piece(const std::vector<PieceView>& views, const CameraIntrinsics& intrinsics,
                      const Eigen::Vector3d& center_mm, const PiecePoseOptions& options = {});
 

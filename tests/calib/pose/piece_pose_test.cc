@@ -137,6 +137,19 @@ TEST_F(PiecePoseStatistics, AnUncertainSizeWidensTheDistance) {
   EXPECT_NEAR(added.trace(), 1.8 * 1.8, 0.05);
 }
 
+TEST_F(PiecePoseStatistics, AViewWithoutAnOutlineIsLeftOut) {
+  std::mt19937_64 random(6);
+  const Rigid3d truth = motion({1, 0, 0}, {0, 0, 0.02});
+  const PieceView seen = view(cube_view(), truth, 1e-4, &random);
+  PieceView dark = seen;
+  for (float& v : dark.shots[0].samples.signal_counts) v = 1.0F;
+  const PiecePose alone = find_piece({seen}, lens_, kCenter, exact_);
+  const PiecePose both = find_piece({dark, seen}, lens_, kCenter, exact_);
+  EXPECT_EQ(both.problem, "");
+  EXPECT_EQ(both.off, alone.off);
+  EXPECT_NE(find_piece({dark}, lens_, kCenter, exact_).problem, "");
+}
+
 // Two views are better than one, unless the piece was moved between them.
 TEST_F(PiecePoseStatistics, ViewsAgree) {
   std::mt19937_64 random(5);
