@@ -167,7 +167,7 @@ std::vector<bool> judged_channels(Estimation& e,
   std::set<const ObservedShot*> explained;
   for (const Finding& f : findings) {
     for (const ObservedShot& shot : shots) {
-      const auto idx = static_cast<std::size_t>(shot.stated - e.scene.shots.data());
+      const std::size_t idx = e.scene.index_of(*shot.stated);
       if (std::find(f.shots.begin(), f.shots.end(), idx) != f.shots.end()) explained.insert(&shot);
     }
   }

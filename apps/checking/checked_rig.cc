@@ -174,40 +174,27 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   SeenShots seen(loose, geometry->objects, *geometry->lit, source, std::move(view), false,
                  std::nullopt, kept, options.progress);
   seen.open();
-  out.shots = seen.whole();
-  out.frames.resize(out.shots.size());
+  const auto& frames = std::get<capture::FrameSource>(source.open);
+  out.frames.resize(seen.whole().size());
   std::optional<OutlineWatch> watch;
   if (out.shared_pose) watch.emplace(loose, geometry->objects, *out.shared_pose);
-  ProgressStage stage(options.progress, "looking at shots", out.shots.size());
-  tbb::parallel_for(std::size_t{0}, out.shots.size(), [&](std::size_t i) {
-    const capture::RawFrame frame =
-        std::get<capture::FrameSource>(source.open)(source.shot_idxs[i], 0);
-    out.frames[i] = checked_frame(frame, loose, out.shots[i], options);
+  ProgressStage stage(options.progress, "looking at shots", out.frames.size());
+  tbb::parallel_for(std::size_t{0}, out.frames.size(), [&](std::size_t i) {
+    const capture::RawFrame frame = frames(source.shot_idxs[i], 0);
+    out.frames[i] = checked_frame(frame, loose, seen.whole()[i], options);
     if (watch) watch->look(source.shot_idxs[i], frame);
     stage.step();
   });
-  if (watch) {
-    out.looks = watch->findings(source);
-  } else if (loose.pose.charuco) {
-    PieceFindings pieces = look_at_pieces(loose, geometry->objects, out.shots,
-                                          std::get<capture::FrameSource>(source.open));
-    out.looks = OutlineFindings{std::move(pieces.findings),
-                                std::move(pieces.notes),
-                                std::move(pieces.shifts),
-                                std::nullopt,
-                                {}};
-  }
-  if (out.looks) {
-    out.notes.insert(out.notes.end(), out.looks->notes.begin(), out.looks->notes.end());
-    // `measure` begins there, too.
-    if (!out.looks->shifts.empty()) seen.open_from(out.looks->shifts);
-    out.shots = seen.whole();
-  }
+  out.looks = watch ? watch->findings(source)
+                    : look_at_pieces(loose, geometry->objects, seen.whole(), frames);
+  out.notes.insert(out.notes.end(), out.looks->notes.begin(), out.looks->notes.end());
+  // `measure` begins there, too.
+  if (!out.looks->shifts.empty()) seen.open_from(out.looks->shifts);
   if (rig.lens) out.lens = *rig.lens;
-  out.outline = checked_outline(*geometry, source, out);
   out.leds = checked_leds(rig, shots_folder);
   out.fit = fit_for_check(rig.scene, loose, source, seen, *geometry->lit, options.progress);
   out.shots = seen.whole();
+  out.outline = checked_outline(*geometry, source, out);
   if (!rig.scene.camera.responsivity) {
     out.notes.emplace_back(
         "no responsivity in the rig: the scale is free, sigma_a will be uncertain");

@@ -34,7 +34,7 @@ void refuse(const Scene& scene, const std::vector<Finding>& findings, Estimation
   for (std::size_t i = 0; i < estimation.results.size(); ++i) {
     std::set<std::size_t> own;
     for (const ObservedShot* shot : estimation.channels[i].shots) {
-      own.insert(static_cast<std::size_t>(shot->stated - scene.shots.data()));
+      own.insert(scene.index_of(*shot->stated));
     }
     std::size_t reasons = 0;
     for (const Finding& f : findings) {

@@ -209,10 +209,8 @@ FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
   } else {
     seen.open();
     if (const auto* frames = std::get_if<capture::FrameSource>(&source.open); rig_.pose.charuco) {
-      PieceFindings pieces = look_at_pieces(rig_, objects_, seen.shots(), *frames);
-      outlines.findings = std::move(pieces.findings);
-      outlines.notes = std::move(pieces.notes);
-      if (!pieces.shifts.empty()) seen.open_from(pieces.shifts);
+      outlines = look_at_pieces(rig_, objects_, seen.shots(), *frames);
+      if (!outlines.shifts.empty()) seen.open_from(outlines.shifts);
     }
   }
   watch.lap("shots");

@@ -47,7 +47,7 @@ std::string number(double factor) {
 }  // namespace
 
 std::size_t LightLook::index_of(std::size_t shot) const {
-  return static_cast<std::size_t>(shots_[shot].stated - scene_.shots.data());
+  return scene_.index_of(*shots_[shot].stated);
 }
 
 void LightLook::find_exchanged(const std::vector<ShotLikeness>& likeness,

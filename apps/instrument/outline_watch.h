@@ -20,8 +20,8 @@ namespace scattermeter::apps {
 struct OutlineFindings {
   std::vector<Finding> findings;  // the most probable first
   std::vector<std::string> notes;
-  // By object, if the outlines show where the objects stand within the rig's uncertainty: the shift
-  // of the pose relative to them. Empty otherwise.
+  // By ObservedShot::view_name(), if the outlines show where the objects stand within the rig's
+  // uncertainty: the shift of the pose relative to them. Empty otherwise.
   std::map<std::string, PoseShift> shifts;
   // Absent without a shot whose outline was seen.
   std::optional<calib::OutlineDiagnosis> diagnosis;

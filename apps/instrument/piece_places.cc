@@ -181,20 +181,19 @@ std::vector<std::string> place_pieces(Rig& rig, const std::string& shots_folder,
   return out;
 }
 
-PieceFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
-                             const std::vector<ObservedShot>& shots,
-                             const capture::FrameSource& frames) {
-  const auto idx_of = [&](const ObservedShot& shot) {
-    return static_cast<std::size_t>(shot.stated - rig.scene.shots.data());
-  };
-  PieceFindings out;
+OutlineFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
+                               const std::vector<ObservedShot>& shots,
+                               const capture::FrameSource& frames) {
+  OutlineFindings out;
   bool moves = false;
   for (const auto& [name, object] : objects) {
     const std::vector<const ObservedShot*> telling = shots_of(shots, name);
     // Those to be found stand where their outline showed them already.
     if (telling.empty() || is_round(object.mesh()) || object.stated->to_be_found) continue;
     std::vector<ShotsOfPose> views;
-    for (const ObservedShot* shot : telling) views.push_back({shot->pose, {idx_of(*shot)}});
+    for (const ObservedShot* shot : telling) {
+      views.push_back({shot->pose, {rig.scene.index_of(*shot->stated)}});
+    }
     const calib::PiecePose found = found_near(rig, objects, object, views, frames);
     if (!found.problem.empty()) {
       out.notes.push_back(
@@ -209,9 +208,9 @@ PieceFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
     for (const ObservedShot& shot : shots) {
       if (shot.stated->object != name) continue;
       if (finding) {
-        finding->shots.push_back(idx_of(shot));
+        finding->shots.push_back(rig.scene.index_of(*shot.stated));
       } else {
-        const PoseShift& by = out.shifts[shot.stated->file] =
+        const PoseShift& by = out.shifts[shot.view_name()] =
             pose_shift_by_place(shot.pose.camera_from_world, object.box.center_mm()) * probable;
         moves = moves || motion_in_patches(shot, by) > kVisibleMotion;
       }

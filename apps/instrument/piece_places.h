@@ -1,16 +1,15 @@
 // Pieces put where the shots show them.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/instrument/finding.h"
+#include "apps/instrument/outline_watch.h"
 #include "apps/rig/rig.h"
 #include "capture/shots/shot_source.h"
 #include "core/base/progress.h"
-#include "core/camera/pose_shift.h"
 #include "core/scene/object_scene.h"
 #include "core/scene/observed_shot.h"
 
@@ -25,23 +24,16 @@ namespace scattermeter::apps {
 std::vector<std::string> place_pieces(Rig& rig, const std::string& shots_folder,
                                       Progress* progress = nullptr);
 
-// What the outlines of the objects say in shots that have their own poses.
-struct PieceFindings {
-  // Objects that stand elsewhere than position_std_mm, the size of the mesh and the outline's own
-  // errors allow (p below 1e-4).
-  std::vector<Finding> findings;
-  std::vector<std::string> notes;  // objects that are not judged
-  // By file: the shift of the pose relative to the object in its most probable position, by outline
-  // and rig. Empty if that moves no view visibly (kVisibleMotion).
-  std::map<std::string, PoseShift> shifts;
-};
-
-// By up to four shots of each object. Not judged: objects without straight edges, those that are to
-// be found, and those whose outline is not found or differs between the shots. Takes some tenths of
-// a second a shot. frames: of the source of the shots.
-PieceFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
-                             const std::vector<ObservedShot>& shots,
-                             const capture::FrameSource& frames);
+// What the outlines of the objects say in shots that have their own poses, without a diagnosis, by
+// up to four shots of each object: those that stand elsewhere than position_std_mm, the size of the
+// mesh and the outline's own errors allow (p below 1e-4); for the others the shifts to their most
+// probable position, by outline and rig, where these move a view visibly (kVisibleMotion). Not
+// judged: objects without straight edges, those that are to be found, and those whose outline is
+// not found or differs between the shots. Takes some tenths of a second a shot. frames: of the
+// source of the shots.
+OutlineFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
+                               const std::vector<ObservedShot>& shots,
+                               const capture::FrameSource& frames);
 
 // The same for one object in shots from a common pose; absent where it is not judged or stands as
 // stated. shots: indices into the scene's, not empty.

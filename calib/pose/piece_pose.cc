@@ -152,12 +152,12 @@ PiecePose find_piece(const std::vector<PieceView>& views, const CameraIntrinsics
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (found[i].status == SilhouetteStatus::kOk) {
       seen.push_back(seen_in(views[i], found[i], intrinsics, center_mm));
-    } else {
-      out.problem = found[i].message;
     }
   }
-  if (seen.empty()) return out;
-  out.problem.clear();
+  if (seen.empty()) {
+    out.problem = found.back().message;
+    return out;
+  }
   Seen piece;
   if (!combine_views(seen, center_mm, piece)) {
     out.problem =

@@ -154,6 +154,10 @@ struct Scene {
 
   const SceneObject& object(const std::string& name) const;  // std::out_of_range
   const SceneLight& light(const std::string& name) const;    // std::out_of_range
+  // Of one of `shots`.
+  std::size_t index_of(const SceneShot& shot) const {
+    return static_cast<std::size_t>(&shot - shots.data());
+  }
   // Materials in the order of their first shot.
   std::vector<std::string> materials() const;
   // The names of the objects that have shots.

@@ -1,5 +1,6 @@
 #include "core/scene/seen_object.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -28,6 +29,28 @@ TEST(SeenObject, RowsLieOnFacetsThatFaceTheCamera) {
     const bool in_front = std::abs(site_mm.y() + 10.0) < 1e-4;
     EXPECT_TRUE(on_top || in_front) << site_mm.transpose();
   }
+}
+
+// The front is seen at a cosine of 0.1, the top at 0.99. Displaced by 0.5 mm, what is seen of the
+// front moves by 5 mm, more than two patches of 2 mm; by 0.2 mm, by 2 mm.
+TEST(SeenObject, FacesWhoseSeenPointsAreUncertainHaveNoRows) {
+  const auto sees_front = [](double position_std_mm) {
+    Scene scene = test_support::cube_scene();
+    scene.objects.at(0).position_std_mm = position_std_mm;
+    const ObjectScenes objects = test_support::cube_objects(scene);
+    const LitObjects lit(scene, objects, 2.0, 0.0);
+    PoseResult pose = test_support::cube_pose();
+    pose.camera_from_world = look_at({0, -27, 180}, {0, 0, 10}, {0, 1, 0});
+    const SharedView view = see_all(scene, objects, lit, pose);
+    const SeenObject& seen = *view.objects.at("cube");
+    EXPECT_GT(seen.sites.size(), 50U);
+    return std::any_of(seen.sites.begin(), seen.sites.end(), [](const ExitSite& site) {
+      return std::abs(site.center_mm.y() + 10.0) < 1e-4;
+    });
+  };
+  EXPECT_TRUE(sees_front(0.0));
+  EXPECT_TRUE(sees_front(0.2));
+  EXPECT_FALSE(sees_front(0.5));
 }
 
 TEST(SeenObject, RefusesAnObjectOutOfView) {

@@ -1,6 +1,7 @@
 #include "core/view/sample_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -33,6 +34,30 @@ TEST_F(CubeView, CoverageOfSeenPatchesIsOne) {
     const Eigen::Vector3d& n = patches_.normal(patch);
     EXPECT_GT(n.z() + n.x() - n.y(), 0.5);
   }
+}
+
+// The faces x = 10, y = -10 and z = 20 are seen at cosines of about 0.21, 0.56 and 0.71, at most
+// 0.23, 0.61 and 0.76.
+TEST_F(CubeView, SlantingSamplesAreLeftOut) {
+  const auto faces = [&](double least_cosine) {
+    const SampleMap map = map_samples(rays_, scene_, patches_, 1.3, {0, 0.8, 0.0, least_cosine});
+    std::array<bool, 3> seen{};
+    for (const int patch : map.patch_of_row) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        seen[k] = seen[k] || std::abs(patches_.normal(patch)[static_cast<Eigen::Index>(k)]) > 0.5;
+      }
+    }
+    for (std::size_t i = 0; i < map.row_of_sample.size(); ++i) {
+      if (map.row_of_sample[i] < 0) continue;
+      const int patch = map.patch_of_row[static_cast<std::size_t>(map.row_of_sample[i])];
+      const Eigen::Vector3d ray = rays_.directions_in_world[i].cast<double>().normalized();
+      EXPECT_GT(-patches_.normal(patch).dot(ray), least_cosine - 1e-6);
+    }
+    return seen;
+  };
+  EXPECT_EQ(faces(0.0), (std::array<bool, 3>{true, true, true}));
+  EXPECT_EQ(faces(0.35), (std::array<bool, 3>{false, true, true}));
+  EXPECT_EQ(faces(0.63), (std::array<bool, 3>{false, false, true}));
 }
 
 // Without a guard every row is of whole patches; with one, those along the edges have samples that
