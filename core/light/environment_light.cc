@@ -87,9 +87,14 @@ class FacetInset {
 
 class Illuminator {
  public:
-  Illuminator(const PatchMesh& patches, const TriangleMesh& mesh, ProbeIrradiance& probe,
-              const EnvironmentLightOptions& options)
-      : patches_(patches), mesh_(mesh), probe_(probe), options_(options) {}
+  Illuminator(const PatchMesh& patches, const RayScene& scene, double size_mm,
+              ProbeIrradiance& probe, const EnvironmentLightOptions& options)
+      : patches_(patches),
+        mesh_(scene.mesh()),
+        is_convex_(scene.convex()),
+        size_mm_(size_mm),
+        probe_(probe),
+        options_(options) {}
 
   ChunkLight light(const Chunk& chunk) {
     ChunkLight out;
@@ -136,16 +141,15 @@ class Illuminator {
  private:
   std::vector<Eigen::Vector3d> in_front_of(const Eigen::Vector3d& on_plane,
                                            const Eigen::Vector3d& normal) const {
+    if (is_convex_) return {};
     // Points this little in front of the plane are on it, up to rounding.
-    const double least_mm = 1e-7 * patches_size_mm();
+    const double least_mm = 1e-7 * size_mm_;
     std::vector<Eigen::Vector3d> found;
     for (const Eigen::Vector3d& v : mesh_.vertices_mm) {
       if (normal.dot(v - on_plane) > least_mm) found.push_back(v);
     }
     return found;
   }
-  double patches_size_mm() const { return bounds(mesh_).size_mm().maxCoeff(); }
-
   // `first`: where the sky's triangles of the patch begin.
   void add_bright(int k, const PointIrradiance& bright, const Eigen::Array3d& level,
                   std::size_t first, ChunkLight& out) const {
@@ -177,6 +181,8 @@ class Illuminator {
 
   const PatchMesh& patches_;
   const TriangleMesh& mesh_;
+  bool is_convex_;
+  double size_mm_;  // of the mesh
   ProbeIrradiance& probe_;
   const EnvironmentLightOptions& options_;
 };
@@ -191,8 +197,9 @@ std::array<IncidentLight, 3> illuminate(const PatchMesh& patches, const RayScene
       [&] { return ProbeIrradiance(probe, &scene, transmitted, options.tolerance); });
   const std::vector<Chunk> chunks = chunks_of(patches);
   std::vector<ChunkLight> parts(chunks.size());
+  const double size_mm = bounds(scene.mesh()).size_mm().maxCoeff();
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
-    parts[i] = Illuminator(patches, scene.mesh(), workspace.local(), options).light(chunks[i]);
+    parts[i] = Illuminator(patches, scene, size_mm, workspace.local(), options).light(chunks[i]);
   });
   std::vector<LitTriangleRgb> lit;
   int edges = 0;
