@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/base/chi_square.h"
-#include "core/estimation/joint_evidence.h"
+#include "core/estimation/contradictions.h"
 #include "core/estimation/view_shift.h"
 
 namespace scattermeter::apps {

@@ -6,11 +6,12 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/agreement/shot_agreement.h"
 #include "core/base/side_by_side.h"
 #include "core/estimation/channel_image.h"
+#include "core/estimation/contradictions.h"
 #include "core/estimation/edge_width.h"
 #include "core/estimation/estimation.h"
-#include "core/estimation/joint_evidence.h"
 #include "core/estimation/material_channel.h"
 #include "core/estimation/nuisances.h"
 #include "core/estimation/residual_look.h"
@@ -18,7 +19,6 @@
 #include "core/fit/dipole_fit.h"
 #include "core/fit/dipole_misfit.h"
 #include "core/fit/image_information.h"
-#include "core/fit/shot_agreement.h"
 #include "core/fit/smooth_reflectance.h"
 #include "core/view/row_selection.h"
 

@@ -9,8 +9,8 @@
 
 #include "core/base/nearest_name.h"
 #include "core/base/progress.h"
+#include "core/estimation/contradictions.h"
 #include "core/estimation/estimation.h"
-#include "core/estimation/joint_evidence.h"
 
 namespace scattermeter {
 

@@ -16,7 +16,7 @@
 #include "core/fit/linear_shot.h"
 #include "core/fit/prior_pulls.h"
 #include "core/fit/scattering_equation.h"
-#include "core/fit/shot_agreement.h"
+#include "core/agreement/shot_agreement.h"
 #include "core/fit/shot_parts.h"
 
 namespace scattermeter {

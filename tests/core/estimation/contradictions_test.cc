@@ -1,7 +1,6 @@
-#include "core/estimation/joint_evidence.h"
+#include "core/estimation/contradictions.h"
 
 #include <cmath>
-#include <random>
 
 #include <Eigen/Dense>
 #include <gmock/gmock.h>
@@ -12,9 +11,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const Nuisance kPosition{"LED position", 0.2, true, "led1.position0"};
-const Nuisance kPose{"pose", 1.0, true, "pose0"};
-const Nuisance kPower{"LED power", 0.01, true, "led1.power"};
+const Nuisance kDoubtedPosition{"LED position", 0.2, true, "led1.position0"};
+const Nuisance kDoubtedPower{"LED power", 0.01, true, "led1.power"};
 
 // R, G, B of one material and R of another, fitted.
 std::vector<ChannelResult> three_channels_and_one() {
@@ -27,69 +25,37 @@ std::vector<ChannelResult> three_channels_and_one() {
   return results;
 }
 
-// v = (b1 + b2) / (1 + a1 + a2), its variance if all statements hold (a1 + a2) / (1 + a1 + a2), and
-// that of the true value 1 / (1 + a1 + a2).
-TEST(JointEvidence, TwoChannelsInClosedForm) {
-  const auto channel = [](double a, double b) {
-    return RigEvidence{{kPosition},
-                       Eigen::MatrixXd::Constant(1, 1, a),
-                       Eigen::VectorXd::Constant(1, b),
-                       Eigen::VectorXd::Constant(1, 0.01)};
+// G's image is off by its power or by the position of the LED: no contradiction, unless R tells
+// that the LED stands where it is stated to.
+TEST(Contradictions, RefusesTheChannelThatNeedsAnotherPosition) {
+  std::vector<ChannelResult> results = three_channels_and_one();
+  results.resize(2);
+  const auto take = [](const Eigen::Matrix2d& by, const Eigen::Vector2d& rest, ChannelResult& r) {
+    r.evidence = {{kDoubtedPosition, kDoubtedPower},
+                  by.transpose() * by,
+                  by.transpose() * rest,
+                  Eigen::Vector2d(0.05, 0.005)};
   };
-  const RigEvidence first = channel(4.0, 6.0), second = channel(5.0, 9.0);
-  const std::vector<PriorPull> pulls = joint_pulls({&first, &second}).pulls;
-  ASSERT_EQ(pulls.size(), 1U);
-  EXPECT_EQ(pulls[0].name, "led1.position0");
-  EXPECT_NEAR(pulls[0].pull, 1.5 / std::sqrt(0.9), 1e-12);
-  EXPECT_NEAR(pulls[0].offset, 1.5 * 0.2, 1e-12);
-  EXPECT_NEAR(pulls[0].std, 0.2 / std::sqrt(10.0), 1e-12);
-  EXPECT_NEAR(pulls[0].image_relative, 1.5 * 0.01, 1e-12);
-  EXPECT_TRUE(joint_pulls(std::vector<const RigEvidence*>{}).pulls.empty());
-  // (b1 + b2)^2 / (a (1 + a)).
-  EXPECT_NEAR(joint_pulls({&first, &second}).chi2, 225.0 / 90.0, 1e-12);
-  EXPECT_EQ(joint_pulls({&first, &second}).dof, 1.0);
-}
-
-// The same as from all nuisances of both channels at once, where each has an own power.
-TEST(JointEvidence, WhatIsNotSharedIsEliminated) {
-  std::mt19937 random(1);
-  std::normal_distribution<double> normal;
-  const auto drawn = [&](Eigen::Index rows, Eigen::Index cols) {
-    return Eigen::MatrixXd(
-        Eigen::MatrixXd::NullaryExpr(rows, cols, [&](Eigen::Index) { return normal(random); }));
-  };
-  const Eigen::MatrixXd a = drawn(9, 3), b = drawn(7, 3);  // position, power, pose
-  const Eigen::VectorXd r = drawn(9, 1), s = drawn(7, 1);
-  const auto evidence = [](const Eigen::MatrixXd& j, const Eigen::VectorXd& rest) {
-    return RigEvidence{{kPosition, kPower, kPose},
-                       j.transpose() * j,
-                       j.transpose() * rest,
-                       Eigen::Vector3d::Ones()};
-  };
-  const RigEvidence first = evidence(a, r), second = evidence(b, s);
-  const std::vector<PriorPull> pulls = joint_pulls({&first, &second}).pulls;
-  ASSERT_EQ(pulls.size(), 2U);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(16, 4);  // position, pose, power, power
-  all.topRows(9) << a.col(0), a.col(2), a.col(1), Eigen::VectorXd::Zero(9);
-  all.bottomRows(7) << b.col(0), b.col(2), Eigen::VectorXd::Zero(7), b.col(1);
-  Eigen::VectorXd rest(16);
-  rest << r, s;
-  const Eigen::MatrixXd information = all.transpose() * all;
-  const Eigen::MatrixXd posterior = (Eigen::Matrix4d::Identity() + information).inverse();
-  const Eigen::VectorXd v = posterior * all.transpose() * rest;
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const double variance = 1.0 - posterior(k, k);
-    EXPECT_NEAR(pulls[static_cast<std::size_t>(k)].pull, v[k] / std::sqrt(variance), 1e-9);
-  }
-  EXPECT_EQ(pulls[1].name, "pose0");
+  const Eigen::Matrix2d both_look_alike = (Eigen::Matrix2d() << 40, 20, 0, 0).finished();
+  const Eigen::Vector2d off(90, 0);
+  take(both_look_alike, off, results[1]);
+  take(Eigen::Vector2d(0.1, 40.0).asDiagonal(), {0, 0}, results[0]);
+  refuse_contradicted(results);
+  EXPECT_TRUE(results[1].estimate.reasons.empty());
+  take(Eigen::Vector2d(400.0, 40.0).asDiagonal(), {0, 0}, results[0]);
+  refuse_contradicted(results);
+  EXPECT_TRUE(results[0].estimate.reasons.empty());
+  ASSERT_EQ(results[1].estimate.reasons.size(), 1U);
+  EXPECT_THAT(results[1].estimate.reasons[0],
+              HasSubstr("beside the other channels: the shots contradict the LED power"));
 }
 
 // A channel whose model misses its image says nothing beside one whose model explains it, and what
 // is most probable without.
-TEST(JointEvidence, MostProbableWhereNothingIsExplained) {
+TEST(Contradictions, MostProbableWhereNothingIsExplained) {
   std::vector<ChannelResult> results = three_channels_and_one();
   for (std::size_t i = 0; i < 4; ++i) {
-    results[i].evidence = {{kPosition},
+    results[i].evidence = {{kDoubtedPosition},
                            Eigen::MatrixXd::Constant(1, 1, 9.0),
                            Eigen::VectorXd::Constant(1, i == 0 ? 10.0 : 20.0),
                            Eigen::VectorXd::Constant(1, 0.01)};
@@ -108,12 +74,12 @@ TEST(JointEvidence, MostProbableWhereNothingIsExplained) {
 
 // An offset of 3.5 deviations is no reason, one of 5.3 is: channels that see the quantity are
 // refused, one that does not see it is not.
-TEST(JointEvidence, RefusesWhatAllContradict) {
+TEST(Contradictions, RefusesWhatAllContradict) {
   constexpr double kInformation = 400.0;
   std::vector<ChannelResult> results(4);
   for (ChannelResult& r : results) {
     r.estimate.converged = true;
-    r.evidence = {{kPosition},
+    r.evidence = {{kDoubtedPosition},
                   Eigen::MatrixXd::Constant(1, 1, kInformation),
                   Eigen::VectorXd::Constant(1, 3.5 * kInformation),
                   Eigen::VectorXd::Constant(1, 0.005)};
@@ -131,7 +97,7 @@ TEST(JointEvidence, RefusesWhatAllContradict) {
   EXPECT_TRUE(results[3].estimate.reasons.empty());
 }
 
-TEST(JointEvidence, ChannelsOfAMaterialShareTheirRig) {
+TEST(Contradictions, ChannelsOfAMaterialShareTheirRig) {
   std::vector<ChannelResult> results = three_channels_and_one();
   results[1].estimate.pulls = {{"even light a.dng", "even light", 6.0, 1.0, 0.01}};
   results[1].estimate.reasons = {"its own"};
@@ -155,7 +121,7 @@ TEST(JointEvidence, ChannelsOfAMaterialShareTheirRig) {
 }
 
 // Nine quantities off by 3 deviations each are none of them a contradiction, but all together are.
-TEST(JointEvidence, ManyQuantitiesAtOnce) {
+TEST(Contradictions, ManyQuantitiesAtOnce) {
   constexpr double kInformation = 1e4;
   std::vector<ChannelResult> results(1);
   results[0].estimate.converged = true;
@@ -176,7 +142,7 @@ TEST(JointEvidence, ManyQuantitiesAtOnce) {
 }
 
 // Three pulls of 3.7, each the larger of two shots, are as improbable together as one of 5.4.
-TEST(JointEvidence, StrayLightOfAllChannelsAddsUp) {
+TEST(Contradictions, StrayLightOfAllChannelsAddsUp) {
   std::vector<ChannelResult> results = three_channels_and_one();
   for (std::size_t i = 0; i < 4; ++i) {
     results[i].estimate.pulls = {{"even light a.dng", "even light", 2.7, 1.0, 0.01},
@@ -199,7 +165,7 @@ TEST(JointEvidence, StrayLightOfAllChannelsAddsUp) {
 
 // The scale of three channels, 3 deviations off in each: probably one cause, refused in all
 // channels of the material, but not in those of another, whose image says nothing.
-TEST(JointEvidence, ChannelsOfAMaterialShareTheirScale) {
+TEST(Contradictions, ChannelsOfAMaterialShareTheirScale) {
   std::vector<ChannelResult> results = three_channels_and_one();
   const Nuisance scale{"scale", 0.02, true, "scale"};
   EXPECT_FALSE(is_shared(scale));
@@ -226,7 +192,7 @@ TEST(JointEvidence, ChannelsOfAMaterialShareTheirScale) {
   EXPECT_TRUE(results[3].estimate.reasons.empty());
 }
 
-TEST(JointEvidence, TwoChannelsThatAreMissedRefuseTheThird) {
+TEST(Contradictions, TwoChannelsThatAreMissedRefuseTheThird) {
   std::vector<ChannelResult> results = three_channels_and_one();
   const auto miss = [&](std::size_t i) {
     results[i].estimate.misfit_p_value = 1e-9;
@@ -245,12 +211,12 @@ TEST(JointEvidence, TwoChannelsThatAreMissedRefuseTheThird) {
 }
 
 // A model that misses the image says nothing about the rig.
-TEST(JointEvidence, ChannelsThatTheModelMissesDoNotCount) {
+TEST(Contradictions, ChannelsThatTheModelMissesDoNotCount) {
   std::vector<ChannelResult> results(1);
   results[0].estimate.converged = true;
   results[0].estimate.misfit_p_value = 1e-9;
   results[0].estimate.misfit_relative = 0.02;
-  results[0].evidence = {{kPosition},
+  results[0].evidence = {{kDoubtedPosition},
                          Eigen::MatrixXd::Constant(1, 1, 1e4),
                          Eigen::VectorXd::Constant(1, 1e5),
                          Eigen::VectorXd::Ones(1)};

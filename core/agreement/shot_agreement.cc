@@ -1,4 +1,4 @@
-#include "core/fit/shot_agreement.h"
+#include "core/agreement/shot_agreement.h"
 
 #include <algorithm>
 #include <cmath>

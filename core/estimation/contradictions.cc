@@ -1,52 +1,19 @@
-#include "core/estimation/joint_evidence.h"
+#include "core/estimation/contradictions.h"
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <map>
 #include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include <fmt/core.h>
 
 #include "core/base/chi_square.h"
-#include "core/base/dense_solve.h"
-#include "core/base/symmetric_eigen.h"
 #include "core/estimation/model_choice.h"
 
 namespace scattermeter {
 namespace {
-
-// The nuisances of one channel that are shared, and its evidence about them.
-struct Shared {
-  std::vector<Eigen::Index> at;  // in the channel's evidence
-  Eigen::MatrixXd information;
-  Eigen::VectorXd score;
-};
-
-Shared shared_part(const RigEvidence& e, bool (*shared)(const Nuisance&)) {
-  Shared out;
-  std::vector<Eigen::Index> own;
-  for (std::size_t k = 0; k < e.nuisances.size(); ++k) {
-    (shared(e.nuisances[k]) ? out.at : own).push_back(static_cast<Eigen::Index>(k));
-  }
-  out.information = e.information(out.at, out.at);
-  out.score = e.score(out.at);
-  if (own.empty() || out.at.empty()) return out;
-  const auto n = static_cast<Eigen::Index>(own.size());
-  const SymmetricSolver solver(Eigen::MatrixXd::Identity(n, n) + e.information(own, own));
-  const Eigen::MatrixXd across = e.information(own, out.at);
-  out.information -= across.transpose() * solver.solve_columns(across);
-  out.score -= across.transpose() * solver.solve(Eigen::VectorXd(e.score(own)));
-  return out;
-}
-
-bool is_of(const Nuisance& nuisance, std::initializer_list<std::string_view> groups) {
-  return nuisance.fitted && !nuisance.name.empty() &&
-         std::find(groups.begin(), groups.end(), nuisance.group) != groups.end();
-}
 
 // The covariance of paths is itself an estimate from so many blocks: pulls by transport have longer
 // tails.
@@ -143,6 +110,23 @@ void refuse_stray_light(const std::string& material, std::vector<ChannelResult>&
   }
 }
 
+// What a channel alone may explain by light or camera elsewhere, where the other channels do not
+// see them: its scale, for one.
+void refuse_beside_others(std::vector<ChannelResult>& results) {
+  const std::vector<const RigEvidence*> evidence = evidence_of(results, "");
+  std::vector<std::pair<ChannelResult*, std::string>> found;
+  for (ChannelResult& r : results) {
+    if (r.refused() || std::find(evidence.begin(), evidence.end(), &r.evidence) == evidence.end()) {
+      continue;
+    }
+    const std::vector<PriorPull> own = own_pulls_beside(r.evidence, evidence);
+    const PriorPull* worst = contradiction(own, most_pull_of(results), kLeastPullImage);
+    if (worst == nullptr) continue;
+    found.emplace_back(&r, "beside the other channels: " + contradiction_sentence(*worst, own));
+  }
+  for (auto& [r, text] : found) r->estimate.reasons.push_back(text);
+}
+
 // Where the model misses the images of two channels, the rig is not as stated, and the third
 // channel may owe its good fit to wrong coefficients.
 void refuse_beside_missed(const std::string& material, std::vector<ChannelResult>& results) {
@@ -163,80 +147,6 @@ void refuse_beside_missed(const std::string& material, std::vector<ChannelResult
 }
 
 }  // namespace
-
-bool is_shared(const Nuisance& nuisance) {
-  return is_of(nuisance, {"pose", "camera shift", "lens", "mesh position", "mesh scale",
-                          "LED position", "LED axis", "LED exponent"});
-}
-
-bool is_shared_by_material(const Nuisance& nuisance) {
-  return is_shared(nuisance) ||
-         is_of(nuisance, {"scale", "LED power", "exposure time", "eta", "edges", "surroundings"});
-}
-
-JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels,
-                           bool (*shared)(const Nuisance&)) {
-  JointJudgement out;
-  for (const RigEvidence* e : channels) {
-    out.data_length = std::hypot(out.data_length, e->data_length);
-  }
-  std::map<std::string, Eigen::Index> index;
-  std::vector<Shared> parts;
-  std::vector<double> image;  // by one deviation
-  std::vector<double> std;
-  for (const RigEvidence* e : channels) {
-    const Shared& part = parts.emplace_back(shared_part(*e, shared));
-    for (const Eigen::Index k : part.at) {
-      const Nuisance& n = e->nuisances[static_cast<std::size_t>(k)];
-      const auto [it, is_new] =
-          index.try_emplace(n.name, static_cast<Eigen::Index>(out.pulls.size()));
-      if (is_new) {
-        out.pulls.push_back({n.name, n.group});
-        image.push_back(0.0);
-        std.push_back(n.std);
-      }
-      double& most = image[static_cast<std::size_t>(it->second)];
-      most = std::max(most, e->image_relative[k]);
-    }
-  }
-  const auto n = static_cast<Eigen::Index>(out.pulls.size());
-  if (n == 0) return out;
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(n, n);
-  Eigen::VectorXd score = Eigen::VectorXd::Zero(n);
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    std::vector<Eigen::Index> to;
-    for (const Eigen::Index k : parts[c].at) {
-      to.push_back(index.at(channels[c]->nuisances[static_cast<std::size_t>(k)].name));
-    }
-    information(to, to) += parts[c].information;
-    score(to) += parts[c].score;
-  }
-  const Eigen::MatrixXd posterior =
-      SymmetricSolver(Eigen::MatrixXd::Identity(n, n) + information).inverse();
-  const Eigen::VectorXd v = posterior * score;
-  // The variance that v has if all statements hold.
-  const Eigen::MatrixXd told = information * posterior;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    constexpr double kRounding = 1e-12;
-    PriorPull& pull = out.pulls[static_cast<std::size_t>(k)];
-    pull.pull = told(k, k) > kRounding ? v[k] / std::sqrt(told(k, k)) : 0.0;
-    pull.offset = v[k] * std[static_cast<std::size_t>(k)];
-    pull.std = std::sqrt(posterior(k, k)) * std[static_cast<std::size_t>(k)];
-    pull.image_relative = std::abs(v[k]) * image[static_cast<std::size_t>(k)];
-    pull.explained_relative = std::abs(pull.pull) / std::max(out.data_length, 1e-300);
-  }
-  // The score has the covariance information (1 + information) if all statements hold.
-  const SymmetricEigen by = symmetric_eigen(information);
-  constexpr double kLeastInformation = 1e-2;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const double told_k = by.values[k];
-    if (!(told_k > kLeastInformation)) continue;
-    const double along = by.vectors.col(k).dot(score);
-    out.chi2 += along * along / (told_k * (1.0 + told_k));
-    out.dof += 1.0;
-  }
-  return out;
-}
 
 JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results) {
   return joint_pulls(evidence_of(results, ""));
@@ -281,6 +191,7 @@ void refuse_contradicted(std::vector<ChannelResult>& results) {
     refuse_stray_light(material, results);
     refuse_beside_missed(material, results);
   }
+  refuse_beside_others(results);
   for (ChannelResult& r : results) {
     const auto by = contradicted.find(r.material);
     if (by == contradicted.end() || r.refused()) continue;

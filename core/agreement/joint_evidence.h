@@ -1,10 +1,9 @@
 // What all channels together say about the quantities of the rig that they share.
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "core/estimation/channel_result.h"
+#include "core/fit/linear_shot.h"
 #include "core/fit/prior_pulls.h"
 
 namespace scattermeter {
@@ -32,23 +31,10 @@ struct JointJudgement {
 // with the other nuisances of each eliminated.
 JointJudgement joint_pulls(const std::vector<const RigEvidence*>& channels,
                            bool (*shared)(const Nuisance&) = is_shared);
-// Of the results whose model explains their image.
-JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results);
-// Of all results that converged where no model explains its image: what the rig most probably is
-// like, and no judgement on it.
-JointJudgement most_probable_pulls_of(const std::vector<ChannelResult>& results);
-// Of those of one material, with what its channels probably share.
-JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results,
-                              const std::string& material);
-
-// If all channels together, or those of one material, contradict the rig, by one quantity
-// (core/fit/prior_pulls.h) or by all of them at once, adds that as a reason to every result whose
-// image the offset changes visibly. If
-// one channel of a material does, and its model explains its image or a second channel does so as
-// well, adds that to the other channels: the same rig made their images, even where it does not
-// show. If the channels of a material together contradict the amount of unlisted light (even light,
-// pedestals), adds that to those whose image it changes visibly. If two channels of a material are
-// refused and their model misses their images, the others are refused as well.
-void refuse_contradicted(std::vector<ChannelResult>& results);
+// The pulls of the nuisances of `one` that are not shared (is_shared), with what the others say
+// about those that are: a channel that alone can explain its image by other positions than the
+// others see contradicts its scale. `others` may contain `one`, which does not count twice.
+std::vector<PriorPull> own_pulls_beside(const RigEvidence& one,
+                                        const std::vector<const RigEvidence*>& others);
 
 }  // namespace scattermeter
