@@ -43,6 +43,26 @@ PoseShift pose_shift_by_size(const Rigid3d& camera_from_world, const Eigen::Vect
   return out;
 }
 
+Eigen::Matrix<double, 3, 6> direction_change_by_pose(const Rigid3d& camera_from_world,
+                                                     const Eigen::Vector3d& point_mm) {
+  const Eigen::Vector3d ray = (camera_from_world * point_mm).normalized();
+  Eigen::Matrix<double, 3, 6> out = Eigen::Matrix<double, 3, 6>::Zero();
+  // The camera turns by w, and the world against it: the ray in the world by -w.
+  out.leftCols<3>() =
+      -(camera_from_world.rotation.conjugate().toRotationMatrix() * cross_matrix(ray));
+  return out;
+}
+
+Eigen::Matrix<double, 3, 2> direction_change_by_ray(const Rigid3d& camera_from_world,
+                                                    const Eigen::Vector3d& point_mm) {
+  const Eigen::Vector3d p = camera_from_world * point_mm;
+  const Eigen::Vector3d ray = p.normalized();
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - ray * ray.transpose();
+  return -(camera_from_world.rotation.conjugate().toRotationMatrix() * across *
+           Eigen::Matrix<double, 3, 2>::Identity()) *
+         (p.z() / p.norm());
+}
+
 Eigen::Matrix<double, 3, 6> surface_shift_by_pose(const Rigid3d& camera_from_world,
                                                   const Eigen::Vector3d& point_mm,
                                                   const Eigen::Vector3d& normal) {

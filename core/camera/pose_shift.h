@@ -21,6 +21,14 @@ Eigen::Matrix<double, 6, 6> pose_shift_by_place(const Rigid3d& camera_from_world
 // per s: the object in units of its own size is seen from nearer.
 PoseShift pose_shift_by_size(const Rigid3d& camera_from_world, const Eigen::Vector3d& center_mm);
 
+// Change (world) of the unit vector towards the camera along a fixed sample's ray, per unit of a
+// small change of pose, 3 x 6, or of the ray (X / Z, Y / Z) at a fixed pose, 3 x 2. `point_mm` is
+// on the ray.
+Eigen::Matrix<double, 3, 6> direction_change_by_pose(const Rigid3d& camera_from_world,
+                                                     const Eigen::Vector3d& point_mm);
+Eigen::Matrix<double, 3, 2> direction_change_by_ray(const Rigid3d& camera_from_world,
+                                                    const Eigen::Vector3d& point_mm);
+
 // Shift (world, mm) of the surface point that a fixed sample sees, per unit of a small change of
 // pose: 3 x 6, columns (w in rad, dt in mm) with rotation' = exp([w]_x) rotation, translation' =
 // translation + dt. The point stays in the plane through `point_mm` with `normal`. With p the

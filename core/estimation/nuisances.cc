@@ -128,9 +128,9 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
     }
   }
   if (has_view) {
-    const Eigen::Matrix3Xd per_mm = change_per_mm(shot, rows);
-    add_view(shot, per_mm, columns);
-    add_place(shot, per_mm, columns);
+    const SeenChange change = seen_change(shot, rows);
+    add_view(shot, change, columns);
+    add_place(shot, change, columns);
     add_even_light(shot, columns);
     columns.add("eta", "eta", eta_std, per_eta);
   }

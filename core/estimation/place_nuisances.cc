@@ -1,5 +1,7 @@
 // The nuisances of SceneNuisances that move what the samples see: pose, lens, the picture's shift,
 // and the object's position and size.
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <Eigen/Core>
@@ -12,13 +14,26 @@
 #include "core/camera/pose_shift.h"
 #include "core/estimation/nuisance_columns.h"
 #include "core/estimation/nuisances.h"
+#include "core/material/fresnel.h"
 
 namespace scattermeter {
 
-// Change of each row's l where what its samples see shifts along the surface.
-Eigen::Matrix3Xd SceneNuisances::change_per_mm(const ObservedShot& shot,
-                                               const std::vector<Eigen::Index>& rows) const {
-  Eigen::Matrix3Xd per_mm = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(rows.size()));
+namespace {
+
+// Of log Ft(eta, cos_theta) by the cosine.
+double log_slope(double eta, double cos_theta) {
+  const double step = 1e-3 * cos_theta;
+  return std::log(fresnel_transmittance(eta, std::min(1.0, cos_theta + step)) /
+                  fresnel_transmittance(eta, cos_theta - step)) /
+         (std::min(1.0, cos_theta + step) - (cos_theta - step));
+}
+
+}  // namespace
+
+SceneNuisances::SeenChange SceneNuisances::seen_change(
+    const ObservedShot& shot, const std::vector<Eigen::Index>& rows) const {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  SeenChange out{Eigen::Matrix3Xd::Zero(3, n), Eigen::VectorXd::Zero(n)};
   for (const std::string& name : shot.stated->lights) {
     const SceneLight& light = scene_.light(name);
     if (light->is_fitted()) continue;
@@ -26,28 +41,57 @@ Eigen::Matrix3Xd SceneNuisances::change_per_mm(const ObservedShot& shot,
         sensitivities_.at({shot.seen.get(), name, light.channel_of(channel_)});
     const double power = light->power()[static_cast<Eigen::Index>(channel_)];
     for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
       const auto along = tangents(shot.seen->patches->normal(
           shot.seen->map.patch_of_row[static_cast<std::size_t>(rows[i])]));
       for (std::size_t t = 0; t < 2; ++t) {
-        per_mm.col(static_cast<Eigen::Index>(i)) +=
+        out.per_mm.col(at) +=
             power * own.sensitivity->per_tangent_mm[t](rows[i], own.medium) * along[t];
       }
+      out.per_cos[at] += power * own.sensitivity->l(rows[i], own.medium);
     }
   }
-  return per_mm;
+  const SeenObject& seen = *shot.seen;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto row = static_cast<std::size_t>(rows[i]);
+    const double cos_theta =
+        seen.patches->normal(seen.map.patch_of_row[row])
+            .dot((seen.camera_center_mm - seen.sites[row].center_mm).normalized());
+    out.per_cos[static_cast<Eigen::Index>(i)] *=
+        log_slope(seen.object->stated->eta_int_over_ext, std::max(cos_theta, 1e-3));
+  }
+  return out;
 }
 
-// Change of each row's l by a small change of the pose, with per_mm of change_per_mm().
+// By small changes that shift what the sample sees and turn the direction in which it is seen.
+template <int kColumns>
+Eigen::Matrix<double, 1, kColumns> SceneNuisances::change_by(
+    const SeenObject& seen, std::size_t row, const SeenChange& change, Eigen::Index i,
+    const Eigen::Matrix<double, 3, kColumns>& shift_mm,
+    const Eigen::Matrix<double, 3, kColumns>& direction) {
+  const int patch = seen.map.patch_of_row[row];
+  const Eigen::Matrix3d& turn_per_mm =
+      seen.object->normal_change_per_mm[static_cast<std::size_t>(seen.patches->facet_idx(patch))];
+  const Eigen::Vector3d to_camera =
+      (seen.camera_center_mm - seen.sites[row].center_mm).normalized();
+  return change.per_mm.col(i).transpose() * shift_mm +
+         change.per_cos[i] * (to_camera.transpose() * turn_per_mm * shift_mm +
+                              seen.patches->normal(patch).transpose() * direction);
+}
+
+// Change of each row's l by a small change of the pose.
 Eigen::Matrix<double, Eigen::Dynamic, 6> SceneNuisances::change_by_pose(
-    const ObservedShot& shot, const std::vector<Eigen::Index>& rows,
-    const Eigen::Matrix3Xd& per_mm) {
+    const ObservedShot& shot, const std::vector<Eigen::Index>& rows, const SeenChange& change) {
   const SeenObject& seen = *shot.seen;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> out(per_mm.cols(), 6);
+  const Rigid3d& pose = shot.pose.camera_from_world;
+  Eigen::Matrix<double, Eigen::Dynamic, 6> out(change.per_cos.size(), 6);
   for (Eigen::Index i = 0; i < out.rows(); ++i) {
     const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
-    out.row(i) = per_mm.col(i).transpose() *
-                 surface_shift_by_pose(shot.pose.camera_from_world, seen.sites[row].center_mm,
-                                       seen.patches->normal(seen.map.patch_of_row[row]));
+    const Eigen::Vector3d& site_mm = seen.sites[row].center_mm;
+    out.row(i) = change_by<6>(
+        seen, row, change, i,
+        surface_shift_by_pose(pose, site_mm, seen.patches->normal(seen.map.patch_of_row[row])),
+        direction_change_by_pose(pose, site_mm));
   }
   return out;
 }
@@ -56,20 +100,20 @@ Eigen::VectorXd SceneNuisances::light_by_shift(const ObservedShot& shot,
                                                const std::vector<Eigen::Index>& rows) const {
   const PoseShift& shift = shot.seen->shift;
   if (shift.isZero(0.0)) return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
-  return -change_by_pose(shot, rows, change_per_mm(shot, rows)) * shift;
+  return -change_by_pose(shot, rows, seen_change(shot, rows)) * shift;
 }
 
 // The effect of pose and lens on the rows. The lens is common to all shots; a pose fitted with a
 // wrong lens has absorbed part of its error (PoseResult::per_lens_parameter), so the two change
-// together. The pose's own uncertainty is independent of that. per_mm: of change_per_mm().
-void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
+// together. The pose's own uncertainty is independent of that.
+void SceneNuisances::add_view(const ObservedShot& shot, const SeenChange& change,
                               Columns& columns) const {
   const SeenObject& seen = *shot.seen;
   const Rigid3d& pose = shot.pose.camera_from_world;
   const LensRoot& lens_root = scene_.camera.lens_root;
   const auto n = static_cast<Eigen::Index>(columns.rows().size());
   const Eigen::Matrix<double, Eigen::Dynamic, 6> by_pose =
-      change_by_pose(shot, columns.rows(), per_mm);
+      change_by_pose(shot, columns.rows(), change);
   const Eigen::Matrix<double, Eigen::Dynamic, 6> by_pose_root =
       by_pose * covariance_root(shot.pose.covariance);
   Eigen::MatrixXd by_lens_root(n, lens_root.cols());
@@ -83,7 +127,8 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
     const Eigen::Vector3d& site_mm = seen.sites[row].center_mm;
     const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[row]);
     const Eigen::Matrix<double, 1, 2> by_ray =
-        per_mm.col(i).transpose() * surface_shift_by_ray(pose, site_mm, normal);
+        change_by<2>(seen, row, change, i, surface_shift_by_ray(pose, site_mm, normal),
+                     direction_change_by_ray(pose, site_mm));
     by_shift.row(i) = by_ray.array() * ray_per_px.transpose();
     if (lens_root.cols() == 0) continue;
     by_lens_root.row(i) =
@@ -108,7 +153,7 @@ void SceneNuisances::add_view(const ObservedShot& shot, const Eigen::Matrix3Xd& 
 // surface as if the camera moved, and every LED moves the other way. A larger object looks like the
 // mesh with camera and LEDs nearer to its centre, LEDs of less power, and coefficients that are
 // larger by as much (widen_by_mesh_scale()). The standings of one piece have one size.
-void SceneNuisances::add_place(const ObservedShot& shot, const Eigen::Matrix3Xd& per_mm,
+void SceneNuisances::add_place(const ObservedShot& shot, const SeenChange& seen_change,
                                Columns& columns) const {
   const SeenObject& seen = *shot.seen;
   const SceneObject& stated = *seen.object->stated;
@@ -119,7 +164,7 @@ void SceneNuisances::add_place(const ObservedShot& shot, const Eigen::Matrix3Xd&
   Eigen::Matrix<double, 6, 7> pose_by_place;
   pose_by_place << pose_shift_by_place(pose, center_mm), pose_shift_by_size(pose, center_mm);
   Eigen::Matrix<double, Eigen::Dynamic, 7> change =
-      change_by_pose(shot, columns.rows(), per_mm) * pose_by_place;
+      change_by_pose(shot, columns.rows(), seen_change) * pose_by_place;
   for (const std::string& name : shot.stated->lights) {
     const SceneLight& light = scene_.light(name);
     const LedLight* led = light.led();

@@ -4,6 +4,9 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "core/mesh/ray_scene.h"
 #include "core/mesh/triangle_mesh.h"
@@ -16,6 +19,7 @@ struct ObjectScene {
   const SceneObject* stated = nullptr;
   std::unique_ptr<RayScene> rays;  // holds the mesh
   Box3d box;
+  std::vector<Eigen::Matrix3d> normal_change_per_mm;  // by facet (core/mesh/surface_curvature.h)
   const TriangleMesh& mesh() const { return rays->mesh(); }
   double size_mm() const { return box.size_mm().maxCoeff(); }
   double diagonal_mm() const { return box.size_mm().norm(); }

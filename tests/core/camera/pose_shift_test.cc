@@ -41,6 +41,33 @@ TEST(PoseShift, MeetsTheIntersectionOfTheRay) {
   }
 }
 
+// The direction against a fixed sample's ray, before and after a small change of pose or ray.
+TEST(PoseShift, TurnsTheDirectionTowardsTheCamera) {
+  Rigid3d pose;
+  pose.rotation =
+      Eigen::Quaterniond(Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, 0.2, -0.3).normalized()));
+  pose.translation_mm = {3, -8, 180};
+  const Eigen::Vector3d point(4, -3, 11);
+  const Eigen::Vector2d ray = (pose * point).hnormalized();
+  const auto towards = [&](const Rigid3d& p, const Eigen::Vector2d& r) {
+    return (-(p.rotation.conjugate() * r.homogeneous().normalized())).eval();
+  };
+  constexpr double kStep = 1e-5;
+  for (int k = 0; k < 6; ++k) {
+    const PoseShift by = kStep * PoseShift::Unit(k);
+    const Eigen::Vector3d numeric =
+        (towards(shifted_pose(pose, by), ray) - towards(shifted_pose(pose, -by), ray)) /
+        (2.0 * kStep);
+    EXPECT_LT((direction_change_by_pose(pose, point).col(k) - numeric).norm(), 1e-8) << k;
+  }
+  for (int k = 0; k < 2; ++k) {
+    const Eigen::Vector2d by = kStep * Eigen::Vector2d::Unit(k);
+    const Eigen::Vector3d numeric =
+        (towards(pose, ray + by) - towards(pose, ray - by)) / (2.0 * kStep);
+    EXPECT_LT((direction_change_by_ray(pose, point).col(k) - numeric).norm(), 1e-8) << k;
+  }
+}
+
 // Another ray of the same camera against the plane.
 TEST(PoseShift, FollowsAnotherRay) {
   Rigid3d pose;

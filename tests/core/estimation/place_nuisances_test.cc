@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "apps/instrument/open_shots.h"
@@ -12,6 +14,7 @@
 #include "core/camera/pose_shift.h"
 #include "core/estimation/nuisances.h"
 #include "core/light/incident_light.h"
+#include "core/material/fresnel.h"
 #include "tests/fixtures/apps/calibrated_nuisances.h"
 
 namespace scattermeter::apps {
@@ -94,7 +97,15 @@ TEST_F(CalibratedNuisances, LensColumnsByDifferences) {
         return (origin + normal.dot(site_mm - origin) / normal.dot(direction) * direction).eval();
       };
       const Eigen::Vector3d moved_mm = (meets(up) - meets(down)) / (2.0 * kStep);
-      double expected = 0.0;
+      // The observed l = pi L / Ft falls as Ft grows.
+      const auto log_ft = [&](const CameraView& camera) {
+        const Eigen::Vector3d to_camera =
+            (camera.center_in_world_mm() - meets(camera)).normalized();
+        return std::log(
+            fresnel_transmittance(seen.object->stated->eta_int_over_ext, normal.dot(to_camera)));
+      };
+      double expected = light->power()[1] * by_shift.l(static_cast<Eigen::Index>(j), 0) *
+                        (log_ft(up) - log_ft(down)) / (2.0 * kStep);
       for (std::size_t t = 0; t < 2; ++t) {
         expected += light->power()[1] *
                     by_shift.per_tangent_mm[t](static_cast<Eigen::Index>(j), 0) *
@@ -148,6 +159,82 @@ TEST_F(CalibratedNuisances, LightByAShiftedView) {
   const Eigen::VectorXd found = nuisances.light_by_shift(opened[0], rows);
   EXPECT_GT(expected.norm(), 0.0);
   EXPECT_LT((found - expected).norm(), 1e-9 * expected.norm());
+}
+
+// A sphere displaced by some hundredths of a millimetre shows another place in each sample, and
+// shows it at another angle: against the intersections of the samples' rays with a true sphere.
+TEST(PlaceNuisances, PositionColumnsOfASphere) {
+  constexpr double kEta = 1.49, kRadius_mm = 10.0, kStep_mm = 0.02;
+  const LitMedium medium{{1.0, 0.003, kEta}, 1.0};
+  Rig rig =
+      bodies_rig(240, kEta, {{"PE", {medium.medium, medium.medium, medium.medium}}}, {"sphere"});
+  rig.scene.shots.resize(1);
+  rig.scene.objects.front().position_std_mm = 0.1;
+  const ObjectScenes scenes = bodies_scenes(rig);
+  const VirtualShots shots(rig, scenes, {.noise = false});
+  const PoseResult pose = calib::pose_from_points(rig.scene, rig.pose);
+  LitObjects library(rig.scene, scenes, std::nullopt, 180.0);
+  const SharedView view = see_all(rig.scene, scenes, library, pose);
+  const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
+    return shots.frame(i, 1, k);
+  };
+  const std::vector<ObservedShot> opened =
+      open_shots(rig, capture::shots_from(rig.scene, {0}, frames), scenes, library, view, nullptr);
+  const SeenObject& seen = *opened[0].seen;
+  const SceneLight& light = rig.scene.light(opened[0].stated->lights.at(0));
+  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
+  const WeightMatrix weights =
+      smooth_weights(seen.sites,
+                     SourceCloud(library.light(rig.scene.shots[0].object, light.name, 0),
+                                 seen.object->box.center_mm()),
+                     knots, pair_options(knots));
+  const LightSensitivity s = sensitivity(
+      seen, weights, changed_images(seen, light, 0, library, knots, {medium}), {medium}, knots);
+  // Away from the limb, where the mesh's facets are a few of their slants off.
+  constexpr double kLeastCos = 0.3;
+  const Eigen::Vector3d center_mm = seen.object->box.center_mm();
+  const Eigen::Vector3d eye_mm = seen.camera_center_mm;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
+    const Eigen::Vector3d normal = (seen.sites[j].center_mm - center_mm).normalized();
+    if (normal.dot((eye_mm - seen.sites[j].center_mm).normalized()) > kLeastCos) {
+      rows.push_back(static_cast<Eigen::Index>(j));
+    }
+  }
+  const auto columns = SceneNuisances(rig.scene, 1, {{{&seen, light.name, 0}, {&s, 0}}})
+                           .columns(opened[0], opened[0].observation.channel[1], rows);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto column = std::find_if(columns.begin(), columns.end(), [&](const auto& c) {
+      return c.nuisance.name == fmt::format("sphere.position{}", axis);
+    });
+    ASSERT_NE(column, columns.end());
+    // The point of the sphere about the origin, and the direction to the camera.
+    const auto seen_at = [&](const Eigen::Vector3d& site_mm, double by_mm) {
+      const Eigen::Vector3d moved_mm = center_mm + by_mm * Eigen::Vector3d::Unit(axis);
+      const Eigen::Vector3d along = (site_mm - eye_mm).normalized();
+      const Eigen::Vector3d from = eye_mm - moved_mm;
+      const double b = along.dot(from);
+      const double root = b * b - from.squaredNorm() + kRadius_mm * kRadius_mm;
+      return std::pair((from - (b + std::sqrt(root)) * along).eval(), (-along).eval());
+    };
+    Eigen::VectorXd expected(column->change.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto j = static_cast<std::size_t>(rows[i]);
+      const auto [up_mm, to_up] = seen_at(seen.sites[j].center_mm, kStep_mm);
+      const auto [down_mm, to_down] = seen_at(seen.sites[j].center_mm, -kStep_mm);
+      const auto log_ft = [&](const Eigen::Vector3d& point_mm, const Eigen::Vector3d& to) {
+        return std::log(fresnel_transmittance(kEta, point_mm.normalized().dot(to)));
+      };
+      double& change = expected[static_cast<Eigen::Index>(i)];
+      change = s.l(rows[i], 0) * (log_ft(up_mm, to_up) - log_ft(down_mm, to_down));
+      for (std::size_t t = 0; t < 2; ++t) {
+        change += s.per_tangent_mm[t](rows[i], 0) *
+                  tangents(seen.patches->normal(seen.map.patch_of_row[j]))[t].dot(up_mm - down_mm);
+      }
+      change *= light->power()[1] / (2.0 * kStep_mm);
+    }
+    EXPECT_LT((column->change - expected).norm(), 0.05 * expected.norm()) << axis;
+  }
 }
 
 // A larger piece is nearer to camera and LED, and catches no more power.
