@@ -180,6 +180,10 @@ MeasuredSetup measure_deviating(Rig stated, TrueSetup setup, const DeviationRun&
   const DeviationDraw draw{kind.sizes[run.size_idx], run.seed % 2 == 0 ? 1.0 : -1.0, run.seed / 2};
   const TriangleMesh mesh = setup.mesh;
   if (kind.truth) kind.truth(setup, draw);
+  // A body that is displaced or turned stands on a table as much lower.
+  if (auto& plane = setup.rig.scene.surroundings.plane) {
+    plane->z_mm = std::min(plane->z_mm, bounds(setup.mesh).min_mm.z());
+  }
   if (setup.marks_by_true_camera) take_marks(stated, setup.rig);
   ExpectedShots expected = expected_shots(setup, stated, run.volume, pictures);
   if (kind.frames) kind.frames(expected.frames, draw);

@@ -46,7 +46,7 @@ struct Shape {
 const std::vector<Shape>& shapes() {
   static const std::vector<Shape> all = {
       {"cube", cube_mesh},       {"box", cube_mesh},     {"slab", slab_mesh},
-      {"pyramid", pyramid_mesh}, {"cylinder", cylinder}, {"sphere", [] { return sphere_mesh(); }}};
+      {"pyramid", pyramid_mesh}, {"cylinder", cylinder}, {"sphere", [] { return sphere_mesh(5); }}};
   return all;
 }
 
