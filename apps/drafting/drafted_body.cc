@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
@@ -21,32 +20,17 @@
 namespace scattermeter::apps {
 namespace {
 
-TriangleMesh cylinder() {
-  constexpr int kSides = 96;
-  TriangleMesh mesh;
-  mesh.vertices_mm = {{0, 0, 0}, {0, 0, 1}};
-  for (int i = 0; i < kSides; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / kSides;
-    for (const double z : {0.0, 1.0}) {
-      mesh.vertices_mm.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle), z);
-    }
-    const int low = 2 + 2 * i, next = 2 + 2 * ((i + 1) % kSides);
-    mesh.triangles.push_back({0, next, low});
-    mesh.triangles.push_back({1, low + 1, next + 1});
-    mesh.triangles.push_back({low, next, next + 1});
-    mesh.triangles.push_back({low, next + 1, low + 1});
-  }
-  return mesh;
-}
-
 struct Shape {
   const char* name;
   std::function<TriangleMesh()> mesh;
 };
 const std::vector<Shape>& shapes() {
-  static const std::vector<Shape> all = {
-      {"cube", cube_mesh},       {"box", cube_mesh},     {"slab", slab_mesh},
-      {"pyramid", pyramid_mesh}, {"cylinder", cylinder}, {"sphere", [] { return sphere_mesh(5); }}};
+  static const std::vector<Shape> all = {{"cube", cube_mesh},
+                                         {"box", cube_mesh},
+                                         {"slab", slab_mesh},
+                                         {"pyramid", pyramid_mesh},
+                                         {"cylinder", [] { return cylinder_mesh(); }},
+                                         {"sphere", [] { return sphere_mesh(5); }}};
   return all;
 }
 

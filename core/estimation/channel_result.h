@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/agreement/shot_agreement.h"
 #include "core/fit/dipole_misfit.h"
 #include "core/fit/estimate.h"
 #include "core/fit/prior_pulls.h"
-#include "core/agreement/shot_agreement.h"
 #include "core/fit/smooth_reflectance.h"
 #include "core/view/observation.h"
 #include "core/view/sample_map.h"

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "core/agreement/shot_agreement.h"
 #include "core/estimation/channel_simulation.h"
 #include "core/estimation/transport_verdict.h"
 #include "core/fit/estimate.h"
@@ -16,7 +17,6 @@
 #include "core/fit/linear_shot.h"
 #include "core/fit/prior_pulls.h"
 #include "core/fit/scattering_equation.h"
-#include "core/agreement/shot_agreement.h"
 #include "core/fit/shot_parts.h"
 
 namespace scattermeter {

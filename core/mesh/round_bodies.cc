@@ -67,6 +67,23 @@ TriangleMesh sphere_mesh(int levels) {
   return mesh;
 }
 
+TriangleMesh cylinder_mesh(int sides) {
+  TriangleMesh mesh;
+  mesh.vertices_mm = {{0, 0, 0}, {0, 0, 20}};
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sides;
+    for (const double z : {0.0, 20.0}) {
+      mesh.vertices_mm.emplace_back(10.0 * std::cos(angle), 10.0 * std::sin(angle), z);
+    }
+    const int low = 2 + 2 * i, next = 2 + 2 * ((i + 1) % sides);
+    mesh.triangles.push_back({0, next, low});
+    mesh.triangles.push_back({1, low + 1, next + 1});
+    mesh.triangles.push_back({low, next, next + 1});
+    mesh.triangles.push_back({low, next + 1, low + 1});
+  }
+  return mesh;
+}
+
 TriangleMesh scanned_mesh() {
   constexpr int kLevels = 5;
   // Of an edge; corners that move by less than 0.43 (half a height) turn no triangle over.

@@ -14,14 +14,13 @@ namespace {
 
 struct Facet {
   Eigen::Vector3d normal;
-  double area_mm2 = 0;
-  double width_mm = 0;                // the smallest altitude
-  std::array<double, 3> angle_rad{};  // at its corners
+  double width_mm = 0;             // the smallest altitude
+  std::array<double, 3> weight{};  // of its normal at its corners
 };
 
 Facet facet_of(const TriangleMesh& mesh, std::size_t f) {
   const Eigen::Vector3d area = area_vector_mm2(mesh, static_cast<int>(f));
-  Facet out{area.normalized(), area.norm()};
+  Facet out{area.normalized()};
   double longest_mm = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto corner = [&](std::size_t k) {
@@ -30,9 +29,9 @@ Facet facet_of(const TriangleMesh& mesh, std::size_t f) {
     const Eigen::Vector3d to_next = corner(1) - corner(0);
     const Eigen::Vector3d to_last = corner(2) - corner(0);
     longest_mm = std::max(longest_mm, to_next.norm());
-    out.angle_rad[i] = std::atan2(to_next.cross(to_last).norm(), to_next.dot(to_last));
+    out.weight[i] = to_next.cross(to_last).norm() / (to_next.squaredNorm() * to_last.squaredNorm());
   }
-  out.width_mm = 2.0 * out.area_mm2 / longest_mm;
+  out.width_mm = 2.0 * area.norm() / longest_mm;
   return out;
 }
 
@@ -85,7 +84,7 @@ std::vector<Eigen::Matrix3d> normal_change_per_mm(const TriangleMesh& mesh) {
       for (const auto& [g, k] : at[static_cast<std::size_t>(welded.triangles[f][i])]) {
         if (!are_smooth(facets[f], facets[g])) continue;
         is_flat = is_flat && are_flat(facets[f], facets[g]);
-        sum += facets[g].area_mm2 * facets[g].angle_rad[k] * facets[g].normal;
+        sum += facets[g].weight[k] * facets[g].normal;
       }
       normals[i] = sum.normalized();
     }

@@ -16,9 +16,10 @@ namespace scattermeter {
 inline constexpr double kMostSagitta_mm = 0.05;
 
 // Of every facet: the change of the surface's unit normal by a shift along the facet, 1/mm, as that
-// of the normals interpolated between its corners; a corner has the mean, by area times angle, of
-// the normals of the facets there that are one smooth surface with it. Zero where all of these are
-// its own: on flat faces. On a sphere of radius r: shift / r.
+// of the normals interpolated between its corners; a corner has the mean of the normals of the
+// facets there that are one smooth surface with it, weighted so that it is exact on a sphere (N.
+// Max, Weights for computing vertex normals from facet normals, Journal of Graphics Tools 4, 1999).
+// Zero where all of these are the facet's own: on flat faces. On a sphere of radius r: shift / r.
 std::vector<Eigen::Matrix3d> normal_change_per_mm(const TriangleMesh& mesh);
 
 }  // namespace scattermeter

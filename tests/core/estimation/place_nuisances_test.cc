@@ -26,6 +26,25 @@ LensRoot lens_known_to(const Eigen::VectorXd& std) {
                    std.cwiseAbs2().asDiagonal().toDenseMatrix());
 }
 
+const LitMedium kMedium{{1.0, 0.003, 1.3}, 1.0};
+
+DistanceKnots knots_of(const LitObjects& library) {
+  return {library.smallest_patch_mm() / 16.0, library.longest_distance_mm()};
+}
+
+// Of kMedium.
+LightSensitivity sensitivity_of(const SeenObject& seen, const SceneLight& light,
+                                LitObjects& library) {
+  const DistanceKnots knots = knots_of(library);
+  const WeightMatrix weights =
+      smooth_weights(seen.sites,
+                     SourceCloud(library.light(seen.object->stated->name, light.name, 0),
+                                 seen.object->box.center_mm()),
+                     knots, pair_options(knots));
+  return sensitivity(seen, weights, changed_images(seen, light, 0, library, knots, {kMedium}),
+                     {kMedium}, knots);
+}
+
 // One column of the nuisances against what the rig's own functions give for another lens: the pose
 // fitted anew through it, the ray of the same pixel, where that meets the facet.
 TEST_F(CalibratedNuisances, LensColumnsByDifferences) {
@@ -46,15 +65,7 @@ TEST_F(CalibratedNuisances, LensColumnsByDifferences) {
         rig, capture::shots_from(rig.scene, {0}, frames), scenes_, library, view, nullptr);
     const SeenObject& seen = *opened[0].seen;
     const SceneLight& light = rig.scene.light(opened[0].stated->lights.at(0));
-    const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
-    const WeightMatrix weights =
-        smooth_weights(seen.sites,
-                       SourceCloud(library.light(rig.scene.shots[0].object, light.name, 0),
-                                   seen.object->box.center_mm()),
-                       knots, pair_options(knots));
-    const LightSensitivity by_shift = sensitivity(
-        seen, weights, changed_images(seen, light, 0, library, knots, {{{1.0, 0.003, 1.3}, 1.0}}),
-        {{{1.0, 0.003, 1.3}, 1.0}}, knots);
+    const LightSensitivity by_shift = sensitivity_of(seen, light, library);
     const ChannelObservation& o = opened[0].observation.channel[1];
     std::vector<Eigen::Index> used;
     for (std::size_t j = 0; j < o.l.size(); ++j) {
@@ -138,13 +149,7 @@ TEST_F(CalibratedNuisances, LightByAShiftedView) {
   const SeenObject& seen = *opened[0].seen;
   EXPECT_EQ(seen.shift, shift);
   const SceneLight& light = exact_.scene.light(opened[0].stated->lights.at(0));
-  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
-  const LitMedium medium{{1.0, 0.003, 1.3}, 1.0};
-  const WeightMatrix weights = smooth_weights(
-      seen.sites, SourceCloud(library.light(name, light.name, 0), seen.object->box.center_mm()),
-      knots, pair_options(knots));
-  const LightSensitivity s = sensitivity(
-      seen, weights, changed_images(seen, light, 0, library, knots, {medium}), {medium}, knots);
+  const LightSensitivity s = sensitivity_of(seen, light, library);
   const SceneNuisances nuisances(exact_.scene, 1, {{{&seen, light.name, 0}, {&s, 0}}});
   const std::vector<Eigen::Index> rows = {0, 3, 7, 20};
   // A root of a diagonal covariance has the signs and the order of its own choice.
@@ -165,9 +170,8 @@ TEST_F(CalibratedNuisances, LightByAShiftedView) {
 // shows it at another angle: against the intersections of the samples' rays with a true sphere.
 TEST(PlaceNuisances, PositionColumnsOfASphere) {
   constexpr double kEta = 1.49, kRadius_mm = 10.0, kStep_mm = 0.02;
-  const LitMedium medium{{1.0, 0.003, kEta}, 1.0};
-  Rig rig =
-      bodies_rig(240, kEta, {{"PE", {medium.medium, medium.medium, medium.medium}}}, {"sphere"});
+  const Medium& medium = kMedium.medium;
+  Rig rig = bodies_rig(240, kEta, {{"PE", {medium, medium, medium}}}, {"sphere"});
   rig.scene.shots.resize(1);
   rig.scene.objects.front().position_std_mm = 0.1;
   const ObjectScenes scenes = bodies_scenes(rig);
@@ -182,14 +186,7 @@ TEST(PlaceNuisances, PositionColumnsOfASphere) {
       open_shots(rig, capture::shots_from(rig.scene, {0}, frames), scenes, library, view, nullptr);
   const SeenObject& seen = *opened[0].seen;
   const SceneLight& light = rig.scene.light(opened[0].stated->lights.at(0));
-  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
-  const WeightMatrix weights =
-      smooth_weights(seen.sites,
-                     SourceCloud(library.light(rig.scene.shots[0].object, light.name, 0),
-                                 seen.object->box.center_mm()),
-                     knots, pair_options(knots));
-  const LightSensitivity s = sensitivity(
-      seen, weights, changed_images(seen, light, 0, library, knots, {medium}), {medium}, knots);
+  const LightSensitivity s = sensitivity_of(seen, light, library);
   // Away from the limb, where the mesh's facets are a few of their slants off.
   constexpr double kLeastCos = 0.3;
   const Eigen::Vector3d center_mm = seen.object->box.center_mm();
@@ -255,8 +252,7 @@ TEST_F(CalibratedNuisances, SizeColumnOfMovedLightAndCamera) {
       open_shots(rig, capture::shots_from(rig.scene, {0}, frames), scenes, library, view, nullptr);
   const SeenObject& seen = *opened[0].seen;
   const SceneLight& light = rig.scene.light(opened[0].stated->lights.at(0));
-  const DistanceKnots knots(library.smallest_patch_mm() / 16.0, library.longest_distance_mm());
-  const LitMedium medium{{1.0, 0.003, 1.3}, 1.0};
+  const DistanceKnots knots = knots_of(library);
   const auto image = [&](const Led& led, double size) -> Eigen::VectorXd {
     std::vector<ExitSite> sites;
     const Eigen::Vector3d center = seen.object->box.center_mm();
@@ -270,7 +266,7 @@ TEST_F(CalibratedNuisances, SizeColumnOfMovedLightAndCamera) {
     const IncidentLight lit =
         illuminate(*seen.patches, *seen.object->rays, led, seen.object->stated->eta_int_over_ext);
     return smooth_weights(sites, SourceCloud(lit, center), knots, pair_options(knots)) *
-           scaled_curves({medium}, knots, seen.object->stated->eta_int_over_ext);
+           scaled_curves({kMedium}, knots, seen.object->stated->eta_int_over_ext);
   };
   constexpr double kStep = 0.005;
   const auto grown = [&](double size) -> Eigen::VectorXd {
@@ -279,11 +275,7 @@ TEST_F(CalibratedNuisances, SizeColumnOfMovedLightAndCamera) {
     led.position_mm = center + (led.position_mm - center) / size;
     return image(led, size) / (size * size);
   };
-  const WeightMatrix weights = smooth_weights(
-      seen.sites, SourceCloud(library.light(name, light.name, 0), seen.object->box.center_mm()),
-      knots, pair_options(knots));
-  const LightSensitivity s = sensitivity(
-      seen, weights, changed_images(seen, light, 0, library, knots, {medium}), {medium}, knots);
+  const LightSensitivity s = sensitivity_of(seen, light, library);
   std::vector<Eigen::Index> rows;
   for (std::size_t j = 0; j < seen.sites.size(); ++j) rows.push_back(static_cast<Eigen::Index>(j));
   const Eigen::VectorXd expected =

@@ -85,6 +85,18 @@ TEST(RoundBodies, SphereOfTenMm) {
   EXPECT_EQ(hollow_share(mesh), 0.0);
 }
 
+TEST(RoundBodies, CylinderOfTenMm) {
+  constexpr int kSides = 96;
+  const TriangleMesh mesh = cylinder_mesh(kSides);
+  EXPECT_EQ(mesh_problem(mesh), "");
+  EXPECT_EQ(mesh.triangles.size(), 4U * kSides);
+  EXPECT_EQ(bounds(mesh).min_mm.z(), 0.0);
+  EXPECT_EQ(bounds(mesh).max_mm.z(), 20.0);
+  // Of the polygon of its sides.
+  const double area_mm2 = 0.5 * kSides * 100.0 * std::sin(2.0 * std::numbers::pi / kSides);
+  EXPECT_NEAR(signed_volume_mm3(mesh), 20.0 * area_mm2, 1e-6);
+}
+
 TEST(RoundBodies, ScanIsIrregularAndConcaveInPlaces) {
   const TriangleMesh mesh = scanned_mesh();
   ASSERT_EQ(mesh.triangles.size(), 20480U);
