@@ -114,7 +114,6 @@ void refuse_stray_light(const std::string& material, std::vector<ChannelResult>&
 // see them: its scale, for one.
 void refuse_beside_others(std::vector<ChannelResult>& results) {
   const std::vector<const RigEvidence*> evidence = evidence_of(results, "");
-  std::vector<std::pair<ChannelResult*, std::string>> found;
   for (ChannelResult& r : results) {
     if (r.refused() || std::find(evidence.begin(), evidence.end(), &r.evidence) == evidence.end()) {
       continue;
@@ -122,9 +121,9 @@ void refuse_beside_others(std::vector<ChannelResult>& results) {
     const std::vector<PriorPull> own = own_pulls_beside(r.evidence, evidence);
     const PriorPull* worst = contradiction(own, most_pull_of(results), kLeastPullImage);
     if (worst == nullptr) continue;
-    found.emplace_back(&r, "beside the other channels: " + contradiction_sentence(*worst, own));
+    r.estimate.reasons.push_back("beside the other channels: " +
+                                 contradiction_sentence(*worst, own));
   }
-  for (auto& [r, text] : found) r->estimate.reasons.push_back(text);
 }
 
 // Where the model misses the images of two channels, the rig is not as stated, and the third

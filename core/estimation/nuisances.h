@@ -62,17 +62,10 @@ class SceneNuisances {
 
   // Of predicted - observed l of each row.
   struct SeenChange {
-    Eigen::Matrix3Xd per_mm;  // by a shift of what its samples see, along the surface
-    // By the cosine between the surface's normal and the direction to the camera: the observed l =
-    // pi L / Ft falls as Ft grows.
-    Eigen::VectorXd per_cos;
+    Eigen::Matrix3Xd per_mm;         // by a shift of what its samples see, along the surface
+    Eigen::Matrix3Xd per_direction;  // by a change of the unit vector towards the camera
   };
   SeenChange seen_change(const ObservedShot& shot, const std::vector<Eigen::Index>& rows) const;
-  template <int kColumns>
-  static Eigen::Matrix<double, 1, kColumns> change_by(
-      const SeenObject& seen, std::size_t row, const SeenChange& change, Eigen::Index i,
-      const Eigen::Matrix<double, 3, kColumns>& shift_mm,
-      const Eigen::Matrix<double, 3, kColumns>& direction);
   static Eigen::Matrix<double, Eigen::Dynamic, 6> change_by_pose(
       const ObservedShot& shot, const std::vector<Eigen::Index>& rows, const SeenChange& change);
   void add_light(const SceneLight& light, const ChannelSensitivity& own, Columns& columns) const;

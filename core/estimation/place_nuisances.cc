@@ -17,7 +17,6 @@
 #include "core/material/fresnel.h"
 
 namespace scattermeter {
-
 namespace {
 
 // Of log Ft(eta, cos_theta) by the cosine.
@@ -32,51 +31,40 @@ double log_slope(double eta, double cos_theta) {
 
 SceneNuisances::SeenChange SceneNuisances::seen_change(
     const ObservedShot& shot, const std::vector<Eigen::Index>& rows) const {
+  const SeenObject& seen = *shot.seen;
   const auto n = static_cast<Eigen::Index>(rows.size());
-  SeenChange out{Eigen::Matrix3Xd::Zero(3, n), Eigen::VectorXd::Zero(n)};
+  SeenChange out{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)};
+  Eigen::VectorXd l = Eigen::VectorXd::Zero(n);
   for (const std::string& name : shot.stated->lights) {
     const SceneLight& light = scene_.light(name);
     if (light->is_fitted()) continue;
     const ChannelSensitivity& own =
         sensitivities_.at({shot.seen.get(), name, light.channel_of(channel_)});
     const double power = light->power()[static_cast<Eigen::Index>(channel_)];
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      const auto along = tangents(shot.seen->patches->normal(
-          shot.seen->map.patch_of_row[static_cast<std::size_t>(rows[i])]));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eigen::Index row = rows[static_cast<std::size_t>(i)];
+      const auto along =
+          tangents(seen.patches->normal(seen.map.patch_of_row[static_cast<std::size_t>(row)]));
       for (std::size_t t = 0; t < 2; ++t) {
-        out.per_mm.col(at) +=
-            power * own.sensitivity->per_tangent_mm[t](rows[i], own.medium) * along[t];
+        out.per_mm.col(i) += power * own.sensitivity->per_tangent_mm[t](row, own.medium) * along[t];
       }
-      out.per_cos[at] += power * own.sensitivity->l(rows[i], own.medium);
+      l[i] += power * own.sensitivity->l(row, own.medium);
     }
   }
-  const SeenObject& seen = *shot.seen;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto row = static_cast<std::size_t>(rows[i]);
-    const double cos_theta =
-        seen.patches->normal(seen.map.patch_of_row[row])
-            .dot((seen.camera_center_mm - seen.sites[row].center_mm).normalized());
-    out.per_cos[static_cast<Eigen::Index>(i)] *=
-        log_slope(seen.object->stated->eta_int_over_ext, std::max(cos_theta, 1e-3));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
+    const int patch = seen.map.patch_of_row[row];
+    const Eigen::Vector3d& normal = seen.patches->normal(patch);
+    const Eigen::Vector3d to_camera =
+        (seen.camera_center_mm - seen.sites[row].center_mm).normalized();
+    // The observed l = pi L / Ft falls as Ft grows.
+    const double per_cos = l[i] * log_slope(seen.object->stated->eta_int_over_ext,
+                                            std::max(normal.dot(to_camera), 1e-3));
+    const auto facet = static_cast<std::size_t>(seen.patches->facet_idx(patch));
+    out.per_mm.col(i) += per_cos * seen.object->normal_change_per_mm[facet].transpose() * to_camera;
+    out.per_direction.col(i) = per_cos * normal;
   }
   return out;
-}
-
-// By small changes that shift what the sample sees and turn the direction in which it is seen.
-template <int kColumns>
-Eigen::Matrix<double, 1, kColumns> SceneNuisances::change_by(
-    const SeenObject& seen, std::size_t row, const SeenChange& change, Eigen::Index i,
-    const Eigen::Matrix<double, 3, kColumns>& shift_mm,
-    const Eigen::Matrix<double, 3, kColumns>& direction) {
-  const int patch = seen.map.patch_of_row[row];
-  const Eigen::Matrix3d& turn_per_mm =
-      seen.object->normal_change_per_mm[static_cast<std::size_t>(seen.patches->facet_idx(patch))];
-  const Eigen::Vector3d to_camera =
-      (seen.camera_center_mm - seen.sites[row].center_mm).normalized();
-  return change.per_mm.col(i).transpose() * shift_mm +
-         change.per_cos[i] * (to_camera.transpose() * turn_per_mm * shift_mm +
-                              seen.patches->normal(patch).transpose() * direction);
 }
 
 // Change of each row's l by a small change of the pose.
@@ -84,14 +72,13 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> SceneNuisances::change_by_pose(
     const ObservedShot& shot, const std::vector<Eigen::Index>& rows, const SeenChange& change) {
   const SeenObject& seen = *shot.seen;
   const Rigid3d& pose = shot.pose.camera_from_world;
-  Eigen::Matrix<double, Eigen::Dynamic, 6> out(change.per_cos.size(), 6);
+  Eigen::Matrix<double, Eigen::Dynamic, 6> out(change.per_mm.cols(), 6);
   for (Eigen::Index i = 0; i < out.rows(); ++i) {
     const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
     const Eigen::Vector3d& site_mm = seen.sites[row].center_mm;
-    out.row(i) = change_by<6>(
-        seen, row, change, i,
-        surface_shift_by_pose(pose, site_mm, seen.patches->normal(seen.map.patch_of_row[row])),
-        direction_change_by_pose(pose, site_mm));
+    const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[row]);
+    out.row(i) = change.per_mm.col(i).transpose() * surface_shift_by_pose(pose, site_mm, normal) +
+                 change.per_direction.col(i).transpose() * direction_change_by_pose(pose, site_mm);
   }
   return out;
 }
@@ -127,8 +114,8 @@ void SceneNuisances::add_view(const ObservedShot& shot, const SeenChange& change
     const Eigen::Vector3d& site_mm = seen.sites[row].center_mm;
     const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[row]);
     const Eigen::Matrix<double, 1, 2> by_ray =
-        change_by<2>(seen, row, change, i, surface_shift_by_ray(pose, site_mm, normal),
-                     direction_change_by_ray(pose, site_mm));
+        change.per_mm.col(i).transpose() * surface_shift_by_ray(pose, site_mm, normal) +
+        change.per_direction.col(i).transpose() * direction_change_by_ray(pose, site_mm);
     by_shift.row(i) = by_ray.array() * ray_per_px.transpose();
     if (lens_root.cols() == 0) continue;
     by_lens_root.row(i) =

@@ -150,6 +150,7 @@ class Illuminator {
     }
     return found;
   }
+
   // `first`: where the sky's triangles of the patch begin.
   void add_bright(int k, const PointIrradiance& bright, const Eigen::Array3d& level,
                   std::size_t first, ChunkLight& out) const {

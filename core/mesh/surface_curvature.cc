@@ -1,6 +1,7 @@
 #include "core/mesh/surface_curvature.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>

@@ -7,12 +7,17 @@
 namespace scattermeter {
 namespace {
 
-// A ray of the camera against the plane, before and after a small change of pose.
-TEST(PoseShift, MeetsTheIntersectionOfTheRay) {
+Rigid3d some_pose() {
   Rigid3d pose;
   pose.rotation =
       Eigen::Quaterniond(Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, 0.2, -0.3).normalized()));
   pose.translation_mm = {3, -8, 180};
+  return pose;
+}
+
+// A ray of the camera against the plane, before and after a small change of pose.
+TEST(PoseShift, MeetsTheIntersectionOfTheRay) {
+  const Rigid3d pose = some_pose();
   const Eigen::Vector3d point(4, -3, 11);
   const Eigen::Vector3d normal = Eigen::Vector3d(0.3, -0.4, 0.8).normalized();
   const Eigen::Vector3d ray = pose * point;
@@ -43,10 +48,7 @@ TEST(PoseShift, MeetsTheIntersectionOfTheRay) {
 
 // The direction against a fixed sample's ray, before and after a small change of pose or ray.
 TEST(PoseShift, TurnsTheDirectionTowardsTheCamera) {
-  Rigid3d pose;
-  pose.rotation =
-      Eigen::Quaterniond(Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, 0.2, -0.3).normalized()));
-  pose.translation_mm = {3, -8, 180};
+  const Rigid3d pose = some_pose();
   const Eigen::Vector3d point(4, -3, 11);
   const Eigen::Vector2d ray = (pose * point).hnormalized();
   const auto towards = [&](const Rigid3d& p, const Eigen::Vector2d& r) {
@@ -70,10 +72,7 @@ TEST(PoseShift, TurnsTheDirectionTowardsTheCamera) {
 
 // Another ray of the same camera against the plane.
 TEST(PoseShift, FollowsAnotherRay) {
-  Rigid3d pose;
-  pose.rotation =
-      Eigen::Quaterniond(Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, 0.2, -0.3).normalized()));
-  pose.translation_mm = {3, -8, 180};
+  const Rigid3d pose = some_pose();
   const Eigen::Vector3d point(4, -3, 11);
   const Eigen::Vector3d normal = Eigen::Vector3d(0.3, -0.4, 0.8).normalized();
   const Rigid3d world_from_camera = inverse(pose);
@@ -95,10 +94,7 @@ TEST(PoseShift, FollowsAnotherRay) {
 // An object that moves, turns or grows by a little has the same picture as one that stays before a
 // camera with the shifted pose.
 TEST(PoseShift, OfPlaceAndSize) {
-  Rigid3d pose;
-  pose.rotation =
-      Eigen::Quaterniond(Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, 0.2, -0.3).normalized()));
-  pose.translation_mm = {3, -8, 180};
+  const Rigid3d pose = some_pose();
   const Eigen::Vector3d center(2, 5, 9);
   const Eigen::Matrix<double, 6, 6> by_place = pose_shift_by_place(pose, center);
   const PoseShift by_size = pose_shift_by_size(pose, center);
