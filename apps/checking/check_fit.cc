@@ -248,12 +248,12 @@ void compare_objects(LightLook& look, const Estimation& e, const capture::ShotDe
 
 CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotSource& source,
                        SeenShots& seen, LitObjects& lit, Progress* progress) {
-  constexpr int kMostViews = 4;
   EstimateOptions options;
   options.keep_rows = true;
   options.time_limit_s = kTransport_s;
   std::vector<std::pair<std::string, double>> timing_s;
   Stopwatch watch(timing_s);
+  double motion_before = std::numeric_limits<double>::infinity();
   for (int views = 1;; ++views) {
     const std::vector<ObservedShot>& shots = seen.whole();
     KeptLight kept;
@@ -262,8 +262,9 @@ CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotS
     std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
     estimate_dipole(e, &systems);
     const SeenElsewhere elsewhere =
-        seen_elsewhere(rig.scene, shots, joint_pulls_of(e.results).pulls, view_step(views));
+        seen_elsewhere(rig.scene, shots, joint_pulls_of(e.results).pulls, motion_before);
     if (views < kMostViews && elsewhere.motion > kVisibleMotion) {
+      motion_before = elsewhere.motion;
       seen.open_from(elsewhere.shifts);
       continue;
     }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
 
 #include "core/base/chi_square.h"
 #include "core/estimation/contradictions.h"
+#include "core/estimation/model_choice.h"
 #include "core/estimation/view_shift.h"
 
 namespace scattermeter::apps {
@@ -17,22 +19,31 @@ constexpr const char* kUnsettledReason =
     "the shots do not tell from where the object is seen: its place keeps moving from fit to fit; "
     "check the pose points and the position of its mesh, or add shots under another LED";
 
-}  // namespace
-
-double view_step(int views) {
-  constexpr int kWholeSteps = 2;
-  constexpr double kHalf = 0.5;
-  return views <= kWholeSteps ? 1.0 : kHalf;
+// Of the channel nearest to its image, as a share of it; 0 if one explains its image.
+double least_misfit(const std::vector<ChannelResult>& results) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ChannelResult& r : results) {
+    if (!r.estimate.converged) continue;
+    least = std::min(least, misses_image(r.estimate) ? r.estimate.misfit_relative : 0.0);
+  }
+  return least;
 }
+
+// Outlines have not told where a body without edges stands.
+bool any_round(const std::vector<ObservedShot>& shots) {
+  return std::any_of(shots.begin(), shots.end(),
+                     [](const ObservedShot& shot) { return shot.seen->object->is_round; });
+}
+
+}  // namespace
 
 std::vector<ChannelResult> fitted_from_where_seen(
     const Scene& scene, SeenShots& seen, EstimateOptions options,
     const std::function<std::vector<ChannelResult>(const EstimateOptions&)>& fit,
     Stopwatch& watch) {
-  constexpr int kMostViews = 8;
   // Where the dipole does not describe the medium, its misfit may move the object from fit to fit:
-  // after so many, transport looks from the stated position.
-  constexpr int kMostByDipole = 4;
+  // unless a view brings it so much nearer to the image, transport looks from the stated position.
+  constexpr double kNearer = 0.5;
   constexpr double kUnsettled = 2.0 * kVisibleMotion;
   // Paths are traced anew for the larger motions only, beyond what the paths' own noise makes up,
   // and once.
@@ -44,18 +55,23 @@ std::vector<ChannelResult> fitted_from_where_seen(
   const std::int64_t paths = options.paths;
   bool by_transport = false;  // the view is where transport shows the objects to lie
   bool is_stated = false;     // the view is back where the rig says
+  double misfit_before = std::numeric_limits<double>::infinity();
+  double motion_before = std::numeric_limits<double>::infinity();
   for (int views = 1;; ++views) {
     const auto from = [&](const JointJudgement& joint) {
-      return seen_elsewhere(scene, seen.shots(), joint.pulls, view_step(views));
+      return seen_elsewhere(scene, seen.shots(), joint.pulls, motion_before);
     };
     const bool is_last = views == kMostViews || by_transport;
     SeenElsewhere found;
-    // Where the dipole does not hold, its derivatives do not tell where the object lies.
-    bool asks_for_paths = false;
+    bool is_vain = false;
     options.goes_on_from_dipole = [&](const std::vector<ChannelResult>& results) {
-      asks_for_paths = true;
       if (by_transport || is_stated) return true;
-      found = from(joint_pulls_of(results));
+      found =
+          from(any_round(seen.shots()) ? most_probable_pulls_of(results) : joint_pulls_of(results));
+      const double misfit = least_misfit(results);
+      is_vain = misfit > kNearer * misfit_before || (is_last && found.motion > kUnsettled);
+      misfit_before = misfit;
+      if (is_vain) return false;
       // Paths are traced to all rows only.
       return !seen.levels() && (is_last || !(found.motion > kVisibleMotion));
     };
@@ -67,6 +83,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
     });
     if (has_paths && !by_transport && !(found.motion > kVisibleMotion)) {
       const JointJudgement joint = joint_pulls_of(results);
+      motion_before = std::numeric_limits<double>::infinity();
       found = from(joint);
       by_transport = true;
       if (!(found.motion > kWorthPaths) || !is_determined_elsewhere(joint.pulls) ||
@@ -78,7 +95,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
         }
       }
     }
-    if (is_last || !(found.motion > kVisibleMotion)) {
+    if (!is_vain && (is_last || !(found.motion > kVisibleMotion))) {
       if (!(found.motion > kUnsettled)) return results;
       for (ChannelResult& r : results) {
         if (!r.refused()) r.estimate.reasons.emplace_back(kUnsettledReason);
@@ -86,7 +103,8 @@ std::vector<ChannelResult> fitted_from_where_seen(
       return results;
     }
     if (by_transport) options.found = std::move(results);
-    is_stated = views == kMostByDipole && asks_for_paths && !by_transport;
+    is_stated = is_vain;
+    motion_before = found.motion;
     seen.open_from(is_stated ? std::map<std::string, PoseShift>() : found.shifts);
     watch.lap("shots");
   }

@@ -12,10 +12,6 @@
 
 namespace scattermeter::apps {
 
-// The share of the way to where the objects are seen that the view after so many views goes: round
-// bodies approach their place in turns from either side.
-double view_step(int views);
-
 // Fits the shots, opens them again from where the fit shows the objects to lie, and so on until the
 // objects stay there. While only some rows are chosen, transport does not begin.
 std::vector<ChannelResult> fitted_from_where_seen(

@@ -7,7 +7,6 @@
 
 #include "calib/pose/edge_points.h"
 #include "calib/pose/silhouette_check.h"
-#include "core/mesh/creases.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -32,7 +31,7 @@ double px_mm(const ObjectScene& object, const PoseResult& pose, double fx_px) {
 double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot& shot,
                     const capture::RawFrame& frame, const PoseResult& pose) {
   const ObjectScene& object = objects.at(shot.object);
-  if (is_round(object.mesh())) return 0.0;
+  if (object.is_round) return 0.0;
   const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
   const calib::EdgeShot edges =
       calib::edge_shot(rig.scene, rig.pose, objects, shot, frame, pose.camera_from_world, {});

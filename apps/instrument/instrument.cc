@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "apps/instrument/closer_look.h"
+#include "apps/instrument/displaced_round_bodies.h"
 #include "apps/instrument/first_look.h"
 #include "apps/instrument/fitted_view.h"
 #include "apps/instrument/focus.h"
@@ -217,6 +218,12 @@ FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
   std::vector<Finding> of_light;
   if (smooth) {
     of_light = LightLook(rig_.scene, lit_, seen.shots(), seen.kept().weights).findings();
+    const auto* frames = std::get_if<capture::FrameSource>(&source.open);
+    if (frames != nullptr && !view_) {
+      for (Finding& f : displaced_round_bodies(rig_, objects_, seen.shots(), of_light, *frames)) {
+        outlines.findings.push_back(std::move(f));
+      }
+    }
     watch.lap("first look");
   }
   if (pose_) {

@@ -25,7 +25,6 @@
 #include "core/base/input_error.h"
 #include "core/base/symmetric_eigen.h"
 #include "core/estimation/view_shift.h"
-#include "core/mesh/creases.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -189,7 +188,7 @@ OutlineFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
   for (const auto& [name, object] : objects) {
     const std::vector<const ObservedShot*> telling = shots_of(shots, name);
     // Those to be found stand where their outline showed them already.
-    if (telling.empty() || is_round(object.mesh()) || object.stated->to_be_found) continue;
+    if (telling.empty() || object.is_round || object.stated->to_be_found) continue;
     std::vector<ShotsOfPose> views;
     for (const ObservedShot* shot : telling) {
       views.push_back({shot->pose, {rig.scene.index_of(*shot->stated)}});

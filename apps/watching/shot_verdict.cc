@@ -9,7 +9,6 @@
 
 #include "apps/checking/checked_rig.h"
 #include "core/camera/cfa_samples.h"
-#include "core/mesh/creases.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -27,7 +26,7 @@ std::string time_text(double seconds) {
 }
 
 void judge_sharpness(const ObservedShot& shot, double fx_px, ShotVerdict& out) {
-  if (shot.edge_blur_mm < 0.0 || is_round(shot.seen->object->mesh())) return;
+  if (shot.edge_blur_mm < 0.0 || shot.seen->object->is_round) return;
   const double mm_per_px =
       (shot.pose.camera_from_world * shot.seen->object->box.center_mm()).z() / fx_px;
   const double blur_px = shot.edge_blur_mm / mm_per_px;

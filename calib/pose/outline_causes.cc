@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 
 #include "core/base/chi_square.h"
+#include "core/base/symmetric_eigen.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -30,10 +31,18 @@ std::pair<double, double> length_of(const Eigen::Vector3d& v, const Eigen::Matri
   return {v.norm(), std::sqrt(std::max(0.0, u.dot(c * u)))};
 }
 
+// What is hardly known, the distance from the camera mostly, is left out.
 std::string displaced(const Eigen::Vector3d& v, const Eigen::Matrix3d& c) {
-  const auto [mm, std_mm] = length_of(v, c);
-  return fmt::format("by {:.2f} ± {:.2f} mm (x {:+.2f}, y {:+.2f}, z {:+.2f})", mm,
-                     std::max(0.01, std_mm), v.x(), v.y(), v.z());
+  constexpr double kUnknown_mm = 2.0;
+  const SymmetricEigen axes = symmetric_eigen(c);
+  const Eigen::Vector3d least_known = axes.vectors.col(2);
+  const bool is_across = std::sqrt(axes.values[2]) > kUnknown_mm;
+  Eigen::Vector3d known = v;
+  if (is_across) known -= v.dot(least_known) * least_known;
+  const auto [mm, std_mm] = length_of(known, c);
+  return fmt::format("by {:.2f} ± {:.2f} mm{} (x {:+.2f}, y {:+.2f}, z {:+.2f})", mm,
+                     std::max(0.01, std_mm), is_across ? " across the line of sight" : "",
+                     known.x(), known.y(), known.z());
 }
 
 std::string turned(const Eigen::Vector3d& v, const Eigen::Matrix3d& c) {

@@ -25,13 +25,19 @@ Eigen::Matrix<double, 2, 6> ray_by_shift(const Rigid3d& pose, const Eigen::Vecto
   return out;
 }
 
+// A fit that does not describe its image yet may explain it by a lens that no one has.
+double believable(const PriorPull& p) {
+  constexpr double kMostPull = 3.0;
+  return p.offset * std::min(1.0, kMostPull / std::max(std::abs(p.pull), kMostPull));
+}
+
 // The values of the nuisances "NAME0", "NAME1", ...
 Eigen::VectorXd values_of(const std::string& name, Eigen::Index n,
                           const std::vector<PriorPull>& pulls) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(n);
   for (const PriorPull& p : pulls) {
     for (Eigen::Index k = 0; k < n; ++k) {
-      if (p.name == name + std::to_string(k)) out[k] = p.offset;
+      if (p.name == name + std::to_string(k)) out[k] = believable(p);
     }
   }
   return out;
@@ -61,6 +67,8 @@ PoseShift shift_like_lens(const ObservedShot& shot, const CameraIntrinsics& intr
 }  // namespace
 
 double motion_in_patches(const ObservedShot& shot, const PoseShift& by) {
+  // Without edges the image changes as slowly over so many patches.
+  constexpr double kSmooth = 5.0;
   const Rigid3d& pose = shot.pose.camera_from_world;
   double squares_mm2 = 0.0;
   for (const ExitSite& site : shot.seen->sites) {
@@ -68,7 +76,7 @@ double motion_in_patches(const ObservedShot& shot, const PoseShift& by) {
     squares_mm2 += (depth_mm * ray_by_shift(pose, site.center_mm) * by).squaredNorm();
   }
   return std::sqrt(squares_mm2 / static_cast<double>(shot.seen->sites.size())) /
-         shot.seen->patches->patch_size_mm();
+         (shot.seen->patches->patch_size_mm() * (shot.seen->object->is_round ? kSmooth : 1.0));
 }
 
 PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
@@ -79,7 +87,7 @@ PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
          values_of(object.stated->name + ".position", 6, pulls);
   for (const PriorPull& p : pulls) {
     if (p.name != object.stated->name + ".size") continue;
-    out += p.offset * pose_shift_by_size(shot.pose.camera_from_world, object.box.center_mm());
+    out += believable(p) * pose_shift_by_size(shot.pose.camera_from_world, object.box.center_mm());
   }
   const LensRoot& root = scene.camera.lens_root;
   if (root.cols() == 0) return out;
@@ -99,16 +107,21 @@ bool is_determined_elsewhere(const std::vector<PriorPull>& joint_pulls) {
 }
 
 SeenElsewhere seen_elsewhere(const Scene& scene, std::span<const ObservedShot> shots,
-                             const std::vector<PriorPull>& pulls, double step) {
+                             const std::vector<PriorPull>& pulls, double motion_before) {
+  constexpr double kHalf = 0.5;
   SeenElsewhere out;
   if (pulls.empty()) return out;
+  std::map<std::string, PoseShift> now;
   for (const ObservedShot& shot : shots) {
-    const PoseShift& now = shot.seen->shift;
-    const auto [it, is_new] = out.shifts.try_emplace(shot.view_name(), now);
-    if (!is_new) continue;
-    const PoseShift by = most_probable_shift(scene, shot, pulls) - now;
-    it->second += step * by;
-    out.motion = std::max(out.motion, motion_in_patches(shot, by));
+    if (!now.try_emplace(shot.view_name(), shot.seen->shift).second) continue;
+    const PoseShift there = most_probable_shift(scene, shot, pulls);
+    out.shifts.emplace(shot.view_name(), there);
+    out.motion = std::max(out.motion, motion_in_patches(shot, there - shot.seen->shift));
+  }
+  if (out.motion < motion_before) return out;
+  for (auto& [view, there] : out.shifts) {
+    const PoseShift& here = now.at(view);
+    there = here + kHalf * (there - here);
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // Where the shots show that an object stands.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <span>
 #include <string>
@@ -21,8 +22,8 @@ PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
                               const std::vector<PriorPull>& pulls);
 
 // A motion of the object against the view of its shots (rms, across the line of sight), as a share
-// of a patch, beyond which the derivatives by pose and position no longer describe the image
-// exactly enough: it is to be seen from elsewhere.
+// of a patch, or of five on a body without edges, beyond which the derivatives by pose and position
+// no longer describe the image exactly enough: it is to be seen from elsewhere.
 inline constexpr double kVisibleMotion = 0.02;
 
 // The same of the shot's sites when its pose shifts, in patches.
@@ -38,8 +39,13 @@ struct SeenElsewhere {
 bool is_determined_elsewhere(const std::vector<PriorPull>& joint_pulls);
 
 // Where the shots show the objects to lie, against their views, by the pulls of all channels
-// together. The next view goes the share `step` of the way. Nothing without pulls.
+// together. The next view goes the whole way, or half of it where the last one (its motion:
+// motion_before, in patches) did not come nearer. Nothing without pulls.
 SeenElsewhere seen_elsewhere(const Scene& scene, std::span<const ObservedShot> shots,
-                             const std::vector<PriorPull>& pulls, double step = 1.0);
+                             const std::vector<PriorPull>& pulls,
+                             double motion_before = std::numeric_limits<double>::infinity());
+
+// Views after which the object is not seen to settle.
+inline constexpr int kMostViews = 8;
 
 }  // namespace scattermeter

@@ -22,10 +22,7 @@ constexpr double kPatches = 32.0;
 class LedEntry : public EntrySource {
  public:
   LedEntry(const RayScene& scene, const Led& led, double eta)
-      : scene_(scene),
-        led_(led),
-        eta_(eta),
-        patches_(scene.mesh(), bounds(scene.mesh()).size_mm().maxCoeff() / kPatches) {
+      : scene_(scene), led_(led), eta_(eta), patches_(scene.mesh(), scene.size_mm() / kPatches) {
     if (led.radius_mm > 0.0) disc_.emplace(led, scene, eta);
     std::vector<double> weights;
     for (int k = 0; k < patches_.size(); ++k) {

@@ -198,7 +198,7 @@ std::array<IncidentLight, 3> illuminate(const PatchMesh& patches, const RayScene
       [&] { return ProbeIrradiance(probe, &scene, transmitted, options.tolerance); });
   const std::vector<Chunk> chunks = chunks_of(patches);
   std::vector<ChunkLight> parts(chunks.size());
-  const double size_mm = bounds(scene.mesh()).size_mm().maxCoeff();
+  const double size_mm = scene.size_mm();
   tbb::parallel_for(std::size_t{0}, chunks.size(), [&](std::size_t i) {
     parts[i] = Illuminator(patches, scene, size_mm, workspace.local(), options).light(chunks[i]);
   });

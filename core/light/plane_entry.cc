@@ -20,7 +20,7 @@ class PlaneEntry : public EntrySource {
   PlaneEntry(const RayScene& scene, const Led& led, const DiffusePlane& plane, double eta)
       : scene_(scene), led_(led), plane_(plane), eta_(eta) {
     if (led.radius_mm > 0.0) disc_.emplace(led, scene, 1.0);
-    const double touching_mm = DiffusePlane::touching_mm(bounds(scene.mesh()).size_mm().maxCoeff());
+    const double touching_mm = DiffusePlane::touching_mm(scene.size_mm());
     std::vector<double> weights;
     for (int f = 0; f < static_cast<int>(scene.mesh().triangles.size()); ++f) {
       const Eigen::Vector3d area = area_vector_mm2(scene.mesh(), f);

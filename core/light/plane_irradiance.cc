@@ -94,7 +94,7 @@ std::vector<double> irradiance_from_plane(const std::vector<SurfacePoint>& point
 IncidentLight light_from_plane(const PatchMesh& patches, const RayScene& scene, double z_mm,
                                double eta_int_over_ext, const OnPlane& irradiance,
                                const PlaneIrradianceOptions& options) {
-  const double touching_mm = DiffusePlane::touching_mm(bounds(scene.mesh()).size_mm().maxCoeff());
+  const double touching_mm = DiffusePlane::touching_mm(scene.size_mm());
   std::vector<SurfacePoint> corners;                 // of the patches of one facet each
   std::map<std::pair<int, int>, std::size_t> known;  // by facet and vertex
   std::vector<std::pair<int, std::array<std::size_t, 3>>> lit;

@@ -55,6 +55,7 @@ class RayScene {
   bool contains(const Eigen::Vector3d& point_mm) const;
 
   const TriangleMesh& mesh() const { return mesh_; }
+  double size_mm() const { return size_mm_; }  // largest extent along an axis
   // In a convex body, no facet that faces a target is occluded from it.
   bool convex() const { return convex_; }
 

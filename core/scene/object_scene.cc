@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/input_error.h"
+#include "core/mesh/creases.h"
 #include "core/mesh/surface_curvature.h"
 
 namespace scattermeter {
@@ -26,7 +27,9 @@ ObjectScene object_scene(const Scene& scene, const SceneObject& object, const Tr
   for (Eigen::Vector3d& v : moved.vertices_mm) v = object.world_from_mesh * v;
   const Box3d box = bounds(moved);
   std::vector<Eigen::Matrix3d> turns = normal_change_per_mm(moved);
-  return {&object, std::make_unique<RayScene>(std::move(moved)), box, std::move(turns)};
+  const bool without_edges = is_round(moved);
+  return {&object, std::make_unique<RayScene>(std::move(moved)), box, std::move(turns),
+          without_edges};
 }
 
 void require_lights_outside(const Scene& scene, const ObjectScenes& objects) {

@@ -20,8 +20,9 @@ struct ObjectScene {
   std::unique_ptr<RayScene> rays;  // holds the mesh
   Box3d box;
   std::vector<Eigen::Matrix3d> normal_change_per_mm;  // by facet (core/mesh/surface_curvature.h)
+  bool is_round = false;                              // without edges (core/mesh/creases.h)
   const TriangleMesh& mesh() const { return rays->mesh(); }
-  double size_mm() const { return box.size_mm().maxCoeff(); }
+  double size_mm() const { return rays->size_mm(); }
   double diagonal_mm() const { return box.size_mm().norm(); }
 };
 

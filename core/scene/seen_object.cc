@@ -5,8 +5,6 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include "core/mesh/creases.h"
-
 namespace scattermeter {
 
 std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& objects,
@@ -26,7 +24,7 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
   constexpr double kPatches = 2.0;
   constexpr double kMostSlant = 0.15;
   SampleMapOptions options;
-  if (!is_round(seen->object->mesh())) {
+  if (!seen->object->is_round) {
     options.edge_reach_mm = kReachOfEdges * seen->object->stated->edge_std_mm;
   }
   options.least_cosine = std::min(kMostSlant, seen->object->stated->position_std_mm /

@@ -1,6 +1,7 @@
 #include "apps/instrument/fitted_view.h"
 
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,34 +13,34 @@
 #include "apps/instrument/open_objects.h"
 #include "apps/simulation/virtual_shots.h"
 #include "calib/pose/shot_pose.h"
+#include "core/estimation/view_shift.h"
 #include "core/mesh/bodies.h"
+#include "core/mesh/round_bodies.h"
 #include "core/scene/default_uncertainty.h"
 #include "tests/fixtures/apps/body_rig.h"
 
 namespace scattermeter::apps {
 namespace {
 
-// The piece lies a little off its mesh in every way that the rig allows for: the answer holds, and
-// names how large the piece is.
-TEST(ShiftedInstrument, PieceOffItsMeshWithinWhatTheRigStates) {
-  const Rig rig = body_rig("cube", 2);
-  const ObjectScenes moved = open_objects(rig, [&](const SceneObject& object) {
-    TriangleMesh mesh = body_mesh(object.name);
-    const Eigen::Vector3d center = bounds(mesh).center_mm();
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(0.005, Eigen::Vector3d(1, -1, 2).normalized()).toRotationMatrix();
-    for (Eigen::Vector3d& v : mesh.vertices_mm) {
-      v = center + 1.003 * (turn * (v - center)) + Eigen::Vector3d(0.15, -0.12, 0.1);
-    }
-    return mesh;
-  });
+// A piece that is moved, turned about its centre and scaled against its mesh: the answer holds.
+void expect_right_answers(const std::string& body, const TriangleMesh& stated_mesh,
+                          const Eigen::Vector3d& off_mm, double turn_rad, double scale,
+                          const std::string& model) {
+  const Rig rig = body_rig(body, 2);
+  const Eigen::Vector3d center = bounds(stated_mesh).center_mm();
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(turn_rad, Eigen::Vector3d(1, -1, 2).normalized()).toRotationMatrix();
+  TriangleMesh mesh = stated_mesh;
+  for (Eigen::Vector3d& v : mesh.vertices_mm) v = center + scale * (turn * (v - center)) + off_mm;
+  const ObjectScenes moved = open_objects(rig, [&](const SceneObject&) { return mesh; });
   Rig uncertain = rig;
   uncertain.scene.camera.responsivity_relative_std = 0.01;
   default_uncertainty::take_where_none(uncertain.scene);
-  const ObjectScenes stated = bodies_scenes(uncertain);
+  const ObjectScenes stated =
+      open_objects(uncertain, [&](const SceneObject&) { return stated_mesh; });
   const VirtualShots shots(rig, moved, {.noise = true});
   MeasureOptions options;
-  options.estimate.model = "dipole";
+  options.estimate.model = model;
   Instrument instrument(uncertain, stated, options);
   const Measurement m = instrument.measure(shots.source(3));
   ASSERT_EQ(m.results.size(), 3U);
@@ -52,35 +53,56 @@ TEST(ShiftedInstrument, PieceOffItsMeshWithinWhatTheRigStates) {
     EXPECT_LT(std::abs(e.sigma_a_per_mm.value - truth.sigma_a_per_mm), 2.5 * e.sigma_a_per_mm.std);
     EXPECT_LT(e.sigma_s_prime_per_mm.std, 0.05 * truth.sigma_s_prime_per_mm);
     EXPECT_LT(e.reduced_chi2, 1.3);
+    EXPECT_EQ(m.results[c].model, "dipole");
   }
 }
 
-// Fits by the dipole whose size of the piece changes sides from view to view, as where the dipole
-// does not hold: after a few, transport looks from the stated place, and its answers stand.
-TEST(ShiftedInstrument, PieceThatTheDipoleKeepsMovingIsLeftToTransport) {
-  const Rig rig = body_rig("cube", 1);
+// In every way that the rig allows for.
+TEST(ShiftedInstrument, PieceOffItsMeshWithinWhatTheRigStates) {
+  expect_right_answers("cube", body_mesh("cube"), {0.15, -0.12, 0.1}, 0.005, 1.003, "dipole");
+}
+
+// Its first fits miss the image; the views end where the dipole explains it.
+TEST(ShiftedInstrument, RoundBodyOffItsPosition) {
+  expect_right_answers("sphere", sphere_mesh(6), {0.2, -0.15, 0.2}, 0.0, 1.0, "auto");
+}
+
+// What fitted_from_where_seen() does with fits by the dipole that are made up: of one channel, by
+// the number of the fit, from 1.
+struct MadeUp {
+  double size_off = 0;         // standard deviations
+  double misfit_relative = 0;  // 0: the dipole explains the image
+};
+struct Fits {
+  std::vector<double> moved;  // of the views of the fits
+  std::vector<ChannelResult> results;
+};
+Fits fits_of(const std::string& body, const std::function<MadeUp(std::size_t)>& made_up) {
+  const Rig rig = body_rig(body, 1);
   const ObjectScenes objects = bodies_scenes(rig);
   const VirtualShots shots(rig, objects, {});
-  LitObjects lit(rig.scene, objects, 2.0, 0.0);
+  LitObjects lit(rig.scene, objects, 1.0, 0.0);
   KeptLight kept;
   const capture::ShotSource source = shots.source(3);
   const SharedView view =
       see_all(rig.scene, objects, lit, calib::pose_from_points(rig.scene, rig.pose));
   SeenShots seen(rig, objects, lit, source, view, false, {}, kept, nullptr);
   seen.open();
-  std::vector<double> size_off;  // of the views of the fits
+  Fits out;
   const auto fit = [&](const EstimateOptions& options) {
-    size_off.push_back(seen.shots().front().seen->shift.norm());
+    out.moved.push_back(seen.shots().front().seen->shift.norm());
+    const MadeUp now = made_up(out.moved.size());
     ChannelResult r;
     r.material = "plastic";
     r.channel = 'G';
     r.model = "dipole";
     r.estimate.converged = true;
-    const double side = size_off.size() % 2 == 0 ? -1.0 : 0.5;
+    r.estimate.misfit_relative = now.misfit_relative;
+    r.estimate.misfit_p_value = now.misfit_relative > 0.0 ? 0.0 : 0.5;
     constexpr double kKnown = 1e6;
-    r.evidence = {{{"mesh scale", 0.01, true, "cube.size"}},
+    r.evidence = {{{"mesh scale", 0.01, true, body + ".size"}},
                   Eigen::MatrixXd::Constant(1, 1, kKnown),
-                  Eigen::VectorXd::Constant(1, side * kKnown),
+                  Eigen::VectorXd::Constant(1, now.size_off * kKnown),
                   Eigen::VectorXd::Constant(1, 0.01),
                   100.0};
     if (options.goes_on_from_dipole({r})) {
@@ -93,15 +115,45 @@ TEST(ShiftedInstrument, PieceThatTheDipoleKeepsMovingIsLeftToTransport) {
   Stopwatch watch(timing_s);
   EstimateOptions options;
   options.paths = 0;
-  const std::vector<ChannelResult> results =
-      fitted_from_where_seen(rig.scene, seen, options, fit, watch);
-  ASSERT_EQ(size_off.size(), 5U);
-  EXPECT_EQ(size_off.front(), 0.0);
-  for (std::size_t i = 1; i < 4; ++i) EXPECT_GT(size_off[i], 0.0);
-  EXPECT_EQ(size_off.back(), 0.0);
-  ASSERT_EQ(results.size(), 1U);
-  EXPECT_EQ(results.front().model, "transport");
-  EXPECT_TRUE(results.front().estimate.reasons.empty());
+  out.results = fitted_from_where_seen(rig.scene, seen, options, fit, watch);
+  return out;
+}
+
+void expect_transport_from_stated(const Fits& fits, std::size_t n) {
+  ASSERT_EQ(fits.moved.size(), n);
+  EXPECT_EQ(fits.moved.front(), 0.0);
+  for (std::size_t i = 1; i + 1 < n; ++i) EXPECT_GT(fits.moved[i], 0.0);
+  EXPECT_EQ(fits.moved.back(), 0.0);
+  ASSERT_EQ(fits.results.size(), 1U);
+  EXPECT_EQ(fits.results.front().model, "transport");
+  EXPECT_TRUE(fits.results.front().estimate.reasons.empty());
+}
+
+// The size of the piece changes sides from view to view, as where the dipole does not hold: after
+// so many, transport looks from the stated position, and its answers stand.
+TEST(ShiftedInstrument, PieceThatTheDipoleKeepsMovingIsLeftToTransport) {
+  expect_transport_from_stated(fits_of("cube",
+                                       [](std::size_t i) {
+                                         return MadeUp{i % 2 == 0 ? -1.0 : 0.5, 0.0};
+                                       }),
+                               kMostViews + 1);
+}
+
+// A round body whose image the dipole misses moves once: that brings it nearer, or not.
+TEST(ShiftedInstrument, RoundBodyIsSeenFromWhereItsMisfitFalls) {
+  expect_transport_from_stated(fits_of("sphere",
+                                       [](std::size_t i) {
+                                         return MadeUp{3.0, i == 1 ? 0.01 : 0.008};
+                                       }),
+                               3);
+  const Fits nearer = fits_of("sphere", [](std::size_t i) {
+    return MadeUp{3.0, i == 1 ? 0.01 : 0.0};
+  });
+  ASSERT_EQ(nearer.moved.size(), 2U);
+  EXPECT_GT(nearer.moved.back(), 0.0);
+  EXPECT_EQ(nearer.results.front().model, "transport");
+  // Outlines have told where a cube stands.
+  EXPECT_EQ(fits_of("cube", [](std::size_t) { return MadeUp{3.0, 0.01}; }).moved.size(), 1U);
 }
 
 }  // namespace

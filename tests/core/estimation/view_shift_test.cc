@@ -94,7 +94,11 @@ TEST_F(ViewShiftTest, IsVisibleAgainstThePatch) {
   EXPECT_NEAR(far.motion, 0.2 / patch_mm, 1e-3);  // seen from above
   EXPECT_NEAR(seen_elsewhere(cube_.scene, cube_.shots, at_side(0.02)).motion, 0.1 * far.motion,
               1e-6);
-  const SeenElsewhere half = seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2), 0.5);
+  // The last view came nearer, or it did not.
+  EXPECT_EQ(seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2), 1.1 * far.motion).shifts,
+            far.shifts);
+  const SeenElsewhere half =
+      seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2), 0.9 * far.motion);
   EXPECT_LT((half.shifts.at("cube") - 0.5 * far.shifts.at("cube")).norm(), 1e-12);
   EXPECT_EQ(half.motion, far.motion);
   // Seen from there already.
@@ -102,6 +106,25 @@ TEST_F(ViewShiftTest, IsVisibleAgainstThePatch) {
       see(cube_.scene, cube_.objects, cube_.lit, "cube", shot().pose, far.shifts.at("cube"));
   EXPECT_LT(seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2)).motion, 1e-9);
   EXPECT_EQ(seen_elsewhere(cube_.scene, cube_.shots, {}).motion, 0.0);
+}
+
+// An image without edges changes more slowly.
+TEST_F(ViewShiftTest, IsLessVisibleWithoutEdges) {
+  const double motion = seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2)).motion;
+  cube_.objects.at("cube").is_round = true;
+  EXPECT_NEAR(seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2)).motion, motion / 5.0, 1e-12);
+}
+
+// No view goes farther than three deviations of a quantity.
+TEST_F(ViewShiftTest, IsBelievable) {
+  const auto shift = [&](double pull) {
+    return most_probable_shift(cube_.scene, shot(),
+                               {{"cube.position0", "mesh position", pull, 0.1 * pull},
+                                {"cube.size", "mesh scale", pull, 1e-3 * pull}});
+  };
+  EXPECT_LT((shift(2.0) - 2.0 * shift(1.0)).norm(), 1e-12);
+  EXPECT_LT((shift(9.0) - 3.0 * shift(1.0)).norm(), 1e-12);
+  EXPECT_LT((shift(-9.0) + 3.0 * shift(1.0)).norm(), 1e-12);
 }
 
 // By its file, and moved by its own pose.

@@ -20,6 +20,7 @@ TEST(ObjectScene, KnowsItsSize) {
   const ObjectScene object = object_scene(scene, scene.objects[0], cube_mesh());
   EXPECT_EQ(object.stated, &scene.objects[0]);
   EXPECT_DOUBLE_EQ(object.size_mm(), 20.0);
+  EXPECT_FALSE(object.is_round);
   EXPECT_DOUBLE_EQ(object.diagonal_mm(), 20.0 * std::sqrt(3.0));
 }
 

@@ -1,0 +1,76 @@
+#include "apps/instrument/displaced_round_bodies.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "apps/instrument/outline_finding.h"
+#include "calib/pose/outline_causes.h"
+#include "calib/pose/outline_contour.h"
+#include "calib/pose/outline_look.h"
+
+namespace scattermeter::apps {
+namespace {
+
+// Of a body without straight edges in a shot with its own pose; absent unless the shot shows it
+// displaced. A quick look sees the limb, which is dark, too far in, but light outside the predicted
+// outline is the body's.
+std::optional<Finding> displaced_in(const Rig& rig, const ObjectScene& object,
+                                    const ObservedShot& shot, const capture::RawFrame& frame) {
+  constexpr double kLimb_cells = 2.0;
+  constexpr double kOutside = 0.2;  // of the points
+  const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
+  const int cell_px = calib::outline_cell_px(lens.width_px);
+  const std::vector<calib::ContourPoint> contour =
+      calib::contour_points(*object.rays, lens, shot.pose.camera_from_world, cell_px);
+  const calib::OutlineLook look =
+      calib::look_at_outline(contour, frame, rig.scene.camera.sensor.noise);
+  const auto outside = std::count_if(look.offsets.begin(), look.offsets.end(),
+                                     [&](const auto& offset) { return offset.px > cell_px; });
+  if (static_cast<double>(outside) < kOutside * static_cast<double>(contour.size())) return {};
+  calib::OutlineOptions options;
+  options.place_std_mm = object.stated->position_std_mm;
+  options.turn_std_rad = options.place_std_mm / object.size_mm();
+  options.scale_relative_std = object.stated->scale_relative_std;
+  options.growth_std_px = kLimb_cells * cell_px;
+  const calib::OutlineDiagnosis diagnosis = calib::explain_outlines(
+      {{shot.stated->file, 0, &contour, look, Eigen::Vector3d::Zero()}}, lens, shot.pose,
+      {object.stated->name}, {object.box.center_mm()}, options);
+  if (diagnosis.agrees ||
+      diagnosis.explanations.at(1).cause != calib::OutlineCause::kMeshDisplaced) {
+    return {};
+  }
+  return outline_finding(diagnosis, object.stated->name);
+}
+
+}  // namespace
+
+std::vector<Finding> displaced_round_bodies(const Rig& rig, const ObjectScenes& objects,
+                                            const std::vector<ObservedShot>& shots,
+                                            const std::vector<Finding>& of_light,
+                                            const capture::FrameSource& frames) {
+  std::set<std::size_t> doubtful;
+  for (const Finding& f : of_light) doubtful.insert(f.shots.begin(), f.shots.end());
+  std::map<std::string, std::optional<Finding>> displaced;  // absent: a shot says otherwise
+  for (const ObservedShot& shot : shots) {
+    const std::size_t idx = rig.scene.index_of(*shot.stated);
+    const ObjectScene& object = objects.at(shot.stated->object);
+    if (!object.is_round || !doubtful.contains(idx)) continue;
+    const auto [at, is_new] = displaced.try_emplace(shot.stated->object);
+    if (!is_new && !at->second) continue;
+    std::optional<Finding> own = displaced_in(rig, object, shot, frames(idx, 0));
+    if (is_new || !own) at->second = std::move(own);
+    if (at->second) at->second->shots.push_back(idx);
+  }
+  std::vector<Finding> out;
+  for (auto& [object, finding] : displaced) {
+    if (finding) out.push_back(std::move(*finding));
+  }
+  return out;
+}
+
+}  // namespace scattermeter::apps
