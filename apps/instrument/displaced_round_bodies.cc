@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <set>
-#include <string>
 #include <utility>
 
 #include "apps/instrument/outline_finding.h"
@@ -16,7 +14,7 @@
 namespace scattermeter::apps {
 namespace {
 
-// Of a body without straight edges in a shot with its own pose; absent unless the shot shows it
+// Of a body in a shot with its own pose; absent unless the shot shows it
 // displaced. A quick look sees the limb, which is dark, too far in, but light outside the predicted
 // outline is the body's.
 std::optional<Finding> displaced_in(const Rig& rig, const ObjectScene& object,
@@ -51,6 +49,7 @@ std::optional<Finding> displaced_in(const Rig& rig, const ObjectScene& object,
 
 std::vector<Finding> displaced_round_bodies(const Rig& rig, const ObjectScenes& objects,
                                             const std::vector<ObservedShot>& shots,
+                                            const std::set<std::string>& names,
                                             const std::vector<Finding>& of_light,
                                             const capture::FrameSource& frames) {
   std::set<std::size_t> doubtful;
@@ -59,7 +58,7 @@ std::vector<Finding> displaced_round_bodies(const Rig& rig, const ObjectScenes& 
   for (const ObservedShot& shot : shots) {
     const std::size_t idx = rig.scene.index_of(*shot.stated);
     const ObjectScene& object = objects.at(shot.stated->object);
-    if (!object.is_round || !doubtful.contains(idx)) continue;
+    if (!names.contains(shot.stated->object) || !doubtful.contains(idx)) continue;
     const auto [at, is_new] = displaced.try_emplace(shot.stated->object);
     if (!is_new && !at->second) continue;
     std::optional<Finding> own = displaced_in(rig, object, shot, frames(idx, 0));

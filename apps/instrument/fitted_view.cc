@@ -29,10 +29,13 @@ double least_misfit(const std::vector<ChannelResult>& results) {
   return least;
 }
 
-// Outlines have not told where a body without edges stands.
-bool any_round(const std::vector<ObservedShot>& shots) {
-  return std::any_of(shots.begin(), shots.end(),
-                     [](const ObservedShot& shot) { return shot.seen->object->is_round; });
+// Outlines hardly tell where a curved body stands.
+bool any_curved(const std::vector<ObservedShot>& shots) {
+  return std::any_of(shots.begin(), shots.end(), [](const ObservedShot& shot) {
+    const std::vector<Eigen::Matrix3d>& turns = shot.seen->object->normal_change_per_mm;
+    return std::any_of(turns.begin(), turns.end(),
+                       [](const Eigen::Matrix3d& turn) { return !turn.isZero(0.0); });
+  });
 }
 
 }  // namespace
@@ -66,8 +69,8 @@ std::vector<ChannelResult> fitted_from_where_seen(
     bool is_vain = false;
     options.goes_on_from_dipole = [&](const std::vector<ChannelResult>& results) {
       if (by_transport || is_stated) return true;
-      found =
-          from(any_round(seen.shots()) ? most_probable_pulls_of(results) : joint_pulls_of(results));
+      found = from(any_curved(seen.shots()) ? most_probable_pulls_of(results)
+                                            : joint_pulls_of(results));
       const double misfit = least_misfit(results);
       is_vain = misfit > kNearer * misfit_before || (is_last && found.motion > kUnsettled);
       misfit_before = misfit;

@@ -218,9 +218,10 @@ FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
   std::vector<Finding> of_light;
   if (smooth) {
     of_light = LightLook(rig_.scene, lit_, seen.shots(), seen.kept().weights).findings();
-    const auto* frames = std::get_if<capture::FrameSource>(&source.open);
-    if (frames != nullptr && !view_) {
-      for (Finding& f : displaced_round_bodies(rig_, objects_, seen.shots(), of_light, *frames)) {
+    if (!outlines.unjudged.empty()) {
+      for (Finding& f :
+           displaced_round_bodies(rig_, objects_, seen.shots(), outlines.unjudged, of_light,
+                                  std::get<capture::FrameSource>(source.open))) {
         outlines.findings.push_back(std::move(f));
       }
     }

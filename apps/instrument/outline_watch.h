@@ -5,6 +5,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ namespace scattermeter::apps {
 struct OutlineFindings {
   std::vector<Finding> findings;  // the most probable first
   std::vector<std::string> notes;
+  std::set<std::string> unjudged;  // objects whose outlines look_at_pieces() does not tell
   // By ObservedShot::view_name(), if the outlines show where the objects stand within the rig's
   // uncertainty: the shift of the pose relative to them. Empty otherwise.
   std::map<std::string, PoseShift> shifts;

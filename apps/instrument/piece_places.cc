@@ -188,13 +188,18 @@ OutlineFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
   for (const auto& [name, object] : objects) {
     const std::vector<const ObservedShot*> telling = shots_of(shots, name);
     // Those to be found stand where their outline showed them already.
-    if (telling.empty() || object.is_round || object.stated->to_be_found) continue;
+    if (telling.empty() || object.stated->to_be_found) continue;
+    if (object.is_round) {
+      out.unjudged.insert(name);
+      continue;
+    }
     std::vector<ShotsOfPose> views;
     for (const ObservedShot* shot : telling) {
       views.push_back({shot->pose, {rig.scene.index_of(*shot->stated)}});
     }
     const calib::PiecePose found = found_near(rig, objects, object, views, frames);
     if (!found.problem.empty()) {
+      out.unjudged.insert(name);
       out.notes.push_back(
           fmt::format("outline of {} is not judged, so pose and mesh are not checked: {}", name,
                       found.problem));

@@ -1,8 +1,10 @@
 #include "core/mesh/round_bodies.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -57,6 +59,43 @@ void set_down(TriangleMesh& mesh) {
   for (Eigen::Vector3d& v : mesh.vertices_mm) v -= foot;
 }
 
+constexpr double kRadius_mm = 10.0;
+constexpr double kHeight_mm = 20.0;
+constexpr int kCornersOfFirstCircle = 6;
+
+// Corners of a mesh on a circle about the z axis.
+struct Ring {
+  int first;
+  int corners;
+  int operator[](int i) const { return first + i % corners; }
+};
+Ring add_ring(TriangleMesh& mesh, int corners, double radius_mm, double z_mm) {
+  const Ring out{static_cast<int>(mesh.vertices_mm.size()), corners};
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners;
+    mesh.vertices_mm.emplace_back(radius_mm * std::cos(angle), radius_mm * std::sin(angle), z_mm);
+  }
+  return out;
+}
+
+// The band between two rings, which faces outwards where `b` is above `a`, and up where `b` is
+// inside of it.
+void join(TriangleMesh& mesh, const Ring& a, const Ring& b) {
+  int i = 0, j = 0;
+  const int of_b = b.corners > 1 ? b.corners : 0;
+  const int of_a = a.corners > 1 ? a.corners : 0;
+  while (i < of_a || j < of_b) {
+    // The next corner by angle.
+    if (j == of_b || (i < of_a && (i + 1) * b.corners <= (j + 1) * a.corners)) {
+      mesh.triangles.push_back({a[i], a[i + 1], b[j]});
+      ++i;
+    } else {
+      mesh.triangles.push_back({a[i], b[j + 1], b[j]});
+      ++j;
+    }
+  }
+}
+
 }  // namespace
 
 TriangleMesh sphere_mesh(int levels) {
@@ -68,18 +107,28 @@ TriangleMesh sphere_mesh(int levels) {
 }
 
 TriangleMesh cylinder_mesh(int sides) {
+  // Bands of a side and circles of a cap: facets are some four times as long as a side is wide.
+  constexpr int kSidesPerBand = 12;
+  const int bands = std::max(1, sides / kSidesPerBand);
   TriangleMesh mesh;
-  mesh.vertices_mm = {{0, 0, 0}, {0, 0, 20}};
-  for (int i = 0; i < sides; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / sides;
-    for (const double z : {0.0, 20.0}) {
-      mesh.vertices_mm.emplace_back(10.0 * std::cos(angle), 10.0 * std::sin(angle), z);
+  std::vector<Ring> rims;
+  for (int k = 0; k <= bands; ++k) {
+    rims.push_back(add_ring(mesh, sides, kRadius_mm, kHeight_mm * k / bands));
+    if (k > 0) join(mesh, rims[rims.size() - 2], rims.back());
+  }
+  for (const Ring& rim : {rims.front(), rims.back()}) {
+    const double z_mm = mesh.vertices_mm[static_cast<std::size_t>(rim.first)].z();
+    Ring outer = rim;
+    for (int k = bands - 1; k >= 0; --k) {
+      const int corners = k == 0 ? 1 : std::min(sides, kCornersOfFirstCircle * k);
+      const Ring inner = add_ring(mesh, corners, kRadius_mm * k / bands, z_mm);
+      if (z_mm > 0.0) {
+        join(mesh, outer, inner);
+      } else {
+        join(mesh, inner, outer);
+      }
+      outer = inner;
     }
-    const int low = 2 + 2 * i, next = 2 + 2 * ((i + 1) % sides);
-    mesh.triangles.push_back({0, next, low});
-    mesh.triangles.push_back({1, low + 1, next + 1});
-    mesh.triangles.push_back({low, next, next + 1});
-    mesh.triangles.push_back({low, next + 1, low + 1});
   }
   return mesh;
 }

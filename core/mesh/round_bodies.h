@@ -11,8 +11,9 @@ namespace scattermeter {
 // their corners on the sphere.
 TriangleMesh sphere_mesh(int levels = 4);
 
-// A cylinder of radius 10 mm and height 20 mm with so many sides.
-TriangleMesh cylinder_mesh(int sides = 96);
+// A cylinder of radius 10 mm and height 20 mm with so many sides, in bands of facets some four
+// times as long as they are wide; the circles of a cap have fewer corners towards its centre.
+TriangleMesh cylinder_mesh(int sides = 288);
 
 // Like the scan of a stone: 20480 triangles, all different, some 0.35 mm wide; star-shaped, with
 // bumps and dents; concave in the dents. The longest side of its box is 20 mm.

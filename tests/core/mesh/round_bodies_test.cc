@@ -89,7 +89,9 @@ TEST(RoundBodies, CylinderOfTenMm) {
   constexpr int kSides = 96;
   const TriangleMesh mesh = cylinder_mesh(kSides);
   EXPECT_EQ(mesh_problem(mesh), "");
-  EXPECT_EQ(mesh.triangles.size(), 4U * kSides);
+  // Eight bands; circles of 42, 36, ... 6 corners and the centre in each cap.
+  EXPECT_EQ(mesh.triangles.size(),
+            8U * 2U * kSides + 2U * (kSides + 2U * (42 + 36 + 30 + 24 + 18 + 12 + 6)));
   EXPECT_EQ(bounds(mesh).min_mm.z(), 0.0);
   EXPECT_EQ(bounds(mesh).max_mm.z(), 20.0);
   // Of the polygon of its sides.
