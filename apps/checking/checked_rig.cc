@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/instrument/calibration_inputs.h"
+#include "apps/instrument/displaced_round_bodies.h"
 #include "apps/instrument/first_look.h"
 #include "apps/instrument/open_objects.h"
 #include "apps/instrument/piece_places.h"
@@ -194,6 +195,10 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   out.leds = checked_leds(rig, shots_folder);
   out.fit = fit_for_check(rig.scene, loose, source, seen, *geometry->lit, options.progress);
   out.shots = seen.whole();
+  for (Finding& f : displaced_round_bodies(loose, geometry->objects, out.shots, out.looks->unjudged,
+                                           out.fit.findings, frames)) {
+    out.looks->findings.push_back(std::move(f));
+  }
   out.outline = checked_outline(*geometry, source, out);
   if (!rig.scene.camera.responsivity) {
     out.notes.emplace_back(

@@ -14,9 +14,8 @@
 namespace scattermeter::apps {
 namespace {
 
-// Of a body in a shot with its own pose; absent unless the shot shows it
-// displaced. A quick look sees the limb, which is dark, too far in, but light outside the predicted
-// outline is the body's.
+// Of a body in a shot with its own pose; absent unless the shot shows it displaced. A quick look
+// sees the limb, which is dark, too far in, but light outside the predicted outline is the body's.
 std::optional<Finding> displaced_in(const Rig& rig, const ObjectScene& object,
                                     const ObservedShot& shot, const capture::RawFrame& frame) {
   constexpr double kLimb_cells = 2.0;

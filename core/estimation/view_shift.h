@@ -45,7 +45,7 @@ SeenElsewhere seen_elsewhere(const Scene& scene, std::span<const ObservedShot> s
                              const std::vector<PriorPull>& pulls,
                              double motion_before = std::numeric_limits<double>::infinity());
 
-// Views after which the object is not seen to settle.
+// As many views are tried; an object that has not settled in them does not.
 inline constexpr int kMostViews = 8;
 
 }  // namespace scattermeter

@@ -6,7 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/drafting/drafted_body.h"
 #include "core/base/input_error.h"
+#include "core/mesh/round_bodies.h"
 #include "core/scene/default_uncertainty.h"
 #include "tests/fixtures/apps/charuco_rig.h"
 
@@ -75,6 +77,23 @@ TEST(CheckedRig, LooksFromWhereAPieceBesideABoardStands) {
   files.write(replaced(files.text(), "pyramid.obj, eta: 1.4}",
                        "pyramid.obj, eta: 1.4, pose: {position_mm: [0.2, 0, 0]}}"));
   EXPECT_LT(checked_at(read_rig(files.rig())), 1.5 * exact);
+}
+
+// The outline of a sphere beside a board tells that it is displaced, not covered, to check as to
+// measure.
+TEST(CheckedRig, TellsThatARoundPieceBesideABoardIsDisplaced) {
+  CharucoRig files("POM_pyramid");
+  write_file(files / "pyramid.obj", obj_text(sphere_mesh(5)));
+  files.simulate();
+  EXPECT_TRUE(open_checked_rig(read_rig(files.rig()), files.shots(), {}).findings().empty());
+  files.write(replaced(files.text(), "pyramid.obj, eta: 1.4}",
+                       "pyramid.obj, eta: 1.4, pose: {position_mm: [-3, 0, 0]}}"));
+  const std::vector<Finding> findings =
+      open_checked_rig(read_rig(files.rig()), files.shots(), {}).findings();
+  ASSERT_FALSE(findings.empty());
+  EXPECT_THAT(findings.front().text,
+              HasSubstr("mesh of pyramid displaced: the object stands away from it by "));
+  EXPECT_THAT(files.measure().out, HasSubstr("mesh of pyramid displaced: "));
 }
 
 TEST(CheckedRig, RefusesWhatMeasureRefuses) {
