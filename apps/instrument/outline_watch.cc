@@ -12,7 +12,6 @@
 #include "apps/instrument/closer_look.h"
 #include "apps/instrument/outline_finding.h"
 #include "apps/instrument/piece_places.h"
-#include "core/mesh/creases.h"
 #include "core/view/camera_view.h"
 
 namespace scattermeter::apps {
@@ -60,7 +59,7 @@ OutlineWatch::OutlineWatch(const Rig& rig, const ObjectScenes& objects, const Po
     const auto scene = objects.find(object.name);
     centers_mm_.push_back(scene == objects.end() ? Eigen::Vector3d(Eigen::Vector3d::Zero())
                                                  : scene->second.box.center_mm());
-    if (scene == objects.end() || is_round(scene->second.mesh())) continue;
+    if (scene == objects.end() || scene->second.is_round) continue;
     contours_[object.name] = calib::contour_points(
         *scene->second.rays, lens, pose.camera_from_world, calib::outline_cell_px(lens.width_px));
   }
