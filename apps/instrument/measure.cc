@@ -1,6 +1,9 @@
 #include "apps/instrument/measure.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <thread>
 
 #include <fmt/core.h>
 #include <fmt/format.h>
@@ -52,6 +55,21 @@ bool lists(const Rig& rig, const std::string& file) {
   });
 }
 
+// The shots that the cache cannot have, where they are fewer than the processor's cores: the cores
+// would idle while the geometry is prepared. Of more shots none.
+std::vector<std::size_t> few_new_shots(const std::vector<std::vector<std::string>>& paths,
+                                       const std::optional<capture::ShotCache>& cache) {
+  const auto newest = cache ? cache->newest() : std::nullopt;
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    std::error_code error;
+    const auto time = std::filesystem::last_write_time(paths[i].front(), error);
+    if (!error && (!newest || time > *newest)) out.push_back(i);
+  }
+  if (out.size() >= std::thread::hardware_concurrency()) out.clear();
+  return out;
+}
+
 }  // namespace
 
 Measurement measure(const Rig& whole, const std::string& shots_folder,
@@ -63,17 +81,18 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
   const capture::ShotFolder folder =
       capture::match_shots(rig.scene, calibration_files(rig), shots_folder);
   std::vector<std::string> places = place_pieces(rig, shots_folder, progress);
-  const ObjectScenes objects = open_objects(rig);
-  Instrument instrument(rig, objects, options, progress);
-  watch.lap("geometry");
-  capture::FileDigests digests;
   std::optional<capture::ShotCache> cache;
+  if (!options.cache_folder.empty()) cache.emplace(options.cache_folder);
+  capture::FileDigests digests;
   capture::ShotSource source = capture::shots_in_files(rig.scene, rig.decoding, folder.paths);
-  if (!options.cache_folder.empty()) {
-    cache.emplace(options.cache_folder);
+  source = capture::begun(source, few_new_shots(folder.paths, cache));
+  if (cache) {
     source.cache = &*cache;
     source.digests = &digests;
   }
+  const ObjectScenes objects = open_objects(rig);
+  Instrument instrument(rig, objects, options, progress);
+  watch.lap("geometry");
   Measurement out;
   try {
     out = instrument.measure(source, watch);

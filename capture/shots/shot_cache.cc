@@ -35,6 +35,16 @@ std::string ShotCache::path_of(const std::string& key) const {
   return folder_ + "/" + key + kEnding;
 }
 
+std::optional<std::filesystem::file_time_type> ShotCache::newest() const {
+  std::optional<std::filesystem::file_time_type> out;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, error)) {
+    const auto time = entry.last_write_time(error);
+    if (!error && (!out || time > *out)) out = time;
+  }
+  return out;
+}
+
 std::optional<DecodedShot> ShotCache::find(const std::string& key) {
   const std::optional<std::string> content = read_checked_file(path_of(key));
   if (!content) return std::nullopt;

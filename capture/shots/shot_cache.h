@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -21,6 +22,8 @@ class ShotCache {
  public:
   explicit ShotCache(std::string folder);
 
+  // When the newest of its files was written; absent without any. It has no shot of a newer raw.
+  std::optional<std::filesystem::file_time_type> newest() const;
   std::optional<DecodedShot> find(const std::string& key);
   // If the file cannot be written the shot is not kept, which has no other effect than problem().
   void keep(const std::string& key, const DecodedShot& shot);

@@ -1,5 +1,9 @@
 #include "capture/shots/shot_source.h"
 
+#include <future>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <numeric>
 #include <utility>
 
@@ -39,6 +43,30 @@ ShotSource shown_to(const std::function<void(std::size_t, const RawFrame&)>& loo
       return frame;
     });
   }
+  return out;
+}
+
+ShotSource begun(const ShotSource& source, const std::vector<std::size_t>& shot_idxs) {
+  const auto* frames = std::get_if<FrameSource>(&source.open);
+  if (frames == nullptr || shot_idxs.empty()) return source;
+  struct Ahead {
+    std::mutex mutex;
+    std::map<std::size_t, std::future<RawFrame>> frames;
+  };
+  const auto ahead = std::make_shared<Ahead>();
+  for (const std::size_t i : shot_idxs) {
+    ahead->frames[i] = std::async(std::launch::async, *frames, i, std::size_t{0});
+  }
+  ShotSource out = source;
+  out.open = FrameSource([ahead, open = *frames](std::size_t shot_idx, std::size_t exposure_idx) {
+    std::future<RawFrame> frame;
+    if (exposure_idx == 0) {
+      const std::lock_guard lock(ahead->mutex);
+      const auto it = ahead->frames.find(shot_idx);
+      if (it != ahead->frames.end()) std::swap(frame, it->second);
+    }
+    return frame.valid() ? frame.get() : open(shot_idx, exposure_idx);
+  });
   return out;
 }
 

@@ -50,6 +50,11 @@ ShotSource shots_from(const Scene& scene, std::vector<std::size_t> shot_idxs,
 ShotSource shown_to(const std::function<void(std::size_t shot_idx, const RawFrame&)>& look,
                     const ShotSource& source);
 
+// The same source, while these shots' first frames are being decoded from now on, each by a thread
+// of its own, as others prepare what they need to look at them. What `source` refers to must
+// outlive it.
+ShotSource begun(const ShotSource& source, const std::vector<std::size_t>& shot_idxs);
+
 // The indices 0, 1, ... of all shots of the scene.
 std::vector<std::size_t> all_shots(const Scene& scene);
 

@@ -48,20 +48,26 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
   std::array<std::vector<ExitSite>, 3> sites;
   sites[0] = sites_at_centers(seen);
   out.shift_mm = 0.1 * seen.patches->patch_size_mm();
+  std::vector<Eigen::Vector3d> centers_mm, normals;
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
-    const auto along = tangents(seen.patches->normal(seen.map.patch_of_row[j]));
+    centers_mm.push_back(seen.sites[j].center_mm);
+    normals.push_back(seen.patches->normal(seen.map.patch_of_row[j]));
+    const auto along = tangents(normals.back());
     for (std::size_t t = 0; t < 2; ++t) {
       sites[t + 1].push_back(moved(sites[0][j], out.shift_mm * along[t]));
     }
   }
+  out.some = interpolation_of_rows(centers_mm, normals, seen.map.adjacent_rows);
+  std::vector<ExitSite> some;
+  for (const std::size_t row : out.some.rows) some.push_back(sites[0][row]);
   const SourceCloud sources = nominal(eta);
   out.nominal = make(sites[0], sources, false);
   for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = make(sites[t + 1], sources, false);
   for (const LightChange& change : light->changes(object.box.center_mm())) {
-    out.changed.push_back(make(sites[0], lit_by(*change.changed, eta), false));
+    out.changed.push_back(make(some, lit_by(*change.changed, eta), false));
     out.steps.push_back(change.step);
   }
-  out.other_eta = make(sites[0], nominal(eta + kEtaStep), true);
+  out.other_eta = make(some, nominal(eta + kEtaStep), true);
   return out;
 }
 
@@ -133,6 +139,7 @@ ChangedImages changed_images(const SeenObject& seen, const ChangedWeights& weigh
   };
   ChangedImages out;
   out.nominal = image(weights.nominal);
+  out.some = weights.some;
   for (const WeightMatrix& w : weights.changed) out.changed.push_back(image(w));
   out.steps = weights.steps;
   if (weights.other_eta.size() > 0) {
@@ -165,19 +172,26 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
   const double eta = seen.object->stated->eta_int_over_ext;
   LightSensitivity out;
   out.l = nominal * scaled_curves(media, knots, eta);
+  const auto per_l = [](const Eigen::MatrixXd& changed, const Eigen::MatrixXd& l,
+                        double by) -> Eigen::MatrixXd {
+    return (l.array() > 0.0).select((changed - l).array() / (by * l.array()), 0.0);
+  };
   const Eigen::MatrixXd& l = images.nominal;
-  const auto change = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
+  const Eigen::MatrixXd some_l = l(images.some.rows, Eigen::all);
+  const auto of_light = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
     if (changed.size() == 0) return {};
-    const Eigen::ArrayXXd per_l = (changed - l).array() / (by * l.array());
-    return (l.array() > 0.0).select(per_l * out.l.array(), 0.0);
+    const Eigen::MatrixXd all = images.some.from_rows * per_l(changed, some_l, by);
+    return all.cwiseProduct(out.l);
   };
   for (std::size_t k = 0; k < images.changed.size(); ++k) {
-    out.per_change.push_back(change(images.changed[k], images.steps[k]));
+    out.per_change.push_back(of_light(images.changed[k], images.steps[k]));
   }
-  for (std::size_t t = 0; t < 2; ++t) {
-    out.per_tangent_mm[t] = change(images.shifted[t], images.shift_mm);
+  if (l.size() > 0) {
+    for (std::size_t t = 0; t < 2; ++t) {
+      out.per_tangent_mm[t] = per_l(images.shifted[t], l, images.shift_mm).cwiseProduct(out.l);
+    }
   }
-  out.per_eta = change(images.other_eta, kEtaStep);
+  out.per_eta = of_light(images.other_eta, kEtaStep);
   if (out.per_eta.size() == 0) return out;
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
     const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);

@@ -12,6 +12,7 @@
 #include "core/material/medium.h"
 #include "core/scene/lit_objects.h"
 #include "core/scene/seen_object.h"
+#include "core/view/row_interpolation.h"
 
 namespace scattermeter {
 
@@ -46,9 +47,12 @@ DistanceKnots coarse_knots(const DistanceKnots& knots);
 // A view under a light, nominal and with one quantity changed at a time, at the centres of the
 // sites, with light on patches of twice the size: discretisation errors cancel in relative changes,
 // which are nearly constant over a site. Quantities stated as exact are not changed (no rows).
+// Relative changes of the light vary no faster than patches of twice the size show: some rows are
+// enough.
 template <class Each>
 struct Changed {
   Each nominal;
+  RowInterpolation some;      // the rows that the next three have
   std::vector<Each> changed;  // the light, as Light::changes()
   std::vector<double> steps;  // of these
   Each other_eta;

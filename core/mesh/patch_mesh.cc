@@ -92,25 +92,45 @@ double PatchMesh::area_mm2(int patch) const {
   return 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
 }
 
-PatchPoint PatchMesh::locate(int facet, const Eigen::Vector3d& barycentric) const {
+template <int kColumns>
+int PatchMesh::descend(int facet, Eigen::Matrix<double, 3, kColumns>& weights) const {
+  using Row = Eigen::Matrix<double, 1, kColumns>;
   std::int32_t node = facet;
-  Eigen::Vector3d w = barycentric;
   while (nodes_[node].child > 0) {
     constexpr std::array<std::array<Eigen::Index, 2>, 3> kOthers = {{{1, 2}, {2, 0}, {0, 1}}};
     const std::uint8_t apex = nodes_[node].apex;
-    const double wa = w[apex];
-    const double wb = w[kOthers[apex][0]];
-    const double wc = w[kOthers[apex][1]];
+    const std::array<Eigen::Index, 2>& other = kOthers[apex];
     // With m = (b + c) / 2:  wa a + wb b + wc c = wa a + (wb - wc) b + 2 wc m
     //                                           = wa a + 2 wb m + (wc - wb) c.
     // Without a branch, which would be mispredicted half of the time.
-    const int second = wb < wc ? 1 : 0;
-    w[0] = wa;
-    w[1 + second] = std::abs(wb - wc);
-    w[2 - second] = 2.0 * std::min(wb, wc);
+    const int second = weights(other[0], 0) < weights(other[1], 0) ? 1 : 0;
+    const Row a = weights.row(apex);
+    const Row larger = weights.row(other[static_cast<std::size_t>(second)]);
+    const Row smaller = weights.row(other[static_cast<std::size_t>(1 - second)]);
+    weights.row(0) = a;
+    weights.row(1 + second) = larger - smaller;
+    weights.row(2 - second) = 2.0 * smaller;
     node = nodes_[node].child + second;
   }
-  return {-nodes_[node].child - 1, w};
+  return -nodes_[node].child - 1;
+}
+
+PatchPoint PatchMesh::locate(int facet, const Eigen::Vector3d& barycentric) const {
+  PatchPoint out{-1, barycentric};
+  out.patch_idx = descend(facet, out.barycentric);
+  return out;
+}
+
+int PatchMesh::Finder::patch_idx(int facet, const Eigen::Vector3d& barycentric) {
+  // More than rounding, so that points on edges go to the patch that locate() finds.
+  constexpr double kInside = 1e-9;
+  if (facet == facet_ && (to_patch_ * barycentric).minCoeff() > kInside) return patch_;
+  Eigen::Matrix<double, 3, 4> weights;
+  weights << barycentric, Eigen::Matrix3d::Identity();
+  facet_ = facet;
+  patch_ = patches_.descend(facet, weights);
+  to_patch_ = weights.rightCols<3>();
+  return patch_;
 }
 
 }  // namespace scattermeter

@@ -44,6 +44,19 @@ class PatchMesh {
   // The patch that contains a point of a facet. barycentric: weights of the facet's three vertices.
   PatchPoint locate(int facet, const Eigen::Vector3d& barycentric) const;
 
+  // The same for points of which most lie in the patch of the one before.
+  class Finder {
+   public:
+    // The patches must outlive it.
+    explicit Finder(const PatchMesh& patches) : patches_(patches) {}
+    int patch_idx(int facet, const Eigen::Vector3d& barycentric);
+
+   private:
+    const PatchMesh& patches_;
+    int facet_ = -1, patch_ = -1;
+    Eigen::Matrix3d to_patch_ = Eigen::Matrix3d::Zero();  // from weights of the facet's vertices
+  };
+
  private:
   // A triangle of the bisection tree. A leaf has child < 0 and is patch -child - 1. An inner node
   // was cut from corner `apex` to the middle m of the opposite edge (b, c); its children are
@@ -52,6 +65,11 @@ class PatchMesh {
     std::int32_t child;
     std::uint8_t apex;
   };
+  // Down to a leaf. weights: in the first column those of the facet's vertices, afterwards those of
+  // the patch's; the other columns are combined as the first.
+  template <int kColumns>
+  int descend(int facet, Eigen::Matrix<double, 3, kColumns>& weights) const;
+
   double size_mm_;
   std::vector<Eigen::Vector3d> vertices_mm_;
   std::vector<std::array<int, 3>> patches_;

@@ -51,9 +51,9 @@ double ExitTransmittance::of(int x, int y) const {
   double sum = 0.0;
   int n = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const PixelHit hit = pixel_hit(hits[i], patches_, directions[i].cast<double>());
-    if (hit.facet_idx < 0) continue;
-    sum += fresnel_transmittance(eta_, hit.cos_theta);
+    const double cos_theta = cosine_of(hits[i], patches_, directions[i].cast<double>());
+    if (!(cos_theta > 0.0)) continue;
+    sum += fresnel_transmittance(eta_, cos_theta);
     ++n;
   }
   return n > 0 ? sum / n : at_middle;

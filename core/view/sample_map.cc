@@ -1,5 +1,6 @@
 #include "core/view/sample_map.h"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <numeric>
@@ -117,23 +118,19 @@ std::vector<std::int32_t> add_rows(const SeenPatches& seen, const std::vector<st
 
 }  // namespace
 
-PixelHit pixel_hit(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction) {
-  PixelHit out;
-  if (hit.facet_idx < 0) return out;
-  const double length = direction.norm();
-  const double cos_theta = -patches.facet_normal(hit.facet_idx).dot(direction) / length;
-  if (!(cos_theta > 0.0)) return out;  // the inner side, through a pinhole of rounding
-  out.facet_idx = hit.facet_idx;
-  out.at = patches.locate(hit.facet_idx, hit.barycentric);
-  out.distance_mm = hit.distance * length;
-  out.cos_theta = cos_theta;
-  return out;
+double cosine_of(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction) {
+  if (hit.facet_idx < 0) return 0.0;
+  return std::max(0.0, -patches.facet_normal(hit.facet_idx).dot(direction) / direction.norm());
 }
 
 PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
                      const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction) {
   if (!direction.allFinite()) return {};
-  return pixel_hit(scene.first_hit(origin_mm, direction), patches, direction);
+  const RayHit hit = scene.first_hit(origin_mm, direction);
+  const double cos_theta = cosine_of(hit, patches, direction);
+  if (!(cos_theta > 0.0)) return {};
+  return {hit.facet_idx, patches.locate(hit.facet_idx, hit.barycentric),
+          hit.distance * direction.norm(), cos_theta};
 }
 
 SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMesh& patches,

@@ -27,8 +27,9 @@ struct PixelHit {
   double cos_theta = 0;  // between the direction back to the camera and the normal; > 0
 };
 
-// From the direction of a ray (of any length) and its first hit.
-PixelHit pixel_hit(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction);
+// The cosine of a first hit, from the ray's direction (of any length): between the direction back
+// to the camera and the normal. 0: background, or the inner side, through a pinhole of rounding.
+double cosine_of(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction);
 PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
                      const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction);
 

@@ -29,12 +29,14 @@ SeenSurface::SeenSurface(const RayGrid& rays, const RayScene& scene, const Patch
                                static_cast<std::size_t>(rays_.width));
     std::vector<RayHit> hits(directions.size());
     scene.first_hits(rays_.origin_in_world_mm, directions, hits);
+    PatchMesh::Finder patch(patches_);
     for (std::size_t x = 0; x < hits.size(); ++x) {
-      const PixelHit hit = pixel_hit(hits[x], patches_, directions[x].cast<double>());
-      if (hit.facet_idx < 0) continue;
-      seen_[index(static_cast<int>(x), y)] = {hit.at.patch_idx, hit.facet_idx,
-                                              static_cast<float>(hits[x].distance),
-                                              static_cast<float>(hit.cos_theta)};
+      const RayHit& hit = hits[x];
+      const double cos_theta = cosine_of(hit, patches_, directions[x].cast<double>());
+      if (!(cos_theta > 0.0)) continue;
+      seen_[index(static_cast<int>(x), y)] = {patch.patch_idx(hit.facet_idx, hit.barycentric),
+                                              hit.facet_idx, static_cast<float>(hit.distance),
+                                              static_cast<float>(cos_theta)};
     }
   });
   mark_amid_facets(std::max(options.guard_px, longest_reach_px()));

@@ -1,5 +1,6 @@
 #include "capture/shots/shot_cache.h"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -35,6 +36,17 @@ TEST(ShotCache, FindsWhatItKept) {
   EXPECT_TRUE(std::filesystem::exists(path + "/a.shot"));
   EXPECT_FALSE(std::filesystem::exists(path + "/b.shot"));
   EXPECT_TRUE(std::filesystem::exists(path + "/notes.txt"));
+}
+
+TEST(ShotCache, KnowsItsNewestFile) {
+  const TemporaryFolder folder;
+  ShotCache cache(folder / "cache");
+  EXPECT_FALSE(cache.newest());
+  cache.keep("a", decoded_example());
+  cache.keep("b", decoded_example());
+  const auto time = std::filesystem::last_write_time(folder / "cache/b.shot");
+  std::filesystem::last_write_time(folder / "cache/a.shot", time + std::chrono::hours(1));
+  EXPECT_EQ(cache.newest(), time + std::chrono::hours(1));
 }
 
 // Only what was there before is left.

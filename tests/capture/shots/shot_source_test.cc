@@ -1,5 +1,6 @@
 #include "capture/shots/shot_source.h"
 
+#include <atomic>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/raw/dng_writer.h"
+#include "core/base/input_error.h"
 #include "tests/fixtures/temporary_folder.h"
 
 namespace scattermeter::capture {
@@ -71,6 +73,29 @@ TEST(ShotSource, FramesOfAShotComeInTheOrderOfItsFiles) {
   EXPECT_THAT(asked, ElementsAre(std::pair(1U, 0U), std::pair(1U, 1U)));
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[1].iso, 200.0);
+}
+
+// A frame that is being decoded is handed over once; what its decoding throws, too.
+TEST(ShotSource, FirstFramesAreDecodedAhead) {
+  const Scene scene = two_shots();
+  std::atomic<int> decoded = 0;
+  const auto frames = [&](std::size_t shot, std::size_t) {
+    ++decoded;
+    if (shot == 1) throw InputError("b.dng", "is damaged");
+    RawFrame frame;
+    frame.iso = 100.0 * static_cast<double>(shot + 1);
+    return frame;
+  };
+  const ShotSource source = begun(shots_from(scene, {0, 1}, FrameSource(frames)), {0});
+  const auto& open = std::get<FrameSource>(source.open);
+  EXPECT_EQ(open(0, 0).iso, 100.0);
+  EXPECT_EQ(decoded, 1);
+  EXPECT_EQ(open(0, 0).iso, 100.0);
+  EXPECT_EQ(decoded, 2);
+  EXPECT_THROW(open(1, 0), InputError);
+  const ShotSource bad = begun(shots_from(scene, {1}, FrameSource(frames)), {1});
+  EXPECT_THROW(std::get<FrameSource>(bad.open)(1, 0), InputError);
+  EXPECT_EQ(decoded, 4);
 }
 
 // Only the first of a bracket's frames; samples without frames pass unseen.

@@ -62,6 +62,23 @@ TEST(PatchMesh, LocatesPoints) {
   }
 }
 
+// Along a line over two facets and from one patch's vertex to the next, as locate() does.
+TEST(PatchMesh, FindsThePatchesOfNeighbouringPoints) {
+  const PatchMesh patches(test_support::make_cube(), 0.6);
+  PatchMesh::Finder finder(patches);
+  int last = -1, changes = 0;
+  for (int i = 0; i <= 4000; ++i) {
+    const int facet = i / 2001;
+    const double u = (i % 2001) / 2000.0, v = (1 - u) * 0.3;
+    const Eigen::Vector3d weights{1 - u - v, u, v};
+    const int patch = finder.patch_idx(facet, weights);
+    ASSERT_EQ(patch, patches.locate(facet, weights).patch_idx) << i;
+    changes += patch != last ? 1 : 0;
+    last = patch;
+  }
+  EXPECT_GT(changes, 10);
+}
+
 TEST(PatchMesh, PatchesKeepTheFacetsNormal) {
   const PatchMesh patches(test_support::make_cube(), 1.0);
   for (int k = 0; k < patches.size(); ++k) {
