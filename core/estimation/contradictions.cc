@@ -15,28 +15,18 @@
 namespace scattermeter {
 namespace {
 
-// The covariance of paths is itself an estimate from so many blocks: pulls by transport have longer
-// tails.
-double most_pull_of(const std::vector<ChannelResult>& results) {
-  return std::any_of(results.begin(), results.end(),
-                     [](const ChannelResult& r) { return r.model == "transport"; })
-             ? kMostPullByPaths
-             : kMostPull;
-}
-
 // As improbable as one pull of that many deviations.
 double probability_of(double pull) { return std::erfc(pull * M_SQRT1_2); }
 
 // Of one material, or of all (empty).
 void refuse_with_all_channels(const JointJudgement& joint, const std::string& material,
                               std::vector<ChannelResult>& results) {
-  const double most_pull = most_pull_of(results);
-  const PriorPull* worst = contradiction(joint.pulls, most_pull, kLeastPullImage);
+  const PriorPull* worst = contradiction(joint.pulls, kMostPull, kLeastPullImage);
   std::string text;
   if (worst != nullptr) {
     text = "all channels together: " + contradiction_sentence(*worst, joint.pulls);
   } else if (joint.dof > 0.0 &&
-             chi_square_tail(joint.chi2, joint.dof) < probability_of(most_pull) &&
+             chi_square_tail(joint.chi2, joint.dof) < probability_of(kMostPull) &&
              std::sqrt(std::max(0.0, joint.chi2 - joint.dof)) >
                  kLeastExplained * joint.data_length) {
     // No single quantity is far off, but many are.
@@ -101,7 +91,7 @@ void refuse_stray_light(const std::string& material, std::vector<ChannelResult>&
     }
     if (channels.size() < 2) continue;
     const double p_value = choices * chi_square_tail(chi2, static_cast<double>(channels.size()));
-    if (!(p_value < probability_of(most_pull_of(results)))) continue;
+    if (!(p_value < probability_of(kMostPull))) continue;
     for (auto& [r, pull] : channels) {
       if (r->refused() || !(pull.image_relative > kLeastPullImage)) continue;
       pull.pull = std::copysign(std::sqrt(chi2), pull.pull);
@@ -119,7 +109,7 @@ void refuse_beside_others(std::vector<ChannelResult>& results) {
       continue;
     }
     const std::vector<PriorPull> own = own_pulls_beside(r.evidence, evidence);
-    const PriorPull* worst = contradiction(own, most_pull_of(results), kLeastPullImage);
+    const PriorPull* worst = contradiction(own, kMostPull, kLeastPullImage);
     if (worst == nullptr) continue;
     r.estimate.reasons.push_back("beside the other channels: " +
                                  contradiction_sentence(*worst, own));
@@ -172,8 +162,7 @@ void refuse_contradicted(std::vector<ChannelResult>& results) {
   std::map<std::string, std::string> contradicted;
   std::set<std::string> doubtful;
   for (const ChannelResult& r : results) {
-    const PriorPull* worst =
-        contradiction(r.estimate.pulls, most_pull_of(results), kLeastPullImage);
+    const PriorPull* worst = contradiction(r.estimate.pulls, kMostPull, kLeastPullImage);
     if (worst == nullptr || !r.estimate.converged) continue;
     const bool is_second = !doubtful.insert(r.material).second;
     if (explains_its_image(r) || is_second) {

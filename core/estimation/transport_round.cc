@@ -282,4 +282,11 @@ ModelJudgement TransportRound::judgement() const {
   return judge(model);
 }
 
+bool TransportRound::has_enough_paths(int& precise_blocks) const {
+  constexpr int kMoreInDoubt = 4;
+  if (!is_precise(step_, at_.sigma_a_per_mm, blocks())) return false;
+  if (precise_blocks == 0) precise_blocks = blocks();
+  return blocks() >= kMoreInDoubt * precise_blocks || !is_in_doubt(misfit_, judgement().pulls);
+}
+
 }  // namespace scattermeter

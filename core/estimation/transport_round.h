@@ -101,6 +101,10 @@ class TransportRound {
   const LackOfFit& misfit() const { return misfit_; }
   // On the rig's uncertain quantities, from the light of the parts; empty for fewer blocks.
   ModelJudgement judgement() const;
+  // Precise, and either beyond doubt or with so many more blocks than the first precise ones that
+  // still more would hardly tell. precise_blocks: those, 0 before them; the same variable for all
+  // looks.
+  bool has_enough_paths(int& precise_blocks) const;
 
  private:
   // further: of the pilots (EquationPilot), for all rows.

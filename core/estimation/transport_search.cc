@@ -162,9 +162,10 @@ class TransportSearch {
   void trace(TransportRound& round, int blocks, bool may_be_last, const Look& by) {
     const ChannelSimulation::Projections projections = round.projections();
     round.take(look(round.at(), blocks, projections));
+    int precise_blocks = 0;
     while (may_be_last && fits_weights(round.errors(), by.errors) &&
            is_close(round.step(), round.blocks(), round.misfit()) &&
-           !is_precise(round.step(), round.at().sigma_a_per_mm, round.blocks())) {
+           !round.has_enough_paths(precise_blocks)) {
       stage_.check();
       int more = next_blocks(round.at(), round.blocks());
       if (more == 0 && round.blocks() < kLeastBlocks &&

@@ -75,6 +75,14 @@ bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int
   return blocks >= kLeastBlocks;
 }
 
+bool is_in_doubt(const LackOfFit& misfit, const std::vector<PriorPull>& pulls) {
+  constexpr double kNearlyContradicted = 3.0;
+  const bool is_refused = (misfit.p_value < kMisfitPValue && misfit.rms > kMisfit) ||
+                          contradiction(pulls, kMostPull, kLeastPullImage) != nullptr;
+  return !is_refused && (misfit.p_value < kWideningPValue ||
+                         contradiction(pulls, kNearlyContradicted, kLeastPullImage) != nullptr);
+}
+
 void report_step(const ScatteringEquation::Step& step, Estimate& estimate) {
   const double s = step.to.sigma_s_per_mm;
   const Eigen::MatrixXd& c = step.covariance;
@@ -136,7 +144,7 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
                     100.0 * estimate.rms_relative, 100.0 * unexplained));
   }
   estimate.pulls = std::move(pulls);
-  if (const PriorPull* worst = contradiction(estimate.pulls, kMostPullByPaths, kLeastPullImage)) {
+  if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
     estimate.reasons.push_back(contradiction_sentence(*worst, estimate.pulls));
   }
   if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {

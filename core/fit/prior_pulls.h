@@ -53,8 +53,6 @@ ModelJudgement judge(const WhitenedModel& model);
 // kMostPull standard deviations, which happens to one quantity in 16,000 by chance (to one rig of
 // thirty quantities and three channels in 180), and by more than kLeastPullImage of the image.
 inline constexpr double kMostPull = 4.0;
-// The same for images simulated by paths, whose covariance is an estimate: one in 1.7 million.
-inline constexpr double kMostPullByPaths = 5.0;
 inline constexpr double kLeastPullImage = 1e-3;
 // Nor does a pull count that explains less of the residual than this, relative to the image: the
 // linear model leaves out the products of two deviations, one per cent of one per cent.

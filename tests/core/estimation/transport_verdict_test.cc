@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -75,6 +77,23 @@ TEST(TransportVerdict, PathsArePreciseAgainstTheRestOrInThemselves) {
   EXPECT_TRUE(is_precise(made_step(0.0, 0.0, 0.99e-6), 0.4, 64));
   EXPECT_FALSE(is_precise(made_step(0.0, 0.0, 1.01e-6), 0.4, 64));
   EXPECT_FALSE(is_precise(made_step(0.0, 0.0, 0.99e-6), 0.1, 64));
+}
+
+// Pulls above three, or a misfit of one in a hundred; what is refused is beyond doubt.
+TEST(TransportVerdict, DoubtLiesBetweenNothingAndARefusal) {
+  const auto pull = [](double size) {
+    return std::vector<PriorPull>{{"eta", "eta", size, 0.04, 0.01, 0.01, 0.01}};
+  };
+  EXPECT_FALSE(is_in_doubt({}, pull(-2.9)));
+  EXPECT_TRUE(is_in_doubt({}, pull(-3.1)));
+  EXPECT_TRUE(is_in_doubt({}, pull(3.9)));
+  EXPECT_FALSE(is_in_doubt({}, pull(4.1)));
+  LackOfFit misfit;
+  misfit.rms = 0.01;
+  for (const auto& [p_value, doubted] : {std::pair{0.02, false}, {0.009, true}, {1e-7, false}}) {
+    misfit.p_value = p_value;
+    EXPECT_EQ(is_in_doubt(misfit, {}), doubted) << p_value;
+  }
 }
 
 TEST(TransportVerdict, ReportHoldsValuesDeviationsAndBudget) {
