@@ -29,6 +29,13 @@ double least_misfit(const std::vector<ChannelResult>& results) {
   return least;
 }
 
+// All that transport has estimated: an atlas may hold as many as another fit would use.
+bool have_enough_paths(const std::vector<ChannelResult>& results) {
+  return std::all_of(results.begin(), results.end(), [](const ChannelResult& r) {
+    return r.model != "transport" || r.has_enough_paths;
+  });
+}
+
 // Outlines hardly tell where a curved body stands.
 bool any_curved(const std::vector<ObservedShot>& shots) {
   return std::any_of(shots.begin(), shots.end(), [](const ObservedShot& shot) {
@@ -55,7 +62,6 @@ std::vector<ChannelResult> fitted_from_where_seen(
   constexpr std::int64_t kLookingPaths = 300'000;
   // A rig that all channels together contradict is not seen better from elsewhere.
   constexpr double kContradicted = 1e-6;
-  const std::int64_t paths = options.paths;
   bool by_transport = false;  // the view is where transport shows the objects to lie
   bool is_stated = false;     // the view is back where the rig says
   double misfit_before = std::numeric_limits<double>::infinity();
@@ -78,7 +84,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
       // Paths are traced to all rows only.
       return !seen.levels() && (is_last || !(found.motion > kVisibleMotion));
     };
-    options.paths = by_transport ? paths : std::min(paths, kLookingPaths);
+    options.looking_paths = by_transport ? std::nullopt : std::optional(kLookingPaths);
     std::vector<ChannelResult> results = fit(options);
     if (options.model == "dipole") found = from(most_probable_pulls_of(results));
     const bool has_paths = std::any_of(results.begin(), results.end(), [](const ChannelResult& r) {
@@ -92,7 +98,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
       if (!(found.motion > kWorthPaths) || !is_determined_elsewhere(joint.pulls) ||
           chi_square_tail(joint.chi2, joint.dof) < kContradicted) {
         found = {};
-        if (paths > options.paths) {
+        if (!have_enough_paths(results)) {
           options.found = std::move(results);
           continue;
         }

@@ -67,6 +67,8 @@ struct ChannelResult {
   // Of transport only: the dipole's estimate, and why --model auto rejected it.
   std::optional<Estimate> dipole;
   std::string why_transport;
+  // More would hardly change the estimate or its verdict, or would take too long.
+  bool has_enough_paths = false;
   // Of the residual with the rig as stated: the dipole's first fit's, or transport's.
   std::optional<ResidualLook> look;
   std::vector<ShotRows> rows;  // by shot, if EstimateOptions::keep_rows and the fit was completed

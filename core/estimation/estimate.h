@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +26,9 @@ struct EstimateOptions {
   // Transport: maximum number of light paths of the last step for each light and view. If this
   // limit is reached before the time limit, the digits are the same on any machine.
   std::int64_t paths = 1'000'000'000;
+  // Transport: trace at most so many for now; ChannelResult::has_enough_paths tells whether the
+  // whole number would tell more.
+  std::optional<std::int64_t> looking_paths = {};
   double time_limit_s = 20;  // transport: per material and channel
   bool keep_rows = false;    // fill ChannelResult::rows
   // Transport: called with the dipole's results, which say why transport is wanted, before it

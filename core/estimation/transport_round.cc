@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include "core/base/dense_solve.h"
 #include "core/estimation/transport_pilot.h"
 #include "core/fit/excess_scatter.h"
@@ -75,7 +77,8 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
     if (shot_rows[s] >= kLeastRows) singles_.push_back({s, first, {}, {}});
     first += shot_rows[s];
   }
-  for (Single& single : singles_) {
+  tbb::parallel_for(std::size_t{0}, singles_.size(), [&](std::size_t i) {
+    Single& single = singles_[i];
     const Eigen::Index n = shot_rows[single.shot];
     std::vector<Eigen::Index> rows(static_cast<std::size_t>(n));
     std::iota(rows.begin(), rows.end(), single.first);
@@ -84,7 +87,7 @@ TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& sc
         single.system, scale,
         pilots_of(shots.parts, at, scale.is_free(), pilots, further, single.first, n), at,
         expected);
-  }
+  });
 }
 
 bool TransportRound::tests_scale() const {
@@ -144,6 +147,9 @@ void TransportRound::take(ChannelSimulation::Look look) {
   misfit_ = misfit_of(rest);
   if (misfit_.p_value < kWideningPValue) scatter_ *= std::max(1.0, misfit_.chi2 / misfit_.dof);
   step_ = joint_.step(look_.halves, own, at_, scatter_);
+  const bool is_first_precise =
+      precise_blocks_ == 0 && is_precise(step_, at_.sigma_a_per_mm, blocks());
+  if (is_first_precise) precise_blocks_ = blocks();
 }
 
 Eigen::VectorXd TransportRound::row_variance(const std::vector<double>& area_mm2,
@@ -282,11 +288,10 @@ ModelJudgement TransportRound::judgement() const {
   return judge(model);
 }
 
-bool TransportRound::has_enough_paths(int& precise_blocks) const {
+bool TransportRound::has_enough_paths() const {
   constexpr int kMoreInDoubt = 4;
   if (!is_precise(step_, at_.sigma_a_per_mm, blocks())) return false;
-  if (precise_blocks == 0) precise_blocks = blocks();
-  return blocks() >= kMoreInDoubt * precise_blocks || !is_in_doubt(misfit_, judgement().pulls);
+  return blocks() >= kMoreInDoubt * precise_blocks_ || !is_in_doubt(misfit_, judgement().pulls);
 }
 
 }  // namespace scattermeter

@@ -102,9 +102,8 @@ class TransportRound {
   // On the rig's uncertain quantities, from the light of the parts; empty for fewer blocks.
   ModelJudgement judgement() const;
   // Precise, and either beyond doubt or with so many more blocks than the first precise ones that
-  // still more would hardly tell. precise_blocks: those, 0 before them; the same variable for all
-  // looks.
-  bool has_enough_paths(int& precise_blocks) const;
+  // still more would hardly tell.
+  bool has_enough_paths() const;
 
  private:
   // further: of the pilots (EquationPilot), for all rows.
@@ -138,6 +137,7 @@ class TransportRound {
   double scatter_ = 1;
   LackOfFit misfit_;
   ScatteringEquation::Step step_;
+  int precise_blocks_ = 0;  // of the first precise look; 0: there was none
 };
 
 }  // namespace scattermeter

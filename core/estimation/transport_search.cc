@@ -52,7 +52,7 @@ class TransportSearch {
         stage_(stage),
         simulation_(scene, channel, atlas),
         phase_(scene, channel, knots_),
-        budget_(static_cast<double>(options.paths) / ChannelSimulation::kBlockPaths,
+        budget_(blocks_of(std::min(options.paths, options.looking_paths.value_or(options.paths))),
                 options.time_limit_s) {
     // The image is that of whole patches.
     keep([&](std::size_t shot, std::size_t row, Eigen::Index) {
@@ -132,7 +132,7 @@ class TransportSearch {
       } else if (round.step().change < 0.2 || i >= kPatience || is_noise(round.step()) ||
                  (round.step().change < kFarStep && round.scatter_within() > 1.5)) {
         // Noise of the paths dominates the step. With the same paths, steps may lead in a circle.
-        blocks = std::max(blocks, next_blocks(to, blocks));
+        blocks = std::max(blocks, next_blocks(to, blocks, budget_));
       }
       at = to;
     }
@@ -162,12 +162,10 @@ class TransportSearch {
   void trace(TransportRound& round, int blocks, bool may_be_last, const Look& by) {
     const ChannelSimulation::Projections projections = round.projections();
     round.take(look(round.at(), blocks, projections));
-    int precise_blocks = 0;
     while (may_be_last && fits_weights(round.errors(), by.errors) &&
-           is_close(round.step(), round.blocks(), round.misfit()) &&
-           !round.has_enough_paths(precise_blocks)) {
+           is_close(round.step(), round.blocks(), round.misfit()) && !round.has_enough_paths()) {
       stage_.check();
-      int more = next_blocks(round.at(), round.blocks());
+      int more = next_blocks(round.at(), round.blocks(), budget_);
       if (more == 0 && round.blocks() < kLeastBlocks &&
           budget_.has_time_for(simulation_.missing_paths(round.at(), kLeastBlocks), kLongest)) {
         more = kLeastBlocks;
@@ -177,9 +175,12 @@ class TransportSearch {
     }
   }
 
-  int next_blocks(const ScatteringPoint& at, int now) const {
-    return budget_.next_blocks(now, kLeastBlocks,
-                               [&](int blocks) { return simulation_.missing_paths(at, blocks); });
+  static double blocks_of(std::int64_t paths) {
+    return static_cast<double>(paths) / ChannelSimulation::kBlockPaths;
+  }
+  int next_blocks(const ScatteringPoint& at, int now, const PathBudget& budget) const {
+    return budget.next_blocks(now, kLeastBlocks,
+                              [&](int blocks) { return simulation_.missing_paths(at, blocks); });
   }
 
   Look first_look(const ScatteringPoint& at, double scatter = 1.0) {
@@ -253,6 +254,9 @@ class TransportSearch {
     if (options_.keep_rows) result.rows = std::move(rows);
     widen_by_mesh_scale(channel_, estimate);
     report_shots(round, result);
+    result.has_enough_paths =
+        round.has_enough_paths() ||
+        next_blocks(round.at(), round.blocks(), budget_.with(blocks_of(options_.paths))) == 0;
     refuse_undetermined(estimate);
   }
 

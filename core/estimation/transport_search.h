@@ -30,7 +30,8 @@ namespace scattermeter {
 // times as large and that of the third 6 times.
 //
 // Starts from the result's estimate and replaces it, its singles and agreement; if the search
-// fails, the estimate is refused. Uses options.paths, time_limit_s and keep_rows. Throws Cancelled.
+// fails, the estimate is refused. Uses options.paths, looking_paths, time_limit_s and keep_rows.
+// Throws Cancelled.
 void search_by_transport(const Scene& scene, const MaterialChannel& channel,
                          const DipoleSystem& dipole, TransportAtlas& atlas,
                          const EstimateOptions& options, const ProgressStage& stage,

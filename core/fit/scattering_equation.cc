@@ -5,8 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <utility>
+
+#include <oneapi/tbb/parallel_for.h>
 
 #include "core/base/chi_square.h"
 #include "core/base/dense_solve.h"
@@ -48,8 +51,12 @@ ScatteringEquation::ScatteringEquation(const DenseSystem& system, const ScalePri
   }
   for (const Nuisance& v : system.nuisances) causes_.push_back(v.group);
   if (has_prior(scale)) causes_.push_back("scale");
-  for (EquationPilot& pilot : pilots) {
-    weights_.emplace_back(system, scale, std::move(pilot), at, monte_carlo);
+  std::array<std::optional<Weights>, 2> of_half;
+  tbb::parallel_for(std::size_t{0}, pilots.size(), [&](std::size_t half) {
+    of_half[half].emplace(system, scale, std::move(pilots[half]), at, monte_carlo);
+  });
+  for (std::optional<Weights>& weights : of_half) {
+    if (weights) weights_.push_back(std::move(*weights));
   }
 }
 
@@ -80,16 +87,17 @@ ScatteringEquation::Weights::Weights(const DenseSystem& system, const ScalePrior
   }
   const Eigen::Index own = nuisances.cols(), all = own + errors.root.cols();
   Eigen::MatrixXd c = Eigen::MatrixXd::Identity(all, all);
-  const Eigen::MatrixXd by_nuisances =
-      in_columns(row_variance.cwiseInverse().asDiagonal() * nuisances);
-  c.leftCols(own) += by_nuisances;
+  const Eigen::VectorXd precision = row_variance.cwiseInverse();
+  c.topLeftCorner(own, own).selfadjointView<Eigen::Lower>().rankUpdate(
+      Eigen::MatrixXd(precision.cwiseSqrt().asDiagonal() * nuisances).transpose());
   if (all > own) {
-    c.topRightCorner(own, all - own) = by_nuisances.bottomRows(all - own).transpose();
-    const SparseRows& of_row = errors.of_row;
-    const Eigen::MatrixXd groups = SparseRows(of_row.transpose()) *
-                                   SparseRows(row_variance.cwiseInverse().asDiagonal() * of_row);
-    c.bottomRightCorner(all - own, all - own) += errors.root.transpose() * groups * errors.root;
+    const SparseRows weighted = precision.asDiagonal() * errors.of_row;
+    c.bottomLeftCorner(all - own, own) =
+        errors.root.transpose() * (weighted.transpose() * nuisances);
+    c.bottomRightCorner(all - own, all - own) +=
+        errors.root.transpose() * SparseRows(errors.of_row.transpose() * weighted) * errors.root;
   }
+  c.triangularView<Eigen::StrictlyUpper>() = c.transpose();
   capacitance = inverse_lu(c);
   const Eigen::MatrixXd z = jacobian(image, at, scale.is_free());
   relative_size = z.colwise().norm() / (at.scale * image.l.norm());

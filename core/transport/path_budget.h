@@ -19,6 +19,12 @@ class PathBudget {
   // The speed that counts before any path has been traced, as of two cores.
   static constexpr double kUnknownPathsPerS = 1e5;
 
+  // The same, time used included, with another number of blocks.
+  PathBudget with(double most_blocks) const {
+    PathBudget out = *this;
+    out.most_blocks_ = most_blocks;
+    return out;
+  }
   double elapsed_s() const;
   double left_s() const { return time_limit_s_ - elapsed_s(); }
   void count(std::int64_t paths, double seconds) {

@@ -72,9 +72,11 @@ TEST(ShiftedInstrument, RoundBodyOffItsPosition) {
 struct MadeUp {
   double size_off = 0;         // standard deviations
   double misfit_relative = 0;  // 0: the dipole explains the image
+  bool has_enough_paths = true;
 };
 struct Fits {
   std::vector<double> moved;  // of the views of the fits
+  std::vector<bool> looking;  // whether they were to trace few paths
   std::vector<ChannelResult> results;
 };
 Fits fits_of(const std::string& body, const std::function<MadeUp(std::size_t)>& made_up) {
@@ -91,6 +93,7 @@ Fits fits_of(const std::string& body, const std::function<MadeUp(std::size_t)>& 
   Fits out;
   const auto fit = [&](const EstimateOptions& options) {
     out.moved.push_back(seen.shots().front().seen->shift.norm());
+    out.looking.push_back(options.looking_paths.has_value());
     const MadeUp now = made_up(out.moved.size());
     ChannelResult r;
     r.material = "plastic";
@@ -107,6 +110,7 @@ Fits fits_of(const std::string& body, const std::function<MadeUp(std::size_t)>& 
                   100.0};
     if (options.goes_on_from_dipole({r})) {
       r.model = "transport";
+      r.has_enough_paths = now.has_enough_paths;
       r.evidence = {};
     }
     return std::vector<ChannelResult>{r};
@@ -114,9 +118,17 @@ Fits fits_of(const std::string& body, const std::function<MadeUp(std::size_t)>& 
   std::vector<std::pair<std::string, double>> timing_s;
   Stopwatch watch(timing_s);
   EstimateOptions options;
-  options.paths = 0;
   out.results = fitted_from_where_seen(rig.scene, seen, options, fit, watch);
   return out;
+}
+
+// A first look with few paths is the last where more would not tell more, as with an atlas.
+TEST(ShiftedInstrument, TransportLooksAgainWhereMorePathsTellMore) {
+  const auto few = fits_of("cube", [](std::size_t) { return MadeUp{0.0, 0.01, false}; });
+  EXPECT_EQ(few.looking, (std::vector<bool>{true, false}));
+  const auto enough = fits_of("cube", [](std::size_t) { return MadeUp{0.0, 0.01, true}; });
+  EXPECT_EQ(enough.looking, (std::vector<bool>{true}));
+  EXPECT_EQ(enough.results.front().model, "transport");
 }
 
 void expect_transport_from_stated(const Fits& fits, std::size_t n) {

@@ -17,6 +17,7 @@ TEST(PathBudget, BlocksAreLimited) {
   EXPECT_EQ(budget.next_blocks(180, 64, thousand_each), 270);
   EXPECT_EQ(budget.next_blocks(230, 64, thousand_each), 287);
   EXPECT_EQ(budget.next_blocks(250, 64, thousand_each), 0);
+  EXPECT_EQ(budget.with(1e6).next_blocks(250, 64, thousand_each), 500);
 }
 
 TEST(PathBudget, TimeLimitsThemByTheSpeedSoFar) {
