@@ -57,7 +57,12 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
       sites[t + 1].push_back(moved(sites[0][j], out.shift_mm * along[t]));
     }
   }
-  out.some = interpolation_of_rows(centers_mm, normals, seen.map.adjacent_rows);
+  // Few rows are far apart for the size of the object.
+  constexpr std::size_t kManyRows = 1000;
+  out.some =
+      interpolation_of_rows(centers_mm, normals,
+                            centers_mm.size() < kManyRows ? std::vector<std::vector<std::int32_t>>()
+                                                          : seen.map.adjacent_rows);
   std::vector<ExitSite> some;
   for (const std::size_t row : out.some.rows) some.push_back(sites[0][row]);
   const SourceCloud sources = nominal(eta);

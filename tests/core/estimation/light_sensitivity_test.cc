@@ -16,7 +16,8 @@ namespace {
 // The cube under an LED of which position and exponent are uncertain, and eta as well.
 class LightSensitivityOfTheCube : public ::testing::Test {
  protected:
-  LightSensitivityOfTheCube() {
+  explicit LightSensitivityOfTheCube(double patch_mm = 1.25)  // about a mean free path
+      : cube_(1, patch_mm) {
     cube_.scene.objects[0].eta_std = 0.01;
     cube_.scene.lights[0].led()->position_std_mm = 0.3;
     cube_.scene.lights[0].led()->exponent_std = 0.05;
@@ -57,8 +58,13 @@ class LightSensitivityOfTheCube : public ::testing::Test {
     return (derivative.col(0) - expected).norm() / expected.norm();
   }
 
-  test_support::DipoleCube cube_{1, 1.25};  // about a mean free path
+  test_support::DipoleCube cube_;
   DistanceKnots knots_ = smooth_knots(cube_.lit);
+};
+
+class LightSensitivityOfManyRows : public LightSensitivityOfTheCube {
+ protected:
+  LightSensitivityOfManyRows() : LightSensitivityOfTheCube(0.5) {}
 };
 
 TEST_F(LightSensitivityOfTheCube, MatchesCentralDifferencesByTheLight) {
@@ -81,6 +87,28 @@ TEST_F(LightSensitivityOfTheCube, MatchesCentralDifferencesByTheLight) {
   // l times the logarithm of the lobe's cosine: a hundredth of l, so that the error of patches of
   // twice the size counts for more. Measured: 0.052.
   EXPECT_LT(departure(s.per_change[3], model(high, 1.3), model(low, 1.3), 0.1), 0.1);
+}
+
+// Of many rows, changes of the light are interpolated between some. Measured: within 0.006.
+TEST_F(LightSensitivityOfManyRows, IsInterpolatedBetweenSomeOfThem) {
+  SeenObject apart = seen();
+  apart.map.adjacent_rows.clear();
+  const std::vector<LitMedium> media = {{test_support::kCubeMedium, 1.0}};
+  const auto images = [&](const SeenObject& view) {
+    return changed_images(view, cube_.scene.lights[0], 0, cube_.lit, knots_, media);
+  };
+  const ChangedImages some = images(seen()), all = images(apart);
+  EXPECT_LT(some.some.rows.size(), all.some.rows.size() / 2);
+  const LightSensitivity by_some = sensitivity(seen(), nominal(), some, media, knots_);
+  const LightSensitivity by_all = sensitivity(seen(), nominal(), all, media, knots_);
+  const auto expect_near = [](const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected) {
+    EXPECT_LT((found - expected).norm(), 0.01 * expected.norm());
+  };
+  for (std::size_t k = 0; k < 4; ++k) expect_near(by_some.per_change[k], by_all.per_change[k]);
+  expect_near(by_some.per_eta, by_all.per_eta);
+  for (std::size_t t = 0; t < 2; ++t) {
+    EXPECT_EQ(by_some.per_tangent_mm[t], by_all.per_tangent_mm[t]);
+  }
 }
 
 // At the sites' centres instead of over them: measured 0.086, and 0.16 with patches of two mean
