@@ -44,7 +44,7 @@ bool is_noise(const ScatteringEquation::Step& step);
 // Whether the Monte Carlo error is small compared with all others, or smaller than ever needed.
 bool is_precise(const ScatteringEquation::Step& step, double sigma_a_per_mm, int blocks);
 // Whether the image speaks against the rig or the model, yet not loudly enough to refuse the
-// result: fewer errors of paths would tell.
+// result: smaller errors of paths would tell.
 bool is_in_doubt(const LackOfFit& misfit, const std::vector<PriorPull>& pulls);
 
 // Writes values, standard deviations, budget and scale at the step's end into the estimate.

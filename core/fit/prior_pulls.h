@@ -51,7 +51,9 @@ ModelJudgement judge(const WhitenedModel& model);
 
 // Results are refused where the image contradicts what the rig states about a quantity by more than
 // kMostPull standard deviations, which happens to one quantity in 16,000 by chance (to one rig of
-// thirty quantities and three channels in 180), and by more than kLeastPullImage of the image.
+// thirty quantities and three channels in 180), and by more than kLeastPullImage of the image. By
+// transport, whose covariance of paths is an estimate: of 79 answers on rendered rigs, none within
+// what the rig states was above 2.8; those of one that was 50 % off reached 4.8.
 inline constexpr double kMostPull = 4.0;
 inline constexpr double kLeastPullImage = 1e-3;
 // Nor does a pull count that explains less of the residual than this, relative to the image: the

@@ -128,8 +128,8 @@ RowInterpolation interpolation_of_rows(const std::vector<Eigen::Vector3d>& cente
       return;
     }
     const Eigen::Vector3d first = normals[j].unitOrthogonal(), second = normals[j].cross(first);
-    for (const auto& [k, share] : shares_about(row, adjacent, chosen, [&](std::int32_t k) {
-           const Eigen::Vector3d step = centers_mm[static_cast<std::size_t>(k)] - centers_mm[j];
+    for (const auto& [k, share] : shares_about(row, adjacent, chosen, [&](std::int32_t other) {
+           const Eigen::Vector3d step = centers_mm[static_cast<std::size_t>(other)] - centers_mm[j];
            return Eigen::Vector2d(first.dot(step), second.dot(step));
          })) {
       of_row[j].emplace_back(row, column[static_cast<std::size_t>(k)], share);
