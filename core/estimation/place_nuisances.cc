@@ -139,7 +139,9 @@ void SceneNuisances::add_view(const ObservedShot& shot, const SeenChange& change
 // The effect of the object's position, orientation and size: what the samples see shifts along the
 // surface as if the camera moved, and every LED moves the other way. A larger object looks like the
 // mesh with camera and LEDs nearer to its centre, LEDs of less power, and coefficients that are
-// larger by as much (widen_by_mesh_scale()). The standings of one piece have one size.
+// larger by as much (widen_by_mesh_scale()). The standings of one piece have one size. Turns that
+// leave a round body in its place change nothing: what its facets and the derivatives' own errors
+// make of them must not count as evidence.
 void SceneNuisances::add_place(const ObservedShot& shot, const SeenChange& seen_change,
                                Columns& columns) const {
   const SeenObject& seen = *shot.seen;
@@ -172,7 +174,9 @@ void SceneNuisances::add_place(const ObservedShot& shot, const SeenChange& seen_
         by_position * from_center_mm + 2.0 * power * columns.of(own.sensitivity->l, own.medium);
   }
   const double std_mm = stated.position_std_mm;
+  change.middleCols<3>(3) *= seen.object->displacing_turns;
   for (Eigen::Index k = 0; k < 6 && std_mm > 0.0; ++k) {
+    if (k >= 3 && seen.object->displacing_turns.col(k - 3).isZero(1e-6)) continue;
     columns.add(stated.name + ".position" + std::to_string(k), "mesh position",
                 k < 3 ? std_mm : std_mm / seen.object->size_mm(), change.col(k));
   }

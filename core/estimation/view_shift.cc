@@ -67,8 +67,6 @@ PoseShift shift_like_lens(const ObservedShot& shot, const CameraIntrinsics& intr
 }  // namespace
 
 double motion_in_patches(const ObservedShot& shot, const PoseShift& by) {
-  // Without edges the image changes as slowly over so many patches.
-  constexpr double kSmooth = 5.0;
   const Rigid3d& pose = shot.pose.camera_from_world;
   double squares_mm2 = 0.0;
   for (const ExitSite& site : shot.seen->sites) {
@@ -76,7 +74,7 @@ double motion_in_patches(const ObservedShot& shot, const PoseShift& by) {
     squares_mm2 += (depth_mm * ray_by_shift(pose, site.center_mm) * by).squaredNorm();
   }
   return std::sqrt(squares_mm2 / static_cast<double>(shot.seen->sites.size())) /
-         (shot.seen->patches->patch_size_mm() * (shot.seen->object->is_round ? kSmooth : 1.0));
+         shot.seen->patches->patch_size_mm();
 }
 
 PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,

@@ -22,8 +22,8 @@ PoseShift most_probable_shift(const Scene& scene, const ObservedShot& shot,
                               const std::vector<PriorPull>& pulls);
 
 // A motion of the object against the view of its shots (rms, across the line of sight), as a share
-// of a patch, or of five on a body without edges, beyond which the derivatives by pose and position
-// no longer describe the image exactly enough: it is to be seen from elsewhere.
+// of a patch, beyond which the derivatives by pose and position no longer describe the image
+// exactly enough: it is to be seen from elsewhere.
 inline constexpr double kVisibleMotion = 0.02;
 
 // The same of the shot's sites when its pose shifts, in patches.

@@ -6,6 +6,7 @@
 #include "core/base/input_error.h"
 #include "core/mesh/creases.h"
 #include "core/mesh/surface_curvature.h"
+#include "core/mesh/turning_symmetry.h"
 
 namespace scattermeter {
 namespace {
@@ -28,8 +29,10 @@ ObjectScene object_scene(const Scene& scene, const SceneObject& object, const Tr
   const Box3d box = bounds(moved);
   std::vector<Eigen::Matrix3d> turns = normal_change_per_mm(moved);
   const bool without_edges = is_round(moved);
-  return {&object, std::make_unique<RayScene>(std::move(moved)), box, std::move(turns),
-          without_edges};
+  const Eigen::Matrix3d displacing = displacing_turns(moved, box.center_mm());
+  return {&object,       std::make_unique<RayScene>(std::move(moved)),
+          box,           std::move(turns),
+          without_edges, displacing};
 }
 
 void require_lights_outside(const Scene& scene, const ObjectScenes& objects) {

@@ -21,6 +21,8 @@ struct ObjectScene {
   Box3d box;
   std::vector<Eigen::Matrix3d> normal_change_per_mm;  // by facet (core/mesh/surface_curvature.h)
   bool is_round = false;                              // without edges (core/mesh/creases.h)
+  // Of the turns about the box's centre (core/mesh/turning_symmetry.h).
+  Eigen::Matrix3d displacing_turns = Eigen::Matrix3d::Identity();
   const TriangleMesh& mesh() const { return rays->mesh(); }
   double size_mm() const { return rays->size_mm(); }
   double diagonal_mm() const { return box.size_mm().norm(); }

@@ -200,6 +200,10 @@ TEST(PlaceNuisances, PositionColumnsOfASphere) {
   }
   const auto columns = SceneNuisances(rig.scene, 1, {{{&seen, light.name, 0}, {&s, 0}}})
                            .columns(opened[0], opened[0].observation.channel[1], rows);
+  // Turns leave it in its place.
+  EXPECT_EQ(std::count_if(columns.begin(), columns.end(),
+                          [](const auto& c) { return c.nuisance.group == "mesh position"; }),
+            3);
   for (int axis = 0; axis < 3; ++axis) {
     const auto column = std::find_if(columns.begin(), columns.end(), [&](const auto& c) {
       return c.nuisance.name == fmt::format("sphere.position{}", axis);

@@ -108,13 +108,6 @@ TEST_F(ViewShiftTest, IsVisibleAgainstThePatch) {
   EXPECT_EQ(seen_elsewhere(cube_.scene, cube_.shots, {}).motion, 0.0);
 }
 
-// An image without edges changes more slowly.
-TEST_F(ViewShiftTest, IsLessVisibleWithoutEdges) {
-  const double motion = seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2)).motion;
-  cube_.objects.at("cube").is_round = true;
-  EXPECT_NEAR(seen_elsewhere(cube_.scene, cube_.shots, at_side(0.2)).motion, motion / 5.0, 1e-12);
-}
-
 // No view goes farther than three deviations of a quantity.
 TEST_F(ViewShiftTest, IsBelievable) {
   const auto shift = [&](double pull) {
