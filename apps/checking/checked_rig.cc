@@ -195,10 +195,8 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   out.leds = checked_leds(rig, shots_folder);
   out.fit = fit_for_check(rig.scene, loose, source, seen, *geometry->lit, options.progress);
   out.shots = seen.whole();
-  for (Finding& f : displaced_round_bodies(loose, geometry->objects, out.shots, out.looks->unjudged,
-                                           out.fit.findings, frames)) {
-    out.looks->findings.push_back(std::move(f));
-  }
+  find_displaced_round_bodies(loose, geometry->objects, out.shots, out.fit.findings, frames,
+                              *out.looks);
   out.outline = checked_outline(*geometry, source, out);
   if (!rig.scene.camera.responsivity) {
     out.notes.emplace_back(

@@ -46,29 +46,26 @@ std::optional<Finding> displaced_in(const Rig& rig, const ObjectScene& object,
 
 }  // namespace
 
-std::vector<Finding> displaced_round_bodies(const Rig& rig, const ObjectScenes& objects,
-                                            const std::vector<ObservedShot>& shots,
-                                            const std::set<std::string>& names,
-                                            const std::vector<Finding>& of_light,
-                                            const capture::FrameSource& frames) {
+void find_displaced_round_bodies(const Rig& rig, const ObjectScenes& objects,
+                                 const std::vector<ObservedShot>& shots,
+                                 const std::vector<Finding>& of_light,
+                                 const capture::FrameSource& frames, OutlineFindings& outlines) {
   std::set<std::size_t> doubtful;
   for (const Finding& f : of_light) doubtful.insert(f.shots.begin(), f.shots.end());
   std::map<std::string, std::optional<Finding>> displaced;  // absent: a shot says otherwise
   for (const ObservedShot& shot : shots) {
     const std::size_t idx = rig.scene.index_of(*shot.stated);
     const ObjectScene& object = objects.at(shot.stated->object);
-    if (!names.contains(shot.stated->object) || !doubtful.contains(idx)) continue;
+    if (!outlines.unjudged.contains(shot.stated->object) || !doubtful.contains(idx)) continue;
     const auto [at, is_new] = displaced.try_emplace(shot.stated->object);
     if (!is_new && !at->second) continue;
     std::optional<Finding> own = displaced_in(rig, object, shot, frames(idx, 0));
     if (is_new || !own) at->second = std::move(own);
     if (at->second) at->second->shots.push_back(idx);
   }
-  std::vector<Finding> out;
   for (auto& [object, finding] : displaced) {
-    if (finding) out.push_back(std::move(*finding));
+    if (finding) outlines.findings.push_back(std::move(*finding));
   }
-  return out;
 }
 
 }  // namespace scattermeter::apps

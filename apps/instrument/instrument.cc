@@ -219,11 +219,8 @@ FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
   if (smooth) {
     of_light = LightLook(rig_.scene, lit_, seen.shots(), seen.kept().weights).findings();
     if (!outlines.unjudged.empty()) {
-      for (Finding& f :
-           displaced_round_bodies(rig_, objects_, seen.shots(), outlines.unjudged, of_light,
-                                  std::get<capture::FrameSource>(source.open))) {
-        outlines.findings.push_back(std::move(f));
-      }
+      find_displaced_round_bodies(rig_, objects_, seen.shots(), of_light,
+                                  std::get<capture::FrameSource>(source.open), outlines);
     }
     watch.lap("first look");
   }

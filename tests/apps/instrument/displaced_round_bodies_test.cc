@@ -40,8 +40,11 @@ std::vector<Finding> found(const std::string& body, const Eigen::Vector3d& off_m
       see_all(rig.scene, objects, lit, calib::pose_from_points(rig.scene, rig.pose));
   SeenShots seen(rig, objects, lit, source, view, false, {}, kept, nullptr);
   seen.open();
-  return displaced_round_bodies(rig, objects, seen.shots(), {body}, of_light,
-                                std::get<capture::FrameSource>(source.open));
+  OutlineFindings outlines;
+  outlines.unjudged = {body};
+  find_displaced_round_bodies(rig, objects, seen.shots(), of_light,
+                              std::get<capture::FrameSource>(source.open), outlines);
+  return outlines.findings;
 }
 
 TEST(DisplacedRoundBodies, AreTold) {
