@@ -1,9 +1,8 @@
 #include "core/mesh/turning_symmetry.h"
 
-#include <array>
-
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+
+#include "core/base/symmetric_eigen.h"
 
 namespace scattermeter {
 
@@ -27,15 +26,15 @@ Eigen::Matrix3d displacing_turns(const TriangleMesh& mesh, const Eigen::Vector3d
     distance += area_mm2.norm() *
                 (from_center_mm.squaredNorm() + from_center_mm.rowwise().sum().squaredNorm());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(motion);
+  const double least = kLeastSlope * kLeastSlope * distance;
+  const SymmetricEigen axes = symmetric_eigen(motion);
+  if (axes.values[0] > least) return Eigen::Matrix3d::Identity();
   Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
   for (int k = 0; k < 3; ++k) {
-    if (!(axes.eigenvalues()[k] > kLeastSlope * kLeastSlope * distance)) continue;
-    out += axes.eigenvectors().col(k) * axes.eigenvectors().col(k).transpose();
+    if (!(axes.values[k] > least)) continue;
+    out += axes.vectors.col(k) * axes.vectors.col(k).transpose();
   }
-  // All of them: exactly the identity.
-  return axes.eigenvalues()[0] > kLeastSlope * kLeastSlope * distance ? Eigen::Matrix3d::Identity()
-                                                                      : out;
+  return out;
 }
 
 }  // namespace scattermeter
