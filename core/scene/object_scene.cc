@@ -26,13 +26,14 @@ ObjectScene object_scene(const Scene& scene, const SceneObject& object, const Tr
   }
   TriangleMesh moved = mesh;
   for (Eigen::Vector3d& v : moved.vertices_mm) v = object.world_from_mesh * v;
-  const Box3d box = bounds(moved);
-  std::vector<Eigen::Matrix3d> turns = normal_change_per_mm(moved);
-  const bool without_edges = is_round(moved);
-  const Eigen::Matrix3d displacing = displacing_turns(moved, box.center_mm());
-  return {&object,       std::make_unique<RayScene>(std::move(moved)),
-          box,           std::move(turns),
-          without_edges, displacing};
+  ObjectScene out;
+  out.stated = &object;
+  out.box = bounds(moved);
+  out.rays = std::make_unique<RayScene>(std::move(moved));
+  out.normal_change_per_mm = normal_change_per_mm(out.mesh());
+  out.is_round = is_round(out.mesh());
+  out.displacing_turns = displacing_turns(out.mesh(), out.box.center_mm());
+  return out;
 }
 
 void require_lights_outside(const Scene& scene, const ObjectScenes& objects) {
