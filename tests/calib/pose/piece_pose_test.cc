@@ -32,9 +32,9 @@ class PiecePoseStatistics : public ::testing::Test {
     exact_.silhouette.line_std_px = 0.02;
   }
 
-  // From a camera that knows its pose to camera_std (rad; 100 times as many mm).
-  PieceView view(const Rigid3d& camera, const Rigid3d& moved, double camera_std,
-                 std::mt19937_64* random) const {
+  // The piece from a camera that knows its pose to camera_std (rad; 100 times as many mm).
+  PieceView view(const RayScene& piece, const Rigid3d& camera, const Rigid3d& moved,
+                 double camera_std, std::mt19937_64* random) const {
     PieceView out;
     out.camera.status = PoseStatus::kOk;
     out.camera.covariance.setZero();
@@ -50,8 +50,24 @@ class PiecePoseStatistics : public ::testing::Test {
     // Stated: the true pose without its error.
     out.camera.camera_from_world.rotation = error.inverse() * camera.rotation;
     out.camera.camera_from_world.translation_mm = camera.translation_mm - shift;
-    out.shots = {{&scene_, 0, picture(scene_, lens_, camera * moved, 1500, random)}};
+    out.shots = {{&scene_, 0, picture(piece, lens_, camera * moved, 1500, random)}};
     return out;
+  }
+  PieceView view(const Rigid3d& camera, const Rigid3d& moved, double camera_std,
+                 std::mt19937_64* random) const {
+    return view(scene_, camera, moved, camera_std, random);
+  }
+
+  // A piece that is off its mesh by as much as is stated, at every corner.
+  RayScene drawn_piece(const Rigid3d& camera, std::mt19937_64* random) const {
+    const double corner_std_mm =
+        exact_.silhouette.line_std_px * (camera * kCenter).norm() / lens_.fx_px;
+    std::normal_distribution<double> normal;
+    TriangleMesh mesh = test_support::make_cube();
+    for (Eigen::Vector3d& corner : mesh.vertices_mm) {
+      for (double& v : corner) v += corner_std_mm * normal(*random);
+    }
+    return RayScene(mesh);
   }
 
   RayScene scene_;
@@ -72,9 +88,11 @@ Eigen::Matrix<double, 6, 1> error_of(const PiecePose& found, const Rigid3d& trut
   return out;
 }
 
-// From 5 mm and 5 degrees off, in all draws; errors are as large as stated.
+// From 5 mm and 5 degrees off, in all draws; errors are as large as stated, or smaller: a corner's
+// error moves the ends of all its lines, which are taken to err independently, and one of the turns
+// is stated 1.4 times as large as it scatters.
 TEST_F(PiecePoseStatistics, IsFoundFromAfarAndKnowsItsScatter) {
-  const int draws = test_support::draws(6, 50);
+  const int draws = test_support::draws(6, 200);
   std::mt19937_64 random(8);
   std::normal_distribution<double> normal;
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(6);
@@ -83,8 +101,9 @@ TEST_F(PiecePoseStatistics, IsFoundFromAfarAndKnowsItsScatter) {
     for (double& v : shift) v = normal(random);
     for (double& v : turn) v = normal(random);
     const Rigid3d truth = motion(5.0 * shift.normalized(), 5.0 * kDegree * turn.normalized());
+    const RayScene piece = drawn_piece(cube_view(), &random);
     const PiecePose found =
-        find_piece({view(cube_view(), truth, 2e-4, &random)}, lens_, kCenter, exact_);
+        find_piece({view(piece, cube_view(), truth, 2e-4, &random)}, lens_, kCenter, exact_);
     ASSERT_EQ(found.problem, "") << i;
     const auto error = error_of(found, truth);
     const Eigen::VectorXd pull = error.cwiseQuotient(found.covariance.diagonal().cwiseSqrt());
@@ -96,10 +115,10 @@ TEST_F(PiecePoseStatistics, IsFoundFromAfarAndKnowsItsScatter) {
   std::printf("rms of pulls: %.2f %.2f %.2f mm, %.2f %.2f %.2f rad\n", std::sqrt(squares[0]),
               std::sqrt(squares[1]), std::sqrt(squares[2]), std::sqrt(squares[3]),
               std::sqrt(squares[4]), std::sqrt(squares[5]));
-  // 50 draws: 10 % of a deviation.
-  const double limit = test_support::limit_at(0.2, 50, draws);
-  EXPECT_NEAR(std::sqrt(squares.mean()), 1.0, limit);
-  EXPECT_LT(squares.maxCoeff(), 4.0);
+  // 200 draws: 5 % of a deviation for each component, a third of that for all six.
+  const double limit = test_support::limit_at(0.2, 200, draws);
+  EXPECT_NEAR(std::sqrt(squares.mean()), 1.0, std::min(limit, 0.5));
+  EXPECT_LT(std::sqrt(squares.maxCoeff()), 1.0 + limit);
 }
 
 // On its plane, height and tilt are those of the plane; a mesh that is too large would need another
