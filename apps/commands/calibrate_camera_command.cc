@@ -145,6 +145,7 @@ int run_calibrate_camera(CameraArguments a, CommandContext& context) {
              "deviation) at the worst corner of the frame.",
              run.calibration.rms_px, run.calibration.views.size(),
              run.calibration.frame_corner_std_px),
+         fmt::format("In the rig: camera: {{intrinsics: {}}}", a.out),
          true,
          text,
          {{camera_residual_plot(run.calibration),

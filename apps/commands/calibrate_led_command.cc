@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "apps/commands/commands.h"
 #include "apps/instrument/calibration_inputs.h"
 #include "apps/pages/calibration_page.h"
@@ -75,11 +77,12 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
           all ? (std::filesystem::path(options->out) / (light + ".yaml")).string() : options->out;
       capture::write_text_file(path, led_calibration_yaml(calibration));
       const std::string page = write_page_beside(
-          path,
-          calibration_page({"Calibration of " + light,
-                            "Position, axis, lobe and intensity of the LED are known as below.",
-                            true, table, led_fit_plots(calibration)},
-                           context.command_line));
+          path, calibration_page(
+                    {"Calibration of " + light, led_calibration_verdict(calibration),
+                     fmt::format("In the rig: lights: {{{}: {{type: led, calibration: {}}}}}",
+                                 light, path),
+                     true, table, led_fit_plots(calibration)},
+                    context.command_line));
       if (!context.quiet) context.out << "written: " << path << "\n" << page;
     }
     return refused ? 1 : 0;

@@ -82,6 +82,8 @@ void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context) {
         calibration_page({"Radiance calibration",
                           ok ? "All residuals are within their limits."
                              : fmt::format("The residual of {} exceeds its limit.", exceeds->what),
+                          ok ? fmt::format("In the rig: camera: {{radiance: {}}}", options->out)
+                             : "See below what it is made of; take those shots again.",
                           ok, text, plots_of(calibration)},
                          context.command_line));
     if (!context.quiet) context.out << text;

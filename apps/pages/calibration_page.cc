@@ -13,6 +13,7 @@ namespace scattermeter::apps {
 std::string calibration_page(const CalibrationSummary& summary, const std::string& command_line) {
   Html body = html_element("h1", html_text(summary.title));
   body += html_element("p", html_text(summary.verdict), summary.is_ok ? "pass" : "fail");
+  body += html_element("p", html_text(summary.next));
   body += html_element("p", html_text(fmt::format("{} (scattermeter {})", command_line, kVersion)),
                        "dim");
   if (!summary.plots.empty()) body += plot_figures(summary.plots);

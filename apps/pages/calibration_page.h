@@ -11,6 +11,7 @@ namespace scattermeter::apps {
 struct CalibrationSummary {
   std::string title;
   std::string verdict;  // a sentence: how well it is known, or what failed
+  std::string next;     // a sentence: what to do with it
   bool is_ok = true;
   std::string table;  // lines of aligned columns, as on the terminal
   std::vector<PagePlot> plots;

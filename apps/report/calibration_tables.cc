@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/core.h>
 
@@ -123,6 +124,22 @@ std::string led_calibration_table(const calib::LedCalibration& calibration) {
     text += " of the LED's, fitted\n";
   }
   return text;
+}
+
+std::string led_calibration_verdict(const calib::LedCalibration& calibration) {
+  const LedMatrix& c = calibration.fit.uncertainty.covariance;
+  const double position_mm = std::sqrt(c.topLeftCorner<3, 3>().trace());
+  if (!calibration.fit.lobe_fitted) {
+    return fmt::format(
+        "The position is known to {:.2g} mm; axis, exponent and intensity are those of the rig, as "
+        "no white plane was seen.",
+        position_mm);
+  }
+  const double axis_rad = std::sqrt(c.block<2, 2>(kLedAxis, kLedAxis).trace());
+  const double log_intensity = std::sqrt(c.diagonal().segment<3>(kLedLogIntensity).maxCoeff());
+  return fmt::format(
+      "The position is known to {:.2g} mm, the axis to {:.2g} degrees, the intensity to {:.2g} %.",
+      position_mm, axis_rad * 180.0 / std::numbers::pi, 100.0 * log_intensity);
 }
 
 std::string radiance_calibration_table(const capture::RadianceCalibration& calibration) {

@@ -21,6 +21,10 @@ std::string camera_calibration_table(const calib::CalibrationBoard& board,
 // Values with standard deviations and units, then residuals; the reason if refused.
 std::string led_calibration_table(const calib::LedCalibration& calibration);
 
+// A sentence: how well a calibrated LED is known. The deviation of the position is that of the
+// distance from the true one (root of the trace).
+std::string led_calibration_verdict(const calib::LedCalibration& calibration);
+
 // Value, standard deviation and unit of each result, then residuals and notes.
 std::string radiance_calibration_table(const capture::RadianceCalibration& calibration);
 

@@ -1,23 +1,21 @@
 #!/usr/bin/env python3
-"""browser_test.py PROGRAM SAMPLES PACKAGES: the pages in a browser without a window.
+"""browser_test.py PROGRAM SAMPLES PACKAGES: the pages of the sample in a browser without a window.
 
-Makes the pages of the sample at an eighth of its size and has browser_test.mjs look at them, with the npm
-packages in PACKAGES. Skipped (status 77) where Chromium or Node.js is missing.
+Makes them at an eighth of the sample's size and has pages_in_browser.mjs look at them, with the npm packages in
+PACKAGES. Skipped (status 77) where Chromium or Node.js is missing.
 """
-import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
+from browser import look_at_pages, missing_browser
 from small_rig import write_small_rig
 
 program, samples, packages = (Path(p).resolve() for p in sys.argv[1:4])
-browser = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-node = shutil.which("node")
-if not browser or not node:
-    print("skipped: Chromium or Node.js is not installed")
+if missing_browser():
+    print(f"skipped: {missing_browser()}")
     sys.exit(77)
 
 with tempfile.TemporaryDirectory() as folder:
@@ -31,5 +29,4 @@ with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run([program, "--quiet", *words], capture_output=True, text=True, check=False)
         if done.returncode > 1:
             sys.exit(f"{words}: {done.returncode}\n{done.stdout}{done.stderr}")
-    test = Path(__file__).with_suffix(".mjs")
-    sys.exit(subprocess.run([node, test, packages, browser, out], check=False).returncode)
+    sys.exit(look_at_pages(packages, out, ["result", "check", "plan", "compare"]))

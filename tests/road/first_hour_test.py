@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""first_hour_test.py PROGRAM SAMPLES: the road of a first measurement, by the commands of its guide alone.
+"""first_hour_test.py PROGRAM SAMPLES PACKAGES: the road of a first measurement, by the commands of its guide alone.
 
 Known: a printed board, four spheres, two white planes, dark frames, flats, and the shape of the piece. Not known:
 the lens, where the piece stands (here up to 5 mm and 5 degrees off), and the LEDs (by eye). Shots come one after the
-other under the camera's names, three of them bad and one half-written.
+other under the camera's names, three of them bad and one half-written. Where there is a browser, the pages of
+calibrations and session are looked at, with the npm packages in PACKAGES.
 """
 import json
 import os
@@ -18,7 +19,10 @@ import time
 import unittest
 from pathlib import Path
 
-PROGRAM, SAMPLES = (Path(p).resolve() for p in sys.argv[1:3])
+sys.path.insert(0, str(Path(__file__).parent))
+from browser import look_at_pages, missing_browser
+
+PROGRAM, SAMPLES, PACKAGES = (Path(p).resolve() for p in sys.argv[1:4])
 BOARD = ["--board", "10x8:6:4.5", "--dictionary", "DICT_4X4_100"]
 LEDS = {"led1": "25,-55,85", "led2": "-75,-15,55"}  # by eye
 SIGMA_S_PRIME, SIGMA_A = [0.90, 1.05, 1.20], [0.002, 0.003, 0.006]  # PE of samples/from_scratch, 1/mm
@@ -182,6 +186,11 @@ class FirstHour(unittest.TestCase):
         self.shoot("again", place, seed=4)
         shutil.copy(self.home / "calibration" / "pose.dng", self.home / "again")
         self.run_program("measure", "again", "--rig", "rig.yaml", "--out", "other")
+        if missing_browser():
+            print(f"pages not looked at: {missing_browser()}")
+        else:
+            pages = ["camera", "radiance", "leds/led1", "leds/led2", "watched/watch"]
+            self.assertEqual(look_at_pages(PACKAGES, self.home, pages), 0)
         self.assertIn("no difference found", self.run_program("compare", "result/result.json", "other/result.json"))
 
 

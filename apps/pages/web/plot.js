@@ -12,6 +12,7 @@ import {pointText} from './plot_text.js';
 import {lookColour, onThemeChange, themeColour} from './theme.js';
 
 const kReach_px = 30;
+const kRight_px = 26;  // half of the widest number below the axis
 
 export function mountPlot(host, data) {
   const stage = host.querySelector('.stage');
@@ -52,7 +53,7 @@ export function mountPlot(host, data) {
     time: false, auto: true, distr: stated.log ? 3 : 1, dir: stated === data.y && data.y_down ? -1 : 1, range,
   });
   const plot = new uPlot({
-    ...sizes(), padding: [8, 14, 0, 0],
+    ...sizes(), padding: [8, kRight_px, 0, 0],
     scales: {x: scale(data.x, () => view.x), y: scale(data.y, () => view.y)},
     axes: [plotAxis(data.x, 2, 'x'), plotAxis(data.y, 3, 'y')],
     series: [{}, {show: true, paths: () => null, points: {show: false}}],

@@ -16,12 +16,13 @@ TEST(CalibrationPage, VerdictPlotsAndValues) {
   PagePlot plot;
   plot.plot.series = {{"", PlotSeries::Style::kPoints, {1}, {2}}};
   plot.caption = "residuals";
-  const std::string page =
-      calibration_page({"Lens <1>", "It failed.", false, "f_px   100 px\ncx_px  50 px\n", {plot}},
-                       "calibrate & so on");
+  const std::string page = calibration_page(
+      {"Lens <1>", "It failed.", "Take <more>.", false, "f_px   100 px\ncx_px  50 px\n", {plot}},
+      "calibrate & so on");
   EXPECT_EQ(html_problem(page), "");
-  for (const char* text : {"<h1>Lens &lt;1&gt;</h1>", "<p class=\"fail\">It failed.</p>",
-                           "f_px   100 px\ncx_px  50 px\n", "calibrate &amp; so on", "residuals"}) {
+  for (const char* text :
+       {"<h1>Lens &lt;1&gt;</h1>", "<p class=\"fail\">It failed.</p>", "Take &lt;more&gt;.",
+        "f_px   100 px\ncx_px  50 px\n", "calibrate &amp; so on", "residuals"}) {
     EXPECT_THAT(page, HasSubstr(text));
   }
 }

@@ -67,6 +67,7 @@ TEST(CalibrationTables, Led) {
   fit.cell_used = {true, true};
   fit.plane_rms = 0.0025;
   fit.plane_worst = 0.01;
+  fit.lobe_fitted = true;
   fit.ambient = {{0, {}, {0.01, std::nan(""), 0.02}, {0.001, 0.0, 0.002}}};
   EXPECT_EQ(
       led_calibration_table(c),
@@ -85,6 +86,11 @@ TEST(CalibrationTables, Led) {
       "highlights: 2 of 3 used, residual rms 0.125 px, worst 0.250 px\n"
       "plane: 2 of 2 cells used, residual rms 0.250 %, worst 1.000 %\n"
       "ambient light of low.dng: R 1.000 +- 0.100 % B 2.000 +- 0.200 % of the LED's, fitted\n");
+  EXPECT_EQ(led_calibration_verdict(c),
+            "The position is known to 0.35 mm, the axis to 0.81 degrees, the intensity to 1 %.");
+  fit.lobe_fitted = false;
+  EXPECT_THAT(led_calibration_verdict(c),
+              ::testing::StartsWith("The position is known to 0.35 mm; axis, exponent"));
   fit.status = calib::LedStatus::kMisfit;
   fit.message = "the plane is no plane";
   EXPECT_THAT(led_calibration_table(c),

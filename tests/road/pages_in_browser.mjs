@@ -1,11 +1,11 @@
-// browser_test.mjs PACKAGES BROWSER PAGES: opens result.html, check.html, plan.html and compare.html of the
-// folder PAGES, and points, drags, zooms and types as a reader does. Started by browser_test.py.
+// pages_in_browser.mjs PACKAGES BROWSER FOLDER NAME ...: opens FOLDER/NAME.html, and points, drags, zooms and types
+// as a reader does. Started by browser.py.
 import assert from 'node:assert/strict';
 import {readFileSync, statSync} from 'node:fs';
 import {createRequire} from 'node:module';
-import {join} from 'node:path';
+import {basename, join} from 'node:path';
 
-const [packages, executablePath, folder] = process.argv.slice(2);
+const [packages, executablePath, folder, ...names] = process.argv.slice(2);
 const {chromium} = createRequire(join(packages, 'node_modules', 'x.cjs'))('playwright-core');
 const kMostBytes = 3e6;
 
@@ -29,6 +29,16 @@ async function open(name) {
 // A picture of what an element shows.
 const seen = locator => locator.evaluate(e => e.toDataURL ? e.toDataURL() : e.innerHTML);
 
+// Titles of the plots that draw to the very border of their canvas, where a number would be cut.
+const plotsCutOff = () => [...document.querySelectorAll('[data-widget="plot"]')].filter(plot => {
+  const canvas = plot.querySelector('canvas');
+  const {width, height} = canvas;
+  const border = [[0, 0, 1, height], [width - 1, 0, 1, height], [0, 0, width, 1], [0, height - 1, width, 1]];
+  const copy = new OffscreenCanvas(width, height).getContext('2d', {willReadFrequently: true});
+  copy.drawImage(canvas, 0, 0);
+  return border.some(part => copy.getImageData(...part).data.some(v => v > 0));
+}).map(plot => plot.querySelector('.plot-title').textContent);
+
 async function lookAtAll(name) {
   assert.equal(await page.locator('h1').count(), 1, name);
   assert.equal(await page.locator('html').getAttribute('lang'), 'en');
@@ -51,6 +61,7 @@ async function lookAtAll(name) {
       await page.waitForFunction(beyond, false, {timeout: 10000}).catch(() => {});
       const cut = await page.evaluate(beyond, true);
       assert.deepEqual(cut, [], `${name} at ${width} px, ${colorScheme}`);
+      assert.deepEqual(await page.evaluate(plotsCutOff), [], `${name} at ${width} px, ${colorScheme}`);
     }
   }
   await page.setViewportSize({width: 1280, height: 900});
@@ -244,9 +255,28 @@ async function rig() {
   assert.equal(await page.locator('summary', {hasText: /^positions$/}).count(), 1);
 }
 
-for (const [name, look] of [['result', [plots, maps, fingers, rig]], ['check', [rig]], ['plan', [rig, ledMap]], ['compare', []]]) {
+// Every plot of a calibration reads out its own points and lists them all.
+async function everyPlot() {
+  const plots = page.locator('[data-widget="plot"]');
+  assert.ok(await plots.count() > 0, 'no plot');
+  for (const plot of await plots.all()) {
+    await plot.scrollIntoViewIfNeeded();
+    const {series} = JSON.parse(await plot.locator('script').textContent());
+    await plot.locator('.plot').focus();
+    await page.keyboard.press('ArrowRight');
+    const text = await plot.locator('output').textContent();
+    const shows = v => numbersIn(text).some(n => isNear(n, v));
+    assert.ok(series.some(s => s.x.some((v, i) => shows(v) && shows(s.y[i]))), `${text} is in no series`);
+    await plot.locator('summary').click();
+    await plot.locator('tbody tr').first().waitFor();
+    assert.equal(await plot.locator('tbody tr').count(), series.reduce((n, s) => n + s.x.length, 0));
+  }
+}
+
+const looks = {result: [plots, maps, fingers, rig], check: [rig], plan: [rig, ledMap], compare: [], watch: []};
+for (const name of names) {
   await open(name);
-  for (const part of look) await part();
+  for (const part of looks[basename(name)] ?? [everyPlot]) await part();
   await lookAtAll(name);
   assert.deepEqual(complaints, [], name);
 }
