@@ -39,9 +39,7 @@ bool have_enough_paths(const std::vector<ChannelResult>& results) {
 // Outlines hardly tell where a curved body stands.
 bool any_curved(const std::vector<ObservedShot>& shots) {
   return std::any_of(shots.begin(), shots.end(), [](const ObservedShot& shot) {
-    const std::vector<Eigen::Matrix3d>& turns = shot.seen->object->normal_change_per_mm;
-    return std::any_of(turns.begin(), turns.end(),
-                       [](const Eigen::Matrix3d& turn) { return !turn.isZero(0.0); });
+    return shot.seen->patches->surface_normals().any_curved();
   });
 }
 

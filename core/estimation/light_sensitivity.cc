@@ -199,7 +199,8 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
   out.per_eta = of_light(images.other_eta, kEtaStep);
   if (out.per_eta.size() == 0) return out;
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
-    const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
+    const Eigen::Vector3d normal =
+        seen.patches->normal_at(seen.map.patch_of_row[j], seen.sites[j].center_mm);
     // The observed l = pi L / Ft(eta) falls as Ft grows.
     const Eigen::Vector3d to_camera =
         (seen.camera_center_mm - seen.sites[j].center_mm).normalized();

@@ -60,8 +60,9 @@ SceneNuisances::SeenChange SceneNuisances::seen_change(
     // The observed l = pi L / Ft falls as Ft grows.
     const double per_cos = l[i] * log_slope(seen.object->stated->eta_int_over_ext,
                                             std::max(normal.dot(to_camera), 1e-3));
-    const auto facet = static_cast<std::size_t>(seen.patches->facet_idx(patch));
-    out.per_mm.col(i) += per_cos * seen.object->normal_change_per_mm[facet].transpose() * to_camera;
+    const Eigen::Matrix3d turn_per_mm =
+        seen.patches->surface_normals().change_per_mm(seen.patches->facet_idx(patch));
+    out.per_mm.col(i) += per_cos * turn_per_mm.transpose() * to_camera;
     out.per_direction.col(i) = per_cos * normal;
   }
   return out;

@@ -39,13 +39,14 @@ class LedEntry : public EntrySource {
     const std::size_t i = choice_->at(stratum);
     const int k = lit_[i];
     const Eigen::Vector3d x = even_point(patches_.corners_mm(k), random);
-    const Eigen::Vector3d& normal = patches_.normal(k);
+    const Eigen::Vector3d& facet_normal = patches_.normal(k);
+    const Eigen::Vector3d normal = patches_.normal_at(k, x);
     Led from = led_;
     if (disc_) from.position_mm = disc_->disc_point_mm(random.uniform(), random.uniform());
     const double e = from.transmitted_irradiance_per_mm2(x, normal, eta_);
-    if (!(e > 0.0) || scene_.occluded(x, normal, from.position_mm)) return std::nullopt;
+    if (!(e > 0.0) || scene_.occluded(x, facet_normal, from.position_mm)) return std::nullopt;
     return Entry{x, refracted((x - from.position_mm).normalized(), normal, eta_),
-                 e * patches_.area_mm2(k) / choice_->probability(i), normal};
+                 e * patches_.area_mm2(k) / choice_->probability(i), facet_normal};
   }
 
  private:
@@ -58,10 +59,12 @@ class LedEntry : public EntrySource {
     const auto add = [&](const Eigen::Vector3d& position_mm, double share) {
       Led from = led_;
       from.position_mm = position_mm;
-      mean += share * 0.75 * from.transmitted_irradiance_per_mm2(center, patches_.normal(k), eta_);
+      mean += share * 0.75 *
+              from.transmitted_irradiance_per_mm2(center, patches_.normal_at(k, center), eta_);
       for (const Eigen::Vector3d& p : corners) {
-        mean += share / 12.0 * from.transmitted_irradiance_per_mm2(p, patches_.normal(k), eta_);
-        if (patches_.normal(k).dot(position_mm - p) > 0.0) {
+        const Eigen::Vector3d normal = patches_.normal_at(k, p);
+        mean += share / 12.0 * from.transmitted_irradiance_per_mm2(p, normal, eta_);
+        if (normal.dot(position_mm - p) > 0.0) {
           floor = std::max(floor, 1e-3 / (position_mm - p).squaredNorm());
         }
       }

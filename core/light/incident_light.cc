@@ -46,12 +46,12 @@ class Illuminator {
     const Triangle t = patches_.corners_mm(k);
     const Eigen::Vector3d& n = patches_.normal(k);
     if (disc_) return disc_patch(k, t, n);
-    if (!(n.dot(led_.position_mm - t[0]) > 0.0)) return out;
+    if (!faces_led(k, t)) return out;
     // Probes at corners and edge midpoints are moved slightly towards the centre, so that a fold of
     // the surface at the patch's own border does not count as a shadow.
     if (on_convex_body(k, t[0], n)) {
       out.rays_skipped = 7;
-      append(t, n, k, 1.0, out);
+      append(t, k, 1.0, out);
       return out;
     }
     const Eigen::Vector3d center = (t[0] + t[1] + t[2]) / 3.0;
@@ -67,7 +67,7 @@ class Illuminator {
     }
     probe(center);
     if (lit == probes) {
-      append(t, n, k, 1.0, out);
+      append(t, k, 1.0, out);
     } else if (lit > 0) {
       out.on_shadow_edge = true;
       split(t, n, k, options_.shadow_bisections, out);
@@ -76,13 +76,20 @@ class Illuminator {
   }
 
  private:
+  // Whether the surface turns towards the LED at any corner.
+  bool faces_led(int k, const Triangle& t) const {
+    return std::any_of(t.begin(), t.end(), [&](const Eigen::Vector3d& corner) {
+      return patches_.normal_at(k, corner).dot(led_.position_mm - corner) > 0.0;
+    });
+  }
+
   // A disc casts penumbras, in which the irradiance itself varies.
   PatchLight disc_patch(int k, const Triangle& t, const Eigen::Vector3d& n) const {
     PatchLight out;
     LitTriangleRgb patch{t, {}, k};
     double brightest = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double e = disc_->open_per_mm2(t[i], n);
+      const double e = disc_->open_per_mm2(t[i], patches_.normal_at(k, t[i]));
       patch.irradiance[i].setConstant(e);
       brightest = std::max(brightest, e);
     }
@@ -107,14 +114,14 @@ class Illuminator {
       double sum = 0.0;
       for (const Eigen::Array3d& e : patch.irradiance) sum += e[0];
       for (Eigen::Array3d& e : patch.irradiance) {
-        e *= power_share(disc_->open_per_mm2(center, n), sum);
+        e *= power_share(disc_->open_per_mm2(center, patches_.normal_at(k, center)), sum);
       }
       lit.push_back(patch);
     } else {
       out.on_shadow_edge = true;
       const PointIrradiance irradiance = [&](const Eigen::Vector3d& at) -> Eigen::Array3d {
         const Eigen::Vector3d p = at + kDrawn * (center - at);
-        return Eigen::Array3d::Constant(disc_->open_per_mm2(p, n) *
+        return Eigen::Array3d::Constant(disc_->open_per_mm2(p, patches_.normal_at(k, p)) *
                                         disc_->visible_share(p, n, out.rays));
       };
       append_edged(patch, irradiance, Eigen::Array3d::Constant(kHalfShadowError * brightest),
@@ -148,16 +155,18 @@ class Illuminator {
   }
 
   // `share`: of the triangle that is lit.
-  void append(const Triangle& t, const Eigen::Vector3d& n, int k, double share,
-              PatchLight& out) const {
+  void append(const Triangle& t, int k, double share, PatchLight& out) const {
+    const auto irradiance = [&](const Eigen::Vector3d& p) {
+      return led_.transmitted_irradiance_per_mm2(p, patches_.normal_at(k, p), eta_);
+    };
     LitTriangle lit{t, {}, k};
     double sum = 0.0;
     for (int i = 0; i < 3; ++i) {
-      lit.irradiance_sr_per_mm2[i] = led_.transmitted_irradiance_per_mm2(t[i], n, eta_);
+      lit.irradiance_sr_per_mm2[i] = irradiance(t[i]);
       sum += lit.irradiance_sr_per_mm2[i];
     }
     if (!(sum > 0.0)) return;
-    const double center = led_.transmitted_irradiance_per_mm2((t[0] + t[1] + t[2]) / 3.0, n, eta_);
+    const double center = irradiance((t[0] + t[1] + t[2]) / 3.0);
     const double scaled = share * power_share(center, sum);
     for (double& e : lit.irradiance_sr_per_mm2) e *= scaled;
     out.lit.push_back(lit);
@@ -186,7 +195,7 @@ class Illuminator {
              PatchLight& out) const {
     if (levels == 0) {
       const double share = lit_share(t, n, out);
-      if (share > 0.0) append(t, n, k, share, out);
+      if (share > 0.0) append(t, k, share, out);
       return;
     }
     const std::size_t a = apex_of_longest_edge(t);

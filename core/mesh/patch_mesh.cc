@@ -14,7 +14,7 @@
 namespace scattermeter {
 
 PatchMesh::PatchMesh(const TriangleMesh& mesh, double size_mm, std::size_t max_patches)
-    : size_mm_(size_mm), vertices_mm_(mesh.vertices_mm) {
+    : size_mm_(size_mm), vertices_mm_(mesh.vertices_mm), normals_(mesh) {
   if (!(size_mm > 0.0)) {
     throw std::invalid_argument("PatchMesh: size_mm = " + std::to_string(size_mm));
   }
@@ -28,10 +28,7 @@ PatchMesh::PatchMesh(const TriangleMesh& mesh, double size_mm, std::size_t max_p
     std::array<int, 3> vertex;
   };
   std::vector<Open> open;
-  for (int f = 0; f < n_facets; ++f) {
-    nodes_.push_back({0, 0});
-    facet_normal_.push_back(area_vector_mm2(mesh, f).normalized());
-  }
+  nodes_.assign(mesh.triangles.size(), {0, 0});
   std::map<std::pair<int, int>, int> middle_of;
   const auto middle = [&](int a, int b) {
     const auto key = std::minmax(a, b);

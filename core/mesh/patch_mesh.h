@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "core/mesh/surface_normals.h"
 #include "core/mesh/triangle_mesh.h"
 
 namespace scattermeter {
@@ -33,9 +34,12 @@ class PatchMesh {
   }
   std::array<Eigen::Vector3d, 3> corners_mm(int patch) const;
   int facet_idx(int patch) const { return facet_idx_[static_cast<std::size_t>(patch)]; }
-  const Eigen::Vector3d& facet_normal(int facet) const {
-    return facet_normal_[static_cast<std::size_t>(facet)];
+  const Eigen::Vector3d& facet_normal(int facet) const { return normals_.of_facet(facet); }
+  // Unit normal, at a point of a patch, of the smooth surface that the facets may stand for.
+  Eigen::Vector3d normal_at(int patch, const Eigen::Vector3d& point_mm) const {
+    return normals_.at(facet_idx(patch), point_mm);
   }
+  const SurfaceNormals& surface_normals() const { return normals_; }
   const Eigen::Vector3d& normal(int patch) const { return facet_normal(facet_idx(patch)); }
   Eigen::Vector3d center_mm(int patch) const;
   double area_mm2(int patch) const;
@@ -74,7 +78,7 @@ class PatchMesh {
   std::vector<Eigen::Vector3d> vertices_mm_;
   std::vector<std::array<int, 3>> patches_;
   std::vector<int> facet_idx_;
-  std::vector<Eigen::Vector3d> facet_normal_;
+  SurfaceNormals normals_;
   std::vector<Node> nodes_;  // the first ones are the facets
 };
 

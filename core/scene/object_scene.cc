@@ -5,7 +5,6 @@
 
 #include "core/base/input_error.h"
 #include "core/mesh/creases.h"
-#include "core/mesh/surface_curvature.h"
 #include "core/mesh/turning_symmetry.h"
 
 namespace scattermeter {
@@ -30,7 +29,6 @@ ObjectScene object_scene(const Scene& scene, const SceneObject& object, const Tr
   out.stated = &object;
   out.box = bounds(moved);
   out.rays = std::make_unique<RayScene>(std::move(moved));
-  out.normal_change_per_mm = normal_change_per_mm(out.mesh());
   out.is_round = is_round(out.mesh());
   out.displacing_turns = displacing_turns(out.mesh(), out.box.center_mm());
   return out;

@@ -19,8 +19,7 @@ struct ObjectScene {
   const SceneObject* stated = nullptr;
   std::unique_ptr<RayScene> rays;  // holds the mesh
   Box3d box;
-  std::vector<Eigen::Matrix3d> normal_change_per_mm;  // by facet (core/mesh/surface_curvature.h)
-  bool is_round = false;                              // without edges (core/mesh/creases.h)
+  bool is_round = false;  // without edges (core/mesh/creases.h)
   // Of the turns about the box's centre (core/mesh/turning_symmetry.h).
   Eigen::Matrix3d displacing_turns = Eigen::Matrix3d::Identity();
   const TriangleMesh& mesh() const { return rays->mesh(); }

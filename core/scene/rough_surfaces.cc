@@ -44,7 +44,7 @@ double log_passed(const Transmittances& t, const Scene& scene, const SceneShot& 
                   const SeenObject& seen, std::size_t channel, std::size_t row) {
   constexpr double kLeast = 0.05;  // of cosines
   const Eigen::Vector3d& at_mm = seen.sites[row].center_mm;
-  const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[row]);
+  const Eigen::Vector3d normal = seen.patches->normal_at(seen.map.patch_of_row[row], at_mm);
   const auto log_t = [&](const Eigen::Vector3d& to_mm) {
     return std::log(t.by_cosine(std::max(kLeast, cosine_to(to_mm, at_mm, normal))));
   };
@@ -77,7 +77,7 @@ RowGloss row_gloss(const Scene& scene, const SceneShot& shot, const SeenObject& 
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto row = static_cast<std::size_t>(j);
       const Eigen::Vector3d& at_mm = seen.sites[row].center_mm;
-      const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[row]);
+      const Eigen::Vector3d normal = seen.patches->normal_at(seen.map.patch_of_row[row], at_mm);
       out.l[j] +=
           power * gloss_per_mm2(boundary, shadows, led, at_mm, normal, seen.camera_center_mm);
       out.irradiance[j] += power * led.transmitted_irradiance_per_mm2(at_mm, normal, 1.0);

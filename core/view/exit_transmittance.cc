@@ -51,7 +51,8 @@ double ExitTransmittance::of(int x, int y) const {
   double sum = 0.0;
   int n = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const double cos_theta = cosine_of(hits[i], patches_, directions[i].cast<double>());
+    const double cos_theta =
+        cosine_of(hits[i], patches_, rays_.origin_in_world_mm, directions[i].cast<double>());
     if (!(cos_theta > 0.0)) continue;
     sum += fresnel_transmittance(eta_, cos_theta);
     ++n;

@@ -9,9 +9,9 @@
 namespace scattermeter {
 
 // Ft(eta, w_o) of paper eq. 11 as samples see it. A sample whose neighbours see facets of other
-// slants sees parts of several: it has the mean over its area, which is that of L_o where l is
-// continuous across the edges. With the transmittance at the centre alone, a dipole-rendered sphere
-// of 9000 facets, in full frames of a D80, was misfit by 0.15 % along its facets' edges.
+// slants, which do not stand for a smooth surface (core/mesh/surface_normals.h), sees parts of
+// several: it has the mean over its area, which is that of L_o where l is continuous across the
+// edges.
 class ExitTransmittance {
  public:
   // All arguments must outlive it.

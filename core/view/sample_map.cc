@@ -118,16 +118,19 @@ std::vector<std::int32_t> add_rows(const SeenPatches& seen, const std::vector<st
 
 }  // namespace
 
-double cosine_of(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction) {
-  if (hit.facet_idx < 0) return 0.0;
-  return std::max(0.0, -patches.facet_normal(hit.facet_idx).dot(direction) / direction.norm());
+double cosine_of(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& origin_mm,
+                 const Eigen::Vector3d& direction) {
+  if (hit.facet_idx < 0 || !(patches.facet_normal(hit.facet_idx).dot(direction) < 0.0)) return 0.0;
+  const Eigen::Vector3d normal =
+      patches.surface_normals().at(hit.facet_idx, origin_mm + hit.distance * direction);
+  return std::max(kLeastCosine, -normal.dot(direction) / direction.norm());
 }
 
 PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
                      const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction) {
   if (!direction.allFinite()) return {};
   const RayHit hit = scene.first_hit(origin_mm, direction);
-  const double cos_theta = cosine_of(hit, patches, direction);
+  const double cos_theta = cosine_of(hit, patches, origin_mm, direction);
   if (!(cos_theta > 0.0)) return {};
   return {hit.facet_idx, patches.locate(hit.facet_idx, hit.barycentric),
           hit.distance * direction.norm(), cos_theta};

@@ -28,8 +28,11 @@ struct PixelHit {
 };
 
 // The cosine of a first hit, from the ray's direction (of any length): between the direction back
-// to the camera and the normal. 0: background, or the inner side, through a pinhole of rounding.
-double cosine_of(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& direction);
+// to the camera and the normal of the smooth surface that the facets may stand for, at least
+// kLeastCosine. 0: background, or the inner side of a facet, through a pinhole of rounding.
+inline constexpr double kLeastCosine = 1e-3;
+double cosine_of(const RayHit& hit, const PatchMesh& patches, const Eigen::Vector3d& origin_mm,
+                 const Eigen::Vector3d& direction);
 PixelHit trace_pixel(const RayScene& scene, const PatchMesh& patches,
                      const Eigen::Vector3d& origin_mm, const Eigen::Vector3d& direction);
 

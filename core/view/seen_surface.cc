@@ -32,7 +32,8 @@ SeenSurface::SeenSurface(const RayGrid& rays, const RayScene& scene, const Patch
     PatchMesh::Finder patch(patches_);
     for (std::size_t x = 0; x < hits.size(); ++x) {
       const RayHit& hit = hits[x];
-      const double cos_theta = cosine_of(hit, patches_, directions[x].cast<double>());
+      const double cos_theta =
+          cosine_of(hit, patches_, rays_.origin_in_world_mm, directions[x].cast<double>());
       if (!(cos_theta > 0.0)) continue;
       seen_[index(static_cast<int>(x), y)] = {patch.patch_idx(hit.facet_idx, hit.barycentric),
                                               hit.facet_idx, static_cast<float>(hit.distance),
@@ -132,10 +133,11 @@ int SeenSurface::reach_px(std::size_t i, int xn, int yn) const {
 
 double SeenSurface::footprint_mm2(int x, int y) const {
   const std::size_t i = index(x, y);
-  const double length = rays_.directions_in_world[i].cast<double>().norm();
-  const double distance_mm = static_cast<double>(seen_[i].distance) * length;
-  return PixelPoints(rays_, x, y).solid_angle_sr() * distance_mm * distance_mm /
-         static_cast<double>(seen_[i].cos_theta);
+  const Eigen::Vector3d direction = rays_.directions_in_world[i].cast<double>();
+  const double distance_mm = static_cast<double>(seen_[i].distance) * direction.norm();
+  const double cos_of_facet =
+      -patches_.facet_normal(seen_[i].facet).dot(direction) / direction.norm();
+  return PixelPoints(rays_, x, y).solid_angle_sr() * distance_mm * distance_mm / cos_of_facet;
 }
 
 }  // namespace scattermeter

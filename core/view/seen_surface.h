@@ -21,8 +21,8 @@ class SeenSurface {
   struct Seen {
     std::int32_t patch = -1;  // -1: background
     std::int32_t facet = -1;
-    float distance = 0;  // in lengths of the ray's direction
-    float cos_theta = 0;
+    float distance = 0;   // in lengths of the ray's direction
+    float cos_theta = 0;  // see cosine_of()
   };
 
   // Rays and patches must outlive it.

@@ -1,11 +1,14 @@
 #include "core/light/incident_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "core/material/fresnel.h"
+#include "core/mesh/round_bodies.h"
+#include "core/mesh/triangle_parts.h"
 #include "tests/fixtures/core/boxes.h"
 #include "tests/fixtures/core/total_power.h"
 
@@ -61,6 +64,36 @@ TEST(IncidentLight, CastsNoRaysOnAConvexBody) {
   const IncidentLight shaded = illuminate(patches, other, led, 1.4);
   EXPECT_EQ(shaded.shadow_rays_skipped, 0U);
   EXPECT_LT(total(shaded), 0.9 * total(a));
+}
+
+// The facets of a sphere are lit as the sphere is: a facet's own normal is half a degree and more
+// off over most of it, which near the terminator, where the transmittance falls off, changes the
+// mean as well.
+TEST(IncidentLight, FacetsOfASphereAreLitAsTheSphere) {
+  const Eigen::Vector3d center_mm(0, 0, 10);
+  const TriangleMesh sphere = sphere_mesh(4);
+  const RayScene scene(sphere);
+  const PatchMesh patches(sphere, 2.0);  // whole facets
+  Led led;
+  led.position_mm = {30, -60, 80};
+  led.axis = Eigen::Vector3d(-30, 60, -70).normalized();
+  led.exponent = 1.5;
+  const IncidentLight light = illuminate(patches, scene, led, 1.49);
+  double brightest = 0.0, worst = 0.0, worst_by_facets = 0.0;
+  for (int k = 0; k < patches.size(); ++k) {
+    double of_sphere = 0.0, of_facet = 0.0;
+    for_16_parts(patches.corners_mm(k), [&](const Eigen::Vector3d& p) {
+      const Eigen::Vector3d radial = (p - center_mm).normalized();
+      of_sphere += led.transmitted_irradiance_per_mm2(p, radial, 1.49) / 16;
+      of_facet += led.transmitted_irradiance_per_mm2(p, patches.normal(k), 1.49) / 16;
+    });
+    const double found = light.patch_power_sr[static_cast<std::size_t>(k)] / patches.area_mm2(k);
+    brightest = std::max(brightest, of_sphere);
+    worst = std::max(worst, std::abs(found - of_sphere));
+    worst_by_facets = std::max(worst_by_facets, std::abs(of_facet - of_sphere));
+  }
+  EXPECT_LT(worst, 4e-4 * brightest);
+  EXPECT_GT(worst_by_facets, 4e-3 * brightest);
 }
 
 // Two patch sizes agree, with Fresnel and lobe.

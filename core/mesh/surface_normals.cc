@@ -1,4 +1,4 @@
-#include "core/mesh/surface_curvature.h"
+#include "core/mesh/surface_normals.h"
 
 #include <algorithm>
 #include <array>
@@ -44,8 +44,9 @@ bool are_flat(const Facet& a, const Facet& b) {
 bool are_smooth(const Facet& a, const Facet& b) {
   constexpr double kPerWidth = 0.125;
   const double angle_rad = std::acos(std::clamp(a.normal.dot(b.normal), -1.0, 1.0));
-  return angle_rad < kCrease_rad &&
-         kPerWidth * std::min(a.width_mm, b.width_mm) * angle_rad < kMostSagitta_mm;
+  const auto [narrow_mm, wide_mm] = std::minmax(a.width_mm, b.width_mm);
+  return angle_rad < kCrease_rad && wide_mm < kMostWidthRatio * narrow_mm &&
+         kPerWidth * narrow_mm * angle_rad < kMostSagitta_mm;
 }
 
 // Of what is interpolated over a facet between its corners, by the place along it.
@@ -66,17 +67,18 @@ Eigen::Matrix3d slope(const TriangleMesh& mesh, std::size_t f,
 
 }  // namespace
 
-std::vector<Eigen::Matrix3d> normal_change_per_mm(const TriangleMesh& mesh) {
+SurfaceNormals::SurfaceNormals(const TriangleMesh& mesh) {
   const TriangleMesh welded = merge_equal_vertices(mesh);
   std::vector<Facet> facets;
   std::vector<std::vector<std::pair<std::size_t, std::size_t>>> at(welded.vertices_mm.size());
   for (std::size_t f = 0; f < welded.triangles.size(); ++f) {
     facets.push_back(facet_of(welded, f));
+    of_facet_.push_back(facets.back().normal);
     for (std::size_t i = 0; i < 3; ++i) {
       at[static_cast<std::size_t>(welded.triangles[f][i])].emplace_back(f, i);
     }
   }
-  std::vector<Eigen::Matrix3d> out(facets.size(), Eigen::Matrix3d::Zero());
+  curved_idx_.assign(facets.size(), -1);
   for (std::size_t f = 0; f < facets.size(); ++f) {
     std::array<Eigen::Vector3d, 3> normals;
     bool is_flat = true;
@@ -89,9 +91,22 @@ std::vector<Eigen::Matrix3d> normal_change_per_mm(const TriangleMesh& mesh) {
       }
       normals[i] = sum.normalized();
     }
-    if (!is_flat) out[f] = slope(welded, f, normals);
+    if (is_flat) continue;
+    curved_idx_[f] = static_cast<std::int32_t>(curved_.size());
+    curved_.push_back({welded.vertices_mm[static_cast<std::size_t>(welded.triangles[f][0])],
+                       normals[0], slope(welded, f, normals)});
   }
-  return out;
+}
+
+Eigen::Vector3d SurfaceNormals::at(int facet, const Eigen::Vector3d& point_mm) const {
+  const Curved* c = curved(facet);
+  if (c == nullptr) return of_facet(facet);
+  return (c->normal_there + c->change_per_mm * (point_mm - c->corner_mm)).normalized();
+}
+
+Eigen::Matrix3d SurfaceNormals::change_per_mm(int facet) const {
+  const Curved* c = curved(facet);
+  return c == nullptr ? Eigen::Matrix3d::Zero() : c->change_per_mm;
 }
 
 }  // namespace scattermeter
