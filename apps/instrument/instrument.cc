@@ -136,12 +136,14 @@ Instrument::Instrument(const Rig& rig, const ObjectScenes& objects, const Measur
     kept_.atlas = std::make_shared<TransportAtlas>(atlas_);
   }
   if (!pose_ || rig.pose.refine_by_silhouette) return;
-  view_ = see_all(rig.scene, objects, lit_, *pose_, {}, rig.scene.objects_in_shots());
   // A view that the shots determine is that of no other measurement.
   if (!options.atlas_folder.empty()) {
+    maps_.emplace(options.atlas_folder + "/views");
     weights_ = std::make_shared<WeightFolder>(options.atlas_folder + "/weights");
     kept_.store = weights_;
   }
+  view_ = see_all(rig.scene, objects, lit_, *pose_, {}, rig.scene.objects_in_shots(),
+                  maps_ ? &*maps_ : nullptr);
 }
 
 Measurement Instrument::measure(const capture::ShotSource& source) {
@@ -279,8 +281,9 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   if (atlas_ && !atlas_->problem().empty()) {
     out.notes.push_back("paths of transport are not kept: " + atlas_->problem());
   }
-  if (const std::string problem = weights_ ? weights_->write() : ""; !problem.empty()) {
-    out.notes.push_back("light in each patch is not kept: " + problem);
+  for (const std::string& problem :
+       {maps_ ? maps_->write() : std::string(), weights_ ? weights_->write() : std::string()}) {
+    if (!problem.empty()) out.notes.push_back("what depends on the jig is not kept: " + problem);
   }
   opened = seen.whole();
   out.places = std::make_shared<RigPlaces>(rig_places(rig_, objects_, opened));

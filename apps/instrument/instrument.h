@@ -10,6 +10,7 @@
 #include "apps/instrument/atlas_folder.h"
 #include "apps/instrument/first_look.h"
 #include "apps/instrument/measure.h"
+#include "apps/instrument/sample_map_folder.h"
 #include "apps/instrument/weight_folder.h"
 #include "apps/rig/rig.h"
 #include "capture/shots/shot_source.h"
@@ -75,6 +76,7 @@ class Instrument {
   std::optional<SharedView> view_;
   std::shared_ptr<AtlasFolder> atlas_;     // null: in memory only
   std::shared_ptr<WeightFolder> weights_;  // null: not kept
+  std::optional<SampleMapFolder> maps_;
   KeptLight kept_;
 };
 

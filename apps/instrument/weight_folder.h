@@ -2,39 +2,31 @@
 #pragma once
 
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/instrument/content_name.h"
+#include "apps/instrument/kept_folder.h"
 #include "core/diffusion/weight_store.h"
 
 namespace scattermeter::apps {
 
-// FOLDER/NAME.weights, by content_name(). What is to be kept waits for write(), so that a
-// measurement that fails leaves nothing behind. A file appears complete or not at all, and one with
-// a wrong digest is ignored. Of more than most_bytes, the files that were not used for longest are
-// removed.
 class WeightFolder : public WeightStore {
  public:
-  explicit WeightFolder(std::string folder, std::uintmax_t most_bytes = std::uintmax_t{1} << 30);
+  explicit WeightFolder(std::string folder, std::uintmax_t most_bytes = KeptFolder::kMostBytes)
+      : files_(std::move(folder), ".weights", most_bytes) {}
 
-  std::string name(const std::vector<double>& numbers) const override;
+  std::string name(const std::vector<double>& numbers) const override {
+    return content_name(numbers);
+  }
   std::optional<WeightMatrix> find(const std::string& name) override;
   void keep(const std::string& name, const WeightMatrix& weights) override;
-
-  // Writes all that waits. Returns why the first that failed did; "" if none.
-  std::string write();
+  std::string write() { return files_.write(); }  // KeptFolder::write()
 
  private:
-  std::string path_of(const std::string& name) const;
-  void remove_oldest();
-
-  std::string folder_;
-  std::uintmax_t most_bytes_;
-  std::mutex mutex_;
-  std::vector<std::pair<std::string, std::string>> waiting_;  // paths and contents
+  KeptFolder files_;
 };
 
 }  // namespace scattermeter::apps

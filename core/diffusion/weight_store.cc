@@ -72,11 +72,8 @@ WeightMatrix smooth_weights(const std::vector<ExitSite>& sites, const SourceClou
                             const DistanceKnots& knots, const PairSumOptions& options,
                             WeightStore* store) {
   if (store == nullptr) return smooth_weights(sites, sources, knots, options);
-  const std::string name = store->name(numbers_of(sites, sources, knots, options).all());
-  if (std::optional<WeightMatrix> found = store->find(name)) return *std::move(found);
-  WeightMatrix out = smooth_weights(sites, sources, knots, options);
-  store->keep(name, out);
-  return out;
+  return found_or_made(*store, numbers_of(sites, sources, knots, options).all(),
+                       [&] { return smooth_weights(sites, sources, knots, options); });
 }
 
 }  // namespace scattermeter

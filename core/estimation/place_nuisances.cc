@@ -54,9 +54,9 @@ SceneNuisances::SeenChange SceneNuisances::seen_change(
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
     const int patch = seen.map.patch_of_row[row];
-    const Eigen::Vector3d& normal = seen.patches->normal(patch);
-    const Eigen::Vector3d to_camera =
-        (seen.camera_center_mm - seen.sites[row].center_mm).normalized();
+    const Eigen::Vector3d& site_mm = seen.sites[row].center_mm;
+    const Eigen::Vector3d normal = seen.patches->normal_at(patch, site_mm);
+    const Eigen::Vector3d to_camera = (seen.camera_center_mm - site_mm).normalized();
     // The observed l = pi L / Ft falls as Ft grows.
     const double per_cos = l[i] * log_slope(seen.object->stated->eta_int_over_ext,
                                             std::max(normal.dot(to_camera), 1e-3));

@@ -45,7 +45,7 @@ class SurfaceNormals {
     Eigen::Matrix3d change_per_mm;
   };
   const Curved* curved(int facet) const {
-    const std::int32_t i = curved_.empty() ? -1 : curved_idx_[static_cast<std::size_t>(facet)];
+    const std::int32_t i = curved_idx_[static_cast<std::size_t>(facet)];
     return i < 0 ? nullptr : &curved_[static_cast<std::size_t>(i)];
   }
 

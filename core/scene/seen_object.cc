@@ -9,7 +9,8 @@ namespace scattermeter {
 
 std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& objects,
                                       const LitObjects& lit, const std::string& object,
-                                      const PoseResult& pose, const PoseShift& shift) {
+                                      const PoseResult& pose, const PoseShift& shift,
+                                      SampleMapStore* maps) {
   const CameraView view{scene.camera.intrinsics, shifted_pose(pose.camera_from_world, shift)};
   auto seen = std::make_shared<SeenObject>();
   seen->shift = shift;
@@ -29,9 +30,8 @@ std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& ob
   }
   options.least_cosine = std::min(kMostSlant, seen->object->stated->position_std_mm /
                                                   (kPatches * seen->patches->patch_size_mm()));
-  const RayGrid rays = rays_around(view, seen->object->mesh(), 2 * options.guard_px);
-  seen->map = map_samples(rays, *seen->object->rays, *seen->patches,
-                          seen->object->stated->eta_int_over_ext, options);
+  seen->map = map_samples(view, *seen->object->rays, *seen->patches,
+                          seen->object->stated->eta_int_over_ext, options, maps);
   for (std::size_t row = 0; row < seen->map.patch_of_row.size(); ++row) {
     seen->sites.push_back(exit_samples(*seen->patches, seen->map.patch_of_row[row],
                                        seen->map.samples[row], seen->map.of_quarters[row]));
@@ -53,7 +53,7 @@ std::shared_ptr<const SeenObject> with_rows(const SeenObject& seen, const RowCho
 
 SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObjects& lit,
                    const PoseResult& pose, const std::map<std::string, PoseShift>& shifts,
-                   const std::set<std::string>& only) {
+                   const std::set<std::string>& only, SampleMapStore* maps) {
   SharedView view{pose, {}};
   struct Item {
     const std::string& name;
@@ -70,7 +70,7 @@ SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObj
     list.push_back({name, shift, view.objects[name]});
   }
   tbb::parallel_for(std::size_t{0}, list.size(), [&](std::size_t i) {
-    list[i].seen = see(scene, objects, lit, list[i].name, pose, list[i].shift);
+    list[i].seen = see(scene, objects, lit, list[i].name, pose, list[i].shift, maps);
   });
   return view;
 }

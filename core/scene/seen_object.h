@@ -17,6 +17,7 @@
 #include "core/scene/object_scene.h"
 #include "core/view/chosen_rows.h"
 #include "core/view/sample_map.h"
+#include "core/view/sample_map_store.h"
 
 namespace scattermeter {
 
@@ -33,11 +34,13 @@ struct SeenObject {
   const RayScene* shadows = nullptr;
 };
 
-// Seen from `pose`, shifted by `shift`. Precondition: require_in_view() accepts the object.
+// Seen from `pose`, shifted by `shift`. maps: of views of other programs; may be null.
+// Precondition: require_in_view() accepts the object.
 std::shared_ptr<const SeenObject> see(const Scene& scene, const ObjectScenes& objects,
                                       const LitObjects& lit, const std::string& object,
                                       const PoseResult& pose,
-                                      const PoseShift& shift = PoseShift::Zero());
+                                      const PoseShift& shift = PoseShift::Zero(),
+                                      SampleMapStore* maps = nullptr);
 
 // The same view with these rows only (core/view/chosen_rows.h).
 std::shared_ptr<const SeenObject> with_rows(const SeenObject& seen, const RowChoice& choice);
@@ -49,9 +52,9 @@ struct SharedView {
 };
 
 // shifts: of the pose relative to each object, by its name; none: zero. only: the objects of these
-// names; empty: all. Throws InputError when one of them is out of view.
+// names; empty: all. maps: see(). Throws InputError when one of them is out of view.
 SharedView see_all(const Scene& scene, const ObjectScenes& objects, const LitObjects& lit,
                    const PoseResult& pose, const std::map<std::string, PoseShift>& shifts = {},
-                   const std::set<std::string>& only = {});
+                   const std::set<std::string>& only = {}, SampleMapStore* maps = nullptr);
 
 }  // namespace scattermeter

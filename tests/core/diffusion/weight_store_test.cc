@@ -1,33 +1,14 @@
 #include "core/diffusion/weight_store.h"
 
-#include <map>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/mesh/exit_site.h"
+#include "tests/fixtures/core/memory_store.h"
 
 namespace scattermeter {
 namespace {
-
-class MapStore : public WeightStore {
- public:
-  std::string name(const std::vector<double>& numbers) const override {
-    std::string out;
-    for (const double x : numbers) out += std::to_string(x) + " ";
-    return out;
-  }
-  std::optional<WeightMatrix> find(const std::string& name) override {
-    const auto at = kept.find(name);
-    if (at == kept.end()) return std::nullopt;
-    ++found;
-    return at->second;
-  }
-  void keep(const std::string& name, const WeightMatrix& weights) override { kept[name] = weights; }
-  std::map<std::string, WeightMatrix> kept;
-  int found = 0;
-};
 
 IncidentLight lit_triangle(double top) {
   IncidentLight out;
@@ -44,7 +25,7 @@ TEST(WeightStore, KeepsEachInputApart) {
   const SourceCloud light(lit_triangle(2e-4), origin);
   const DistanceKnots knots(0.05, 20.0);
   const PairSumOptions options;
-  MapStore store;
+  test_support::MemoryStore<WeightMatrix> store;
   const WeightMatrix w = smooth_weights(sites, light, knots, options, &store);
   EXPECT_EQ(w, smooth_weights(sites, light, knots, options));
   EXPECT_EQ(w, w.cast<float>().cast<double>());
