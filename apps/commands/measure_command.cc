@@ -91,9 +91,9 @@ void declare_options(CLI::App& command, MeasureArguments& a) {
                    "are the same)");
   command.add_option(
       "--atlas", a.atlas,
-      "folder of what depends on the jig alone, the dipole's weights of light (at most 1 GB) and "
-      "the paths of transport, which all materials and channels use again; several programs may "
-      "share it (default: OUT/atlas; with --no-cache they are not kept)");
+      "folder of what depends on the jig alone, its views, the dipole's weights of light (at most "
+      "1 GB each) and the paths of transport, which all materials and channels use again; several "
+      "programs may share it (default: OUT/atlas; with --no-cache they are not kept)");
 }
 
 int run_measure(const MeasureArguments& a, CommandContext& context) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <string_view>
 
 namespace scattermeter::apps {
@@ -56,6 +57,21 @@ SampleSpread spread_at(const std::vector<double>& numbers, std::size_t i) {
           Eigen::Map<const Eigen::Matrix3d>(at + 4)};
 }
 
+// Neighbouring samples of one row, or of none.
+struct Run {
+  std::int32_t row;
+  std::uint32_t length;
+};
+
+std::vector<Run> runs_of(const std::vector<std::int32_t>& row_of_sample) {
+  std::vector<Run> out;
+  for (const std::int32_t row : row_of_sample) {
+    if (out.empty() || out.back().row != row) out.push_back({row, 0});
+    ++out.back().length;
+  }
+  return out;
+}
+
 std::string bytes_of(const SampleMap& map) {
   std::vector<double> samples, of_quarters;
   std::vector<std::int32_t> n_quarters, n_adjacent, adjacent;
@@ -68,16 +84,17 @@ std::string bytes_of(const SampleMap& map) {
     n_adjacent.push_back(static_cast<std::int32_t>(rows.size()));
     adjacent.insert(adjacent.end(), rows.begin(), rows.end());
   }
+  std::vector<float> factors;
+  std::copy_if(map.pi_over_transmittance.begin(), map.pi_over_transmittance.end(),
+               std::back_inserter(factors), [](float factor) { return factor != 0.0F; });
   std::string out;
-  out.reserve(map.row_of_sample.size() * (sizeof(std::int32_t) + sizeof(float)) +
-              samples.size() * sizeof(double) * 2);
   append(std::vector<int>{map.x0, map.y0, map.width, map.height}, out);
   append(
       std::vector<std::size_t>{map.samples_on_object, map.samples_guarded, map.patches_partly_seen},
       out);
   append(map.patch_of_row, out);
-  append(map.row_of_sample, out);
-  append(map.pi_over_transmittance, out);
+  append(runs_of(map.row_of_sample), out);
+  append(factors, out);
   append(map.coverage, out);
   append(map.guarded_of_row, out);
   append(samples, out);
@@ -96,6 +113,26 @@ std::size_t sum_of(const std::vector<std::int32_t>& counts) {
     sum += static_cast<std::size_t>(n);
   }
   return sum;
+}
+
+// The rows of all samples, and the factors of those that have one.
+void add_samples(const std::vector<Run>& runs, const std::vector<float>& factors,
+                 std::size_t pixels, SampleMap& map) {
+  map.row_of_sample.reserve(pixels);
+  map.pi_over_transmittance.reserve(pixels);
+  auto factor = factors.begin();
+  for (const Run& run : runs) {
+    if (run.length > pixels - map.row_of_sample.size()) throw NoMap{};
+    map.row_of_sample.insert(map.row_of_sample.end(), run.length, run.row);
+    if (run.row < 0) {
+      map.pi_over_transmittance.insert(map.pi_over_transmittance.end(), run.length, 0.0F);
+      continue;
+    }
+    if (factors.end() - factor < static_cast<std::ptrdiff_t>(run.length)) throw NoMap{};
+    map.pi_over_transmittance.insert(map.pi_over_transmittance.end(), factor, factor + run.length);
+    factor += run.length;
+  }
+  if (map.row_of_sample.size() != pixels || factor != factors.end()) throw NoMap{};
 }
 
 void require_within(const std::vector<std::int32_t>& rows, std::int32_t least, std::size_t end) {
@@ -121,9 +158,9 @@ SampleMap map_of(std::string_view bytes) {
   const std::size_t rows = map.patch_of_row.size();
   const std::size_t pixels =
       static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
-  map.row_of_sample = next<std::int32_t>(bytes, pixels);
+  const auto runs = next<Run>(bytes);
+  add_samples(runs, next<float>(bytes), pixels, map);
   require_within(map.row_of_sample, -1, rows);
-  map.pi_over_transmittance = next<float>(bytes, pixels);
   map.coverage = next<double>(bytes, rows);
   map.guarded_of_row = next<std::size_t>(bytes, rows);
   const auto samples = next<double>(bytes, kOfSpread * rows);

@@ -154,8 +154,8 @@ const std::vector<ManualEntry> kFiles = {
      "What the raw files decode to. It may be deleted at any time (measure --no-cache keeps "
      "none)."},
     {"OUT/atlas",
-     "Light paths of transport, which later measurements with the same jig use again (measure "
-     "--atlas FOLDER). It may be deleted at any time."}};
+     "Views, the dipole's weights of light and light paths of transport, which later measurements "
+     "with the same jig use again (measure --atlas FOLDER). It may be deleted at any time."}};
 
 // A page of section 1 for man(1) with every command and option that --help shows, but for those of
 // `bench`, which has its own page.

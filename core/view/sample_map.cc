@@ -180,6 +180,7 @@ SampleMap map_samples(const RayGrid& rays, const RayScene& scene, const PatchMes
     if (patch_of_sample[i] >= 0) {
       map.row_of_sample[i] = row_of_patch[static_cast<std::size_t>(patch_of_sample[i])];
     }
+    if (map.row_of_sample[i] < 0) map.pi_over_transmittance[i] = 0.0F;
   }
   map.adjacent_rows =
       adjacent_rows(map.row_of_sample, map.width, map.height, map.patch_of_row.size());

@@ -50,8 +50,9 @@ struct SampleMapOptions {
 // The visible patches, each a row of the linear system, and the samples of each row.
 struct SampleMap {
   int x0 = 0, y0 = 0, width = 0, height = 0;
-  std::vector<std::int32_t> row_of_sample;   // -1: background, guarded or in no row
-  std::vector<float> pi_over_transmittance;  // pi / Ft(eta, w_o): l = this * L_o (paper eq. 11)
+  std::vector<std::int32_t> row_of_sample;  // -1: background, guarded or in no row
+  // pi / Ft(eta, w_o): l = this * L_o (paper eq. 11); 0: in no row.
+  std::vector<float> pi_over_transmittance;
   std::vector<int> patch_of_row;
   std::vector<SampleSpread> samples;  // of each row: surface points, world
   // Of rows with guarded samples: those of each quarter of the patch; of others none.
