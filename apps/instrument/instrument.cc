@@ -281,9 +281,10 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   if (atlas_ && !atlas_->problem().empty()) {
     out.notes.push_back("paths of transport are not kept: " + atlas_->problem());
   }
-  for (const std::string& problem :
-       {maps_ ? maps_->write() : std::string(), weights_ ? weights_->write() : std::string()}) {
-    if (!problem.empty()) out.notes.push_back("what depends on the jig is not kept: " + problem);
+  const std::string of_maps = maps_ ? maps_->write() : "";
+  const std::string of_weights = weights_ ? weights_->write() : "";
+  if (const std::string& problem = of_maps.empty() ? of_weights : of_maps; !problem.empty()) {
+    out.notes.push_back("what depends on the jig is not kept: " + problem);
   }
   opened = seen.whole();
   out.places = std::make_shared<RigPlaces>(rig_places(rig_, objects_, opened));

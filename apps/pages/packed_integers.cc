@@ -8,6 +8,12 @@
 #include "apps/pages/base64.h"
 
 namespace scattermeter::apps {
+namespace {
+
+// Pages are 2 % larger than at the best level; compressing takes an eighth of the time.
+constexpr int kLevel = 4;
+
+}  // namespace
 
 std::string packed_integers(const std::vector<std::int32_t>& values, int bytes) {
   std::vector<Bytef> planes;
@@ -19,7 +25,7 @@ std::string packed_integers(const std::vector<std::int32_t>& values, int bytes) 
   }
   uLongf size = compressBound(planes.size());
   std::vector<Bytef> out(size);
-  if (compress2(out.data(), &size, planes.data(), planes.size(), Z_BEST_COMPRESSION) != Z_OK) {
+  if (compress2(out.data(), &size, planes.data(), planes.size(), kLevel) != Z_OK) {
     throw std::runtime_error("zlib cannot compress the data of a page");
   }
   return base64({out.begin(), out.begin() + static_cast<std::ptrdiff_t>(size)});
