@@ -7,7 +7,7 @@
 namespace scattermeter::apps {
 namespace {
 
-// Deflated and with Adler's sum (by Python's zlib at its best compression).
+// Deflated and with Adler's sum (by Python's zlib at level 4).
 TEST(PackedIntegers, PlanesOfLowAndHighBytes) {
   // 1, -2, 0x1234 in two bytes: 01 fe 34, then 00 ff 12.
   EXPECT_EQ(packed_integers({1, -2, 0x1234}, 2), "eF5j/GfC8F8IAAfiAkU=");
