@@ -76,7 +76,7 @@ class Instrument {
   std::optional<SharedView> view_;
   std::shared_ptr<AtlasFolder> atlas_;     // null: in memory only
   std::shared_ptr<WeightFolder> weights_;  // null: not kept
-  std::optional<SampleMapFolder> maps_;
+  std::optional<SampleMapFolder> maps_;    // absent: not kept
   KeptLight kept_;
 };
 

@@ -1,7 +1,6 @@
 #include "apps/instrument/sample_map_folder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
@@ -118,11 +117,13 @@ std::size_t sum_of(const std::vector<std::int32_t>& counts) {
 // The rows of all samples, and the factors of those that have one.
 void add_samples(const std::vector<Run>& runs, const std::vector<float>& factors,
                  std::size_t pixels, SampleMap& map) {
+  std::uint64_t samples = 0;
+  for (const Run& run : runs) samples += run.length;
+  if (samples != pixels) throw NoMap{};
   map.row_of_sample.reserve(pixels);
   map.pi_over_transmittance.reserve(pixels);
   auto factor = factors.begin();
   for (const Run& run : runs) {
-    if (run.length > pixels - map.row_of_sample.size()) throw NoMap{};
     map.row_of_sample.insert(map.row_of_sample.end(), run.length, run.row);
     if (run.row < 0) {
       map.pi_over_transmittance.insert(map.pi_over_transmittance.end(), run.length, 0.0F);
@@ -132,7 +133,7 @@ void add_samples(const std::vector<Run>& runs, const std::vector<float>& factors
     map.pi_over_transmittance.insert(map.pi_over_transmittance.end(), factor, factor + run.length);
     factor += run.length;
   }
-  if (map.row_of_sample.size() != pixels || factor != factors.end()) throw NoMap{};
+  if (factor != factors.end()) throw NoMap{};
 }
 
 void require_within(const std::vector<std::int32_t>& rows, std::int32_t least, std::size_t end) {
