@@ -52,6 +52,13 @@ LightLook::LightLook(const Scene& scene, LitObjects& lit, const std::vector<Obse
       settings_.push_back(lights);
     }
   }
+  // Whichever LED the rig lists may have been the one that was on.
+  for (const SceneLight& light : scene.lights) {
+    if (light.led() == nullptr) continue;
+    if (std::find(settings_.begin(), settings_.end(), std::vector{light.name}) == settings_.end()) {
+      settings_.push_back({light.name});
+    }
+  }
   add_smooth_weights(scene, shots, lit, nullptr, weights);
 }
 

@@ -37,7 +37,8 @@ class LightLook {
   LightLook(const Scene& scene, LitObjects& lit, const std::vector<ObservedShot>& shots,
             Weights& weights);
 
-  // Of one of the shots in its best channel, against all sets of lights of the scene's shots.
+  // Of one of the shots in its best channel, against all sets of lights of the scene's shots, and
+  // each LED of the scene alone.
   ShotLikeness likeness(std::size_t shot);
   // The same for the observation of a frame at another view (of another object).
   void compare_object(const SeenObject& seen, const Observation& observation, std::size_t channel,

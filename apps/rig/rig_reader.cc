@@ -197,6 +197,9 @@ void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
 
 Rig read_rig(const std::string& path, bool with_radiance) {
   const YamlField top = YamlField::load(path);
+  if (top.find("results") && !top.find("scattermeter_rig")) {
+    throw InputError(path, "is a result of `measure`, not a rig");
+  }
   top.only({"scattermeter_rig", "limits", "camera", "pose", "objects", "lights",
             "even_light_share_std", "shot_shift_std_px", "shots", "surroundings", "calibration",
             "truth"});

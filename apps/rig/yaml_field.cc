@@ -86,7 +86,11 @@ YamlField YamlField::load(const std::string& file) {
       throw InputError(file + ":" + std::to_string(tab),
                        "the line is indented by a tab, which YAML does not allow; use spaces");
     }
-    throw InputError(file + ":" + std::to_string(line), "is not valid YAML: " + e.msg);
+    // The parser reads on from a bracket that is not closed, and stops somewhere below.
+    const bool open = e.msg.starts_with("end of ");
+    throw InputError(file + ":" + std::to_string(line),
+                     "is not valid YAML: " + e.msg +
+                         (open ? "; is a bracket or quote on this line or above left open?" : ""));
   }
 }
 

@@ -36,6 +36,17 @@ TEST(LightLook, OtherLightsExplainAnExchangedShot) {
   EXPECT_EQ(like.other_lights, std::vector<std::string>{"led2"});
 }
 
+// No shot is listed as lit by the LED that lit this one.
+TEST(LightLook, AnLedThatNoShotListsExplainsAShot) {
+  LitShots lit("cube");
+  lit.rig.scene.shots[1].lights = {"led1"};
+  LightLook look(lit.rig.scene, *lit.lit, lit.shots, lit.weights);
+  EXPECT_EQ(look.likeness(1).other_lights, std::vector<std::string>{"led2"});
+  const std::vector<Finding> findings = look.findings();
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].cause, "file exchanged");
+}
+
 TEST(LightLook, AnotherView) {
   LitShots lit("cube");
   LightLook look(lit.rig.scene, *lit.lit, lit.shots, lit.weights);

@@ -184,6 +184,13 @@ TEST(RigReader, MissingFile) {
   EXPECT_THROW(read_rig("/"), InputError);
 }
 
+TEST(RigReader, KnowsAResult) {
+  SmallRig small;
+  small.write("{\"$schema\": \"result.schema.json\", \"results\": []}");
+  EXPECT_THAT([&] { read_rig(small.rig()); },
+              ThrowsMessage<InputError>(HasSubstr("is a result of `measure`, not a rig")));
+}
+
 // The sample's own rig reads, and its twelve shots are the paper's.
 TEST(RigReader, SampleRig) {
   const Rig rig =

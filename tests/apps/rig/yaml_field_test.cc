@@ -60,6 +60,8 @@ TEST(YamlField, RefusesWhatIsNoMap) {
   expect_message([&] { load(folder, "- 1\n- 2\n"); }, "map at the top");
   expect_message([&] { load(folder, ""); }, "map at the top");
   expect_message([&] { load(folder, "a: [1, 2\nb: 3"); }, "not valid YAML");
+  expect_message([&] { load(folder, "a: {b: 'c, d: 1}\ne: {f: 'g'}\n"); },
+                 "is a bracket or quote on this line or above left open?");
   expect_message([&] { load(folder, std::string("II*\0\b\xc2", 6)); }, "not a text file");
 }
 
