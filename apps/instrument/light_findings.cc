@@ -91,13 +91,17 @@ void LightLook::find_exchanged(const std::vector<ShotLikeness>& likeness,
         for (const std::size_t i : shots) {
           files += (files.empty() ? "" : ", ") + shots_[i].stated->file;
         }
-        finding.cause = "file exchanged";
+        const bool has_more = std::includes(other.begin(), other.end(), own.begin(), own.end());
+        finding.cause = has_more ? "another LED on" : "file exchanged";
         finding.text = fmt::format(
-            "file exchanged, or wrong lights: {} looks lit by {}, not by {} ({:.0f} instead of "
-            "{:.0f} % of the image unexplained)",
-            files, joined(other), joined(own), 100.0 * likeness[shots.front()].best_other,
+            "{}: {} looks lit by {}, not by {} ({:.0f} instead of {:.0f} % of the image "
+            "unexplained)",
+            has_more ? "another LED on" : "file exchanged, or wrong lights", files, joined(other),
+            joined(own) + (has_more ? " alone" : ""), 100.0 * likeness[shots.front()].best_other,
             100.0 * likeness[shots.front()].own);
-        finding.advice = "give the files their right names, or correct shots.lights";
+        finding.advice = has_more ? "switch it off and take the shot again, or list it in "
+                                    "shots.lights"
+                                  : "give the files their right names, or correct shots.lights";
       }
       out.push_back(finding);
     }

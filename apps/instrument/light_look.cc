@@ -52,13 +52,6 @@ LightLook::LightLook(const Scene& scene, LitObjects& lit, const std::vector<Obse
       settings_.push_back(lights);
     }
   }
-  // Whichever LED the rig lists may have been the one that was on.
-  for (const SceneLight& light : scene.lights) {
-    if (light.led() == nullptr) continue;
-    if (std::find(settings_.begin(), settings_.end(), std::vector{light.name}) == settings_.end()) {
-      settings_.push_back({light.name});
-    }
-  }
   add_smooth_weights(scene, shots, lit, nullptr, weights);
 }
 
@@ -129,11 +122,31 @@ ShotLikeness LightLook::likeness(std::size_t i) {
   const std::vector<std::string> own = sorted(shot.stated->lights);
   out.own = match(*shot.seen, o, own, c).rest;
   if (!(out.own > kDoubtfulImage)) return out;
-  for (const std::vector<std::string>& lights : settings_) {
+  for (const std::vector<std::string>& lights : settings_for(own)) {
     if (lights == own) continue;
     add_weights_for(*shot.seen, *shot.stated, lights);
     offer(match(*shot.seen, o, lights, c).rest,
           fmt::format("lit by {}", fmt::join(lights, " and ")), lights, out);
+  }
+  return out;
+}
+
+// The sets of lights that a shot may have been taken under: those of the rig's shots, each LED
+// alone, and one LED more than the stated ones.
+std::vector<std::vector<std::string>> LightLook::settings_for(
+    const std::vector<std::string>& own) const {
+  std::vector<std::vector<std::string>> out = settings_;
+  const auto add = [&](std::vector<std::string> lights) {
+    lights = sorted(std::move(lights));
+    if (std::find(out.begin(), out.end(), lights) == out.end()) out.push_back(std::move(lights));
+  };
+  for (const SceneLight& light : scene_.lights) {
+    if (light.led() == nullptr) continue;
+    add({light.name});
+    if (std::find(own.begin(), own.end(), light.name) != own.end()) continue;
+    std::vector<std::string> more = own;
+    more.push_back(light.name);
+    add(std::move(more));
   }
   return out;
 }

@@ -37,8 +37,8 @@ class LightLook {
   LightLook(const Scene& scene, LitObjects& lit, const std::vector<ObservedShot>& shots,
             Weights& weights);
 
-  // Of one of the shots in its best channel, against all sets of lights of the scene's shots, and
-  // each LED of the scene alone.
+  // Of one of the shots in its best channel, against all sets of lights of the scene's shots, each
+  // LED of the scene alone, and one LED more than is listed.
   ShotLikeness likeness(std::size_t shot);
   // The same for the observation of a frame at another view (of another object).
   void compare_object(const SeenObject& seen, const Observation& observation, std::size_t channel,
@@ -59,6 +59,7 @@ class LightLook {
     Eigen::VectorXd scales;                                  // measured over predicted, by medium
     Eigen::Index best = 0;
   };
+  std::vector<std::vector<std::string>> settings_for(const std::vector<std::string>& own) const;
   Match match(const SeenObject& seen, const ChannelObservation& o,
               const std::vector<std::string>& lights, std::size_t channel) const;
   void add_weights_for(const SeenObject& seen, const SceneShot& stated,

@@ -100,19 +100,37 @@ Eigen::Matrix<double, 6, 6> stated_covariance(const ObjectScene& object) {
   return std.cwiseAbs2().asDiagonal();
 }
 
-// Without shots; absent for an object that stands as stated. by_points: the camera's pose is.
-std::optional<Finding> misplaced(const std::string& name, const calib::PiecePose& found,
-                                 const Eigen::Matrix<double, 6, 6>& stated, bool by_points) {
+// What a displacement along the line of sight may be instead: an object of another size; "" where
+// it is none.
+std::string or_of_another_size(const Eigen::Vector3d& off_mm, const Eigen::Vector3d& to_camera_mm) {
+  constexpr double kMostAside = 0.2;
+  constexpr double kVisible = 0.005;
+  const double along_mm = off_mm.dot(to_camera_mm.normalized());
+  const double growth = along_mm / (to_camera_mm.norm() - along_mm);
+  const double aside_mm = (off_mm - along_mm * to_camera_mm.normalized()).norm();
+  if (aside_mm > kMostAside * std::abs(along_mm) || !(std::abs(growth) > kVisible)) return "";
+  return fmt::format(", or is {:.1f} % {} than its mesh", 100.0 * std::abs(growth),
+                     growth > 0.0 ? "larger" : "smaller");
+}
+
+// Without shots; absent for an object that stands as stated. camera: one that sees it. by_points:
+// its pose is.
+std::optional<Finding> misplaced(const ObjectScene& object, const calib::PiecePose& found,
+                                 const PoseResult& camera, bool by_points) {
   constexpr double kDoubt = 1e-4;
-  const Eigen::Matrix<double, 6, 6> expected = stated + found.covariance;
+  const std::string& name = object.stated->name;
+  const Eigen::Matrix<double, 6, 6> expected = stated_covariance(object) + found.covariance;
   if (chi_square_tail(found.off.dot(SymmetricSolver(expected).solve(found.off)), 6.0) > kDoubt) {
     return std::nullopt;
   }
+  const Eigen::Vector3d to_camera_mm =
+      inverse(camera.camera_from_world).translation_mm - object.box.center_mm();
   return Finding{
       "mesh displaced",
       fmt::format("mesh displaced: by its outline, {} stands [{:.2f}, {:.2f}, {:.2f}] "
-                  "mm from where the rig states it, turned by {:.1f} degrees",
-                  name, found.off[0], found.off[1], found.off[2], degrees(found.off.tail<3>())),
+                  "mm from where the rig states it, turned by {:.1f} degrees{}",
+                  name, found.off[0], found.off[1], found.off[2], degrees(found.off.tail<3>()),
+                  or_of_another_size(found.off.head<3>(), to_camera_mm)),
       fmt::format("put the object back, or have it found by its outline "
                   "(objects.{}.pose: {{from: silhouette}}){}",
                   name, by_points ? "; if the camera was moved, take the pose points again" : ""),
@@ -206,7 +224,7 @@ OutlineFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
       continue;
     }
     const Eigen::Matrix<double, 6, 6> stated = stated_covariance(object);
-    std::optional<Finding> finding = misplaced(name, found, stated, false);
+    std::optional<Finding> finding = misplaced(object, found, telling.front()->pose, false);
     const Eigen::Matrix<double, 6, 1> probable =
         stated * SymmetricSolver(stated + found.covariance).solve(found.off);
     for (const ObservedShot& shot : shots) {
@@ -235,7 +253,7 @@ std::optional<Finding> misplaced_piece(const Rig& rig, const ObjectScenes& objec
   const calib::PiecePose found =
       found_near(rig, objects, stated, {{pose, std::move(telling)}}, frames);
   std::optional<Finding> out;
-  if (found.problem.empty()) out = misplaced(object, found, stated_covariance(stated), true);
+  if (found.problem.empty()) out = misplaced(stated, found, pose, true);
   if (out) out->shots = std::move(shots);
   return out;
 }

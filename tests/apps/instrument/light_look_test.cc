@@ -47,6 +47,24 @@ TEST(LightLook, AnLedThatNoShotListsExplainsAShot) {
   EXPECT_EQ(findings[0].cause, "file exchanged");
 }
 
+// Shot 0 is listed as lit by one of the LEDs that lit it.
+TEST(LightLook, AnotherLedWasOnToo) {
+  LitShots lit("cube");
+  for (std::size_t c = 0; c < kRgb; ++c) {
+    ChannelObservation& first = lit.shots[0].observation.channel[c];
+    const ChannelObservation& second = lit.shots[1].observation.channel[c];
+    for (std::size_t row = 0; row < first.l.size(); ++row) first.l[row] += second.l[row];
+  }
+  LightLook look(lit.rig.scene, *lit.lit, lit.shots, lit.weights);
+  const std::vector<Finding> findings = look.findings();
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].cause, "another LED on");
+  EXPECT_EQ(findings[0].shots, std::vector<std::size_t>{0});
+  EXPECT_NE(findings[0].text.find("looks lit by led1 and led2, not by led1 alone"),
+            std::string::npos)
+      << findings[0].text;
+}
+
 TEST(LightLook, AnotherView) {
   LitShots lit("cube");
   LightLook look(lit.rig.scene, *lit.lit, lit.shots, lit.weights);

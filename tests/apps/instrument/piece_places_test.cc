@@ -14,6 +14,7 @@ namespace scattermeter::apps {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 // A cube that stands 4 mm and 5 degrees from where the measuring rig has it.
@@ -174,8 +175,16 @@ TEST_F(PieceBesideBoardTest, IsRefusedByNameFartherOff) {
     ASSERT_TRUE(r.refused());
     EXPECT_THAT(r.estimate.reasons.front(),
                 HasSubstr("mesh displaced: by its outline, pyramid stands [-"));
+    EXPECT_THAT(r.estimate.reasons.front(), Not(HasSubstr("than its mesh")));
     EXPECT_EQ(r.estimate.sigma_s_prime_per_mm.value, 0.0);  // before any fit
   }
+}
+
+// 10 mm farther from the camera, which is 305 mm away, than stated: so would a smaller one look.
+TEST_F(PieceBesideBoardTest, MayBeOfAnotherSize) {
+  const Measurement nearer = measured_at("[-0.46, -8.4, 5.4]");
+  EXPECT_THAT(nearer.results.front().estimate.reasons.front(),
+              HasSubstr("or is 3.3 % smaller than its mesh"));
 }
 
 }  // namespace
