@@ -77,7 +77,7 @@ class TransportSearch {
     if (std::optional<ChannelResult> found = search(start(estimate), result)) {
       result = std::move(*found);
     } else {
-      estimate.reasons = {"the search for the medium by transport did not converge in time"};
+      estimate.reasons = {"transport did not converge in time: check the rig, or allow more time"};
     }
   }
 

@@ -56,7 +56,7 @@ TEST(TransportSearch, EndsWithoutTime) {
   EXPECT_GE(result.estimate.rows, 20U);
   ASSERT_EQ(result.estimate.reasons.size(), 1U);
   EXPECT_EQ(result.estimate.reasons[0],
-            "the search for the medium by transport did not converge in time");
+            "transport did not converge in time: check the rig, or allow more time");
 }
 
 TEST(TransportSearch, EndsWhereItIsCancelled) {
