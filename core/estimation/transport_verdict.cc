@@ -128,6 +128,10 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
         "the time was too short: {} blocks of paths for each light, at least {} are needed", blocks,
         kLeastBlocks));
   }
+  estimate.pulls = std::move(pulls);
+  if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
+    estimate.reasons.push_back(contradiction_sentence(*worst, estimate.pulls));
+  }
   estimate.misfit_relative = misfit.rms;
   estimate.misfit_p_value = misfit.p_value;
   if (misfit.p_value < kMisfitPValue && misfit.rms > kMisfit) {
@@ -139,13 +143,8 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
   if (unexplained > kUnexplained) {
     estimate.reasons.push_back(
         fmt::format("transport does not explain the shots: the residual is {:.2g} %, of which "
-                    "neither noise nor "
-                    "Monte Carlo explains {:.2g} %",
+                    "neither noise nor Monte Carlo explains {:.2g} %",
                     100.0 * estimate.rms_relative, 100.0 * unexplained));
-  }
-  estimate.pulls = std::move(pulls);
-  if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
-    estimate.reasons.push_back(contradiction_sentence(*worst, estimate.pulls));
   }
   if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {
     estimate.reasons.push_back(fmt::format(
