@@ -202,7 +202,8 @@ void LightLook::find_factors(const std::vector<ShotLikeness>& likeness,
       number(std::max(factor, 1.0 / factor)), factor < 1.0 ? "less" : "more");
   finding.advice = all ? "correct lights.intensity_W_per_sr (in W/sr) or "
                          "camera.responsivity_counts_mm2_sr_per_W_s"
-                       : "correct the intensity_W_per_sr of these lights";
+                       : std::string(factor < 1.0 ? "see that they were on, or " : "") +
+                             "correct the intensity_W_per_sr of these lights";
   out.push_back(finding);
 }
 

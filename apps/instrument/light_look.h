@@ -44,9 +44,9 @@ class LightLook {
   void compare_object(const SeenObject& seen, const Observation& observation, std::size_t channel,
                       ShotLikeness& out);
 
-  // Exchanged lights, files of other lights, covered parts, and light off by a factor of more than
-  // three beyond any medium that the images allow; the most probable first. Shots are given as
-  // indices into the scene's list.
+  // Exchanged lights, files of other lights, LEDs that were on too, covered parts, and light off by
+  // a factor of more than three beyond any medium that the images allow; the most probable first.
+  // Shots are given as indices into the scene's list.
   std::vector<Finding> findings();
 
   static std::size_t best_channel(const Observation& observation);

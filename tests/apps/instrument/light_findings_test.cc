@@ -54,6 +54,15 @@ TEST_F(LightFindings, MilliwattsForWatts) {
   EXPECT_THAT(findings().at(0).text, HasSubstr("lit by led2"));
 }
 
+// What an LED shows that was off, but for some light from elsewhere.
+TEST_F(LightFindings, AnLedThatWasOff) {
+  scale_light(1, 300);
+  const auto found = findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].cause, "light off by a factor");
+  EXPECT_THAT(found[0].advice, HasSubstr("see that they were on"));
+}
+
 // A free scale says nothing about units; a factor of two is left to the fit.
 TEST_F(LightFindings, FactorsThatAreAllowed) {
   scale_light(0, 2);
