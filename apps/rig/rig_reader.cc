@@ -13,6 +13,7 @@
 #include "apps/rig/rig_sensor_truth.h"
 #include "apps/rig/rig_surroundings.h"
 #include "apps/rig/yaml_field.h"
+#include "core/base/input_error.h"
 #include "core/scene/default_uncertainty.h"
 
 namespace scattermeter::apps {

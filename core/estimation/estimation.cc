@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/core.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/base/progress.h"
