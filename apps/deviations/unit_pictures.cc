@@ -65,12 +65,14 @@ class Key {
 std::string key_of(const TrueSetup& setup, const SceneLight& light,
                    const std::array<Medium, 3>& media, bool volume) {
   Key key;
+  const SceneObject& object = setup.rig.scene.objects.front();
   key.add(volume);
   if (volume) {
-    for (const double v : setup.rig.scene.objects.front().phase.numbers()) key.add(v);
+    for (const double v : object.phase.numbers()) key.add(v);
   }
   for (const Medium& m : media) key.add(m);
-  key.add(setup.rig.scene.objects.front().eta_int_over_ext);
+  key.add(object.eta_int_over_ext);
+  key.add(object.surface_alpha);
   key.add(setup.rig.scene.camera.intrinsics);
   key.add(setup.rig.truth.pose->position_mm);
   key.add(setup.rig.truth.pose->look_at_mm);

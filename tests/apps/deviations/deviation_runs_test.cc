@@ -25,7 +25,7 @@ TEST(DeviationRuns, WholeProduct) {
   EXPECT_EQ(n["none"], 3 * 2 * 2);
   EXPECT_EQ(n["edges bevelled"], 3 * 2 * 2 * 2);
   EXPECT_EQ(n["LEDs exchanged"], 3 * 2);
-  EXPECT_EQ(n["phase function"], 3 * 3 * 2);
+  EXPECT_EQ(n["phase function"], 4 * 3 * 2);
   options.kinds = {"nonsense"};
   EXPECT_THROW(planned_runs(options), std::invalid_argument);
 }

@@ -45,7 +45,7 @@ std::vector<double> numbers(const TrueSetup& t) {
   add(std::vector<double>{
       static_cast<double>(camera.sensor.white_counts), camera.sensor.noise.gain_e_per_count,
       t.rig.scene.objects.front().phase.mean_cosine(), t.rig.truth.sensor.veiling_glare,
-      t.rig.scene.objects.front().eta_int_over_ext});
+      t.rig.scene.objects.front().eta_int_over_ext, t.rig.scene.objects.front().surface_alpha});
   for (Channel c : camera.sensor.cfa.phase) out.push_back(static_cast<double>(c));
   for (const auto& radial : t.rig.truth.sensor.vignetting_radial) add(radial);
   for (const Eigen::Vector3d& v :

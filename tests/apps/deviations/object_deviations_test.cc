@@ -17,6 +17,12 @@ TEST(ObjectDeviations, Materials) {
               1.40, 1e-12);
   EXPECT_EQ(deviating_object("phase function", {0.8, 1, 1}).rig.scene.objects.front().phase,
             PhaseFunction(0.8));
+  EXPECT_NEAR(deviating_object("phase function of two lobes", {50, 1, 1})
+                  .rig.scene.objects.front()
+                  .phase.mean_cosine(),
+              0.45, 1e-12);
+  EXPECT_EQ(deviating_object("rough surface", {0.15, 1, 1}).rig.scene.objects.front().surface_alpha,
+            0.15);
   const TrueSetup halves = deviating_object("halves of different material", {50, 1, 1});
   for (const TrueShot& shot : halves.shots) {
     EXPECT_NEAR((*shot.right_half)[1].sigma_s_prime_per_mm, 1.5 * 1.3, 1e-12);
