@@ -1,8 +1,9 @@
 #include "apps/instrument/focus.h"
 
 #include <algorithm>
-#include <cmath>
+#include <optional>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/core.h>
 
 #include "calib/pose/edge_points.h"
@@ -11,48 +12,50 @@
 namespace scattermeter::apps {
 namespace {
 
-// Of (blur / mean free path)^2, the relative error of sigma_s' by blur: 0.2 to 1.7 for cube and
-// pyramid, faint to dense (`bench deviations`, "out of focus"). That of sigma_a, which is too large
-// where sigma_s' is too small, is as many deviations.
-constexpr double kErrorByBlur = 2.0;
-constexpr double kMostError = 0.03;
+// Of the mean free path. Cube and pyramid of 0.6 to 2.5 per mm, out of focus by up to 0.55 of it,
+// are answered within their deviations (`bench deviations`, "out of focus").
+constexpr double kMostBlur = 0.6;
 // What the fit to a sharp edge may yield, px; subtracted in squares.
 constexpr double kSharp_px = 0.3;
 // Beyond this, a shot that is refused is told to be blurred.
 constexpr double kBlurred_px = 0.8;
 
-// Size of a pixel on the object.
-double px_mm(const ObjectScene& object, const PoseResult& pose, double fx_px) {
-  return (pose.camera_from_world * object.box.center_mm()).z() / fx_px;
-}
-
 }  // namespace
 
-double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot& shot,
-                    const capture::RawFrame& frame, const PoseResult& pose) {
+EdgeBlur edge_blur(const Rig& rig, const ObjectScenes& objects, const SceneShot& shot,
+                   const capture::RawFrame& frame, const PoseResult& pose) {
   const ObjectScene& object = objects.at(shot.object);
-  if (object.is_round) return 0.0;
+  if (object.is_round) return {};
   const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
   const calib::EdgeShot edges =
       calib::edge_shot(rig.scene, rig.pose, objects, shot, frame, pose.camera_from_world, {});
-  const double seen_px = calib::edge_blur_px(edges, lens, pose.camera_from_world);
-  const double blur_px = std::sqrt(std::max(0.0, seen_px * seen_px - kSharp_px * kSharp_px));
-  return blur_px * px_mm(object, pose, lens.fx_px);
+  const std::optional<Eigen::Matrix2d> seen_px2 =
+      calib::edge_blur_px2(edges, lens, pose.camera_from_world);
+  if (!seen_px2) return {};
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(*seen_px2);
+  const Eigen::Vector2d beyond_px2 =
+      (axes.eigenvalues().array() - kSharp_px * kSharp_px).cwiseMax(0.0);
+  const double px_mm = (pose.camera_from_world * object.box.center_mm()).z() / lens.fx_px;
+  return {true, px_mm * px_mm * axes.eigenvectors() * beyond_px2.asDiagonal() *
+                    axes.eigenvectors().transpose()};
 }
 
-void widen_by_blur(std::span<const ObservedShot> shots, double fx_px,
-                   std::vector<ChannelResult>& results) {
+void refuse_blurred(std::span<const ObservedShot> shots, double fx_px,
+                    std::vector<ChannelResult>& results) {
   for (ChannelResult& r : results) {
     const ObservedShot* most = nullptr;
+    double blur_mm = 0.0;
     for (const ObservedShot& shot : shots) {
-      if (shot.stated->material != r.material) continue;
-      if (most == nullptr || shot.edge_blur_mm > most->edge_blur_mm) most = &shot;
+      if (shot.stated->material != r.material || !shot.edge_blur) continue;
+      const double own_mm = shot.edge_blur->largest_std_mm();
+      if (!(own_mm > blur_mm)) continue;
+      most = &shot;
+      blur_mm = own_mm;
     }
-    if (most == nullptr || !(most->edge_blur_mm > 0.0)) continue;
-    const double blur_mm = most->edge_blur_mm;
+    if (most == nullptr) continue;
     if (r.refused()) {
       // Its mean free path is not to be trusted. What else is wrong may come first.
-      const double blur_px = blur_mm / px_mm(*most->seen->object, most->pose, fx_px);
+      const double blur_px = blur_mm / most->px_mm(fx_px);
       if (blur_px > kBlurred_px) {
         r.estimate.reasons.push_back(
             fmt::format("the edges are blurred by {:.2g} px (standard deviation): out of focus, or "
@@ -61,14 +64,9 @@ void widen_by_blur(std::span<const ObservedShot> shots, double fx_px,
       }
       continue;
     }
-    Quantity& s = r.estimate.sigma_s_prime_per_mm;
-    const double mfp_mm = 1.0 / (s.value + r.estimate.sigma_a_per_mm.value);
-    const double relative = kErrorByBlur * blur_mm * blur_mm / (mfp_mm * mfp_mm);
-    if (!(relative > 0.0) || !(s.std > 0.0)) continue;
-    const double by_s = relative * s.value;
-    const double by_a = by_s / s.std * r.estimate.sigma_a_per_mm.std;
-    widen({"focus", by_s, by_a}, -by_s * by_a, r.estimate);
-    if (!(relative > kMostError)) continue;
+    const double mfp_mm =
+        1.0 / (r.estimate.sigma_s_prime_per_mm.value + r.estimate.sigma_a_per_mm.value);
+    if (!(blur_mm > kMostBlur * mfp_mm)) continue;
     r.estimate.reasons.push_back(fmt::format(
         "out of focus, or moved during the exposure: edges are blurred by {:.2g} mm (standard "
         "deviation), not small against the mean free path, {:.2g} mm; focus on the object, or move "

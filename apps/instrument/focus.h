@@ -1,4 +1,4 @@
-// Blur of the shots, and its effect on the estimates.
+// Blur of the shots.
 #pragma once
 
 #include <span>
@@ -13,17 +13,15 @@
 
 namespace scattermeter::apps {
 
-// Blur of the object's outline in a frame, on the object (DecodedShot::edge_blur_mm), beyond the
-// 0.3 px that a sharp edge may seem to have; 0 for a round body, and where the outline is not seen
-// well enough.
-double edge_blur_mm(const Rig& rig, const ObjectScenes& objects, const SceneShot& shot,
-                    const capture::RawFrame& frame, const PoseResult& pose);
+// Blur of the object's outline in a frame beyond the 0.3 px that a sharp edge may seem to have.
+EdgeBlur edge_blur(const Rig& rig, const ObjectScenes& objects, const SceneShot& shot,
+                   const capture::RawFrame& frame, const PoseResult& pose);
 
-// Adds the effect of the largest blur of its shots to each estimate, up to 2 (blur / mean free
-// path)^2 of sigma_s', and refuses those that it may change by more than 3 %. Those that are
-// refused already are told that their shots are blurred, if by more than 0.8 px. fx_px: focal
-// length of the camera.
-void widen_by_blur(std::span<const ObservedShot> shots, double fx_px,
-                   std::vector<ChannelResult>& results);
+// Refuses estimates whose shots are blurred by more than six tenths of the mean free path, beyond
+// which the light's second derivatives (core/view/row_blur.h) no longer tell what blur does. Those
+// that are refused already are told that their shots are blurred, if by more than 0.8 px. fx_px:
+// focal length of the camera.
+void refuse_blurred(std::span<const ObservedShot> shots, double fx_px,
+                    std::vector<ChannelResult>& results);
 
 }  // namespace scattermeter::apps

@@ -288,7 +288,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   }
   opened = seen.whole();
   out.places = std::make_shared<RigPlaces>(rig_places(rig_, objects_, opened));
-  if (!without_noise) widen_by_blur(opened, rig_.scene.camera.intrinsics.fx_px, out.results);
+  if (!without_noise) refuse_blurred(opened, rig_.scene.camera.intrinsics.fx_px, out.results);
   out.skipped = skipped_of(opened, lit_);
   out.skipped.rows = rows_of(seen.whole()) - rows_of(seen.shots());
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;

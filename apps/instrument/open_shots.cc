@@ -82,7 +82,7 @@ class ShotOpener {
   bool take_kept(const std::string& key, ObservedShot& shot) const {
     std::optional<DecodedShot> kept = source_.cache->find(key);
     if (!kept || kept->observation.channel[0].l.size() != shot.seen->map.patch_of_row.size() ||
-        (is_judged_by_blur(shot) && kept->edge_blur_mm < 0.0)) {
+        (is_judged_by_blur(shot) && !kept->edge_blur)) {
       return false;
     }
     static_cast<DecodedShot&>(shot) = std::move(*kept);
@@ -118,8 +118,7 @@ class ShotOpener {
     side_by_side(
         [&] {
           if (!is_judged_by_blur(shot)) return;
-          shot.edge_blur_mm =
-              edge_blur_mm(rig_, objects_, *shot.stated, exposures.front(), shot.pose);
+          shot.edge_blur = edge_blur(rig_, objects_, *shot.stated, exposures.front(), shot.pose);
         },
         [&] {
           out = capture::shot_samples(rig_.scene, rig_.decoding, *shot.stated, exposures, names,
@@ -181,6 +180,15 @@ std::vector<ObservedShot> open_shots(const Rig& rig, const capture::ShotSource& 
     shots[i] = opener.open(i);
     stage.step();
   });
+  // The camera's focus is that of the first shot.
+  for (ObservedShot& shot : shots) {
+    if (shot.edge_blur) continue;
+    const auto first = std::find_if(shots.begin(), shots.end(), [&](const ObservedShot& s) {
+      return s.edge_blur && s.stated->object == shot.stated->object &&
+             s.stated->material == shot.stated->material;
+    });
+    if (first != shots.end()) shot.edge_blur = first->edge_blur;
+  }
   return shots;
 }
 

@@ -17,6 +17,18 @@ std::size_t rows_of(const std::vector<ObservedShot>& shots) {
   return rows;
 }
 
+namespace {
+
+// What blur does is told from adjacent rows (core/view/row_blur.h). Less than a twentieth of a
+// patch changes no light by more than a thousandth.
+bool is_blurred(const ObservedShot& shot) {
+  constexpr double kVisible = 0.05;
+  return shot.edge_blur &&
+         shot.edge_blur->largest_std_mm() > kVisible * shot.seen->patches->patch_size_mm();
+}
+
+}  // namespace
+
 SeenShots::SeenShots(const Rig& rig, const ObjectScenes& objects, LitObjects& lit,
                      const capture::ShotSource& source, std::optional<SharedView> view,
                      bool on_smooth_knots, std::optional<int> levels, KeptLight& kept,
@@ -35,7 +47,9 @@ void SeenShots::open(const capture::ShotSource& from) {
   shots_ = view_ && on_smooth_knots_
                ? open_and_light(from)
                : open_shots(rig_, from, objects_, lit_, view_, progress_, own_);
-  if (!is_worth_choosing(shots_)) levels_ = std::nullopt;
+  if (!is_worth_choosing(shots_) || std::any_of(shots_.begin(), shots_.end(), is_blurred)) {
+    levels_ = std::nullopt;
+  }
   choose(levels_);
 }
 

@@ -26,14 +26,12 @@ std::string time_text(double seconds) {
 }
 
 void judge_sharpness(const ObservedShot& shot, double fx_px, ShotVerdict& out) {
-  if (shot.edge_blur_mm < 0.0 || shot.seen->object->is_round) return;
-  const double mm_per_px =
-      (shot.pose.camera_from_world * shot.seen->object->box.center_mm()).z() / fx_px;
-  const double blur_px = shot.edge_blur_mm / mm_per_px;
+  if (!shot.edge_blur || !shot.edge_blur->is_measured) return;
+  const double blur_mm = shot.edge_blur->largest_std_mm();
+  const double blur_px = blur_mm / shot.px_mm(fx_px);
   const std::string text =
-      blur_px < kSharp_px
-          ? "edges sharp"
-          : fmt::format("edges blurred by {:.1f} px ({:.2f} mm)", blur_px, shot.edge_blur_mm);
+      blur_px < kSharp_px ? "edges sharp"
+                          : fmt::format("edges blurred by {:.1f} px ({:.2f} mm)", blur_px, blur_mm);
   if (blur_px > kMostBlur_px) {
     out.problems.push_back("out of focus, or moved during the exposure: " + text +
                            "; focus on the object, and release without touching the camera");

@@ -56,6 +56,20 @@ std::vector<T> unpacked(const Json& j) {
   return out;
 }
 
+// Nothing where it was not looked for, one number where it was in vain.
+std::vector<double> numbers_of(const std::optional<EdgeBlur>& blur) {
+  if (!blur) return {};
+  if (!blur->is_measured) return {0.0};
+  return {blur->mm2(0, 0), blur->mm2(0, 1), blur->mm2(1, 1)};
+}
+
+std::optional<EdgeBlur> blur_of(const std::vector<double>& n) {
+  if (n.empty()) return std::nullopt;
+  if (n.size() == 1) return EdgeBlur{};
+  if (n.size() != 3) throw NoShot{};
+  return EdgeBlur{true, Eigen::Matrix2d{{n[0], n[1]}, {n[1], n[2]}}};
+}
+
 double number(const Json& j) {
   if (!j.is_number()) throw NoShot{};
   return j.get<double>();
@@ -156,7 +170,7 @@ std::vector<std::uint8_t> to_bytes(const DecodedShot& shot) {
        {"exposure_s", shot.exposure_s},
        {"iso", shot.iso},
        {"f_number", shot.f_number},
-       {"edge_blur_mm", shot.edge_blur_mm},
+       {"edge_blur_mm2", packed(numbers_of(shot.edge_blur))},
        {"exposures", exposures},
        {"frame_mean_counts", packed(std::vector<double>(mean.begin(), mean.end()))}});
 }
@@ -180,7 +194,7 @@ std::optional<DecodedShot> decoded_shot(std::span<const std::uint8_t> bytes) {
     shot.exposure_s = number(at(j, "exposure_s"));
     shot.iso = number(at(j, "iso"));
     shot.f_number = number(at(j, "f_number"));
-    shot.edge_blur_mm = number(at(j, "edge_blur_mm"));
+    shot.edge_blur = blur_of(unpacked<double>(at(j, "edge_blur_mm2")));
     for (const Json& e : list(at(j, "exposures"))) {
       const Json& file = at(e, "file");
       const std::vector<double> n = unpacked<double>(at(e, "numbers"));

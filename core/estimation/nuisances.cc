@@ -131,6 +131,7 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
     const SeenChange change = seen_change(shot, rows);
     add_view(shot, change, columns);
     add_place(shot, change, columns);
+    add_blur(shot, columns);
     add_even_light(shot, columns);
     columns.add("eta", "eta", eta_std, per_eta);
   }

@@ -53,6 +53,10 @@ class SceneNuisances {
   // poses and positions keep the values about which they vary. Zero without a shift.
   Eigen::VectorXd light_by_shift(const ObservedShot& shot,
                                  const std::vector<Eigen::Index>& rows) const;
+  // The change of l by the blur that the shot's outline shows (DecodedShot::edge_blur), on some
+  // rows of the map: part of the observed l, but not of W r.
+  Eigen::VectorXd light_by_blur(const ObservedShot& shot,
+                                const std::vector<Eigen::Index>& rows) const;
   // On some rows of a shot's map, ascending. Which nuisances are returned depends on the shot only.
   std::vector<NuisanceColumn> columns(const ObservedShot& shot, const ChannelObservation& observed,
                                       const std::vector<Eigen::Index>& rows) const;
@@ -66,11 +70,18 @@ class SceneNuisances {
     Eigen::Matrix3Xd per_direction;  // by a change of the unit vector towards the camera
   };
   SeenChange seen_change(const ObservedShot& shot, const std::vector<Eigen::Index>& rows) const;
+  // Gradient of the predicted l along the surface, 1/mm, on some rows.
+  Eigen::Matrix3Xd gradient_per_mm(const ObservedShot& shot,
+                                   const std::vector<Eigen::Index>& rows) const;
+  // Of l by a point spread (core/view/row_blur.h).
+  Eigen::VectorXd change_by_blur(const ObservedShot& shot, const std::vector<Eigen::Index>& rows,
+                                 const Eigen::Matrix2d& covariance_mm2) const;
   static Eigen::Matrix<double, Eigen::Dynamic, 6> change_by_pose(
       const ObservedShot& shot, const std::vector<Eigen::Index>& rows, const SeenChange& change);
   void add_light(const SceneLight& light, const ChannelSensitivity& own, Columns& columns) const;
   void add_view(const ObservedShot& shot, const SeenChange& change, Columns& columns) const;
   void add_place(const ObservedShot& shot, const SeenChange& change, Columns& columns) const;
+  void add_blur(const ObservedShot& shot, Columns& columns) const;
   void add_even_light(const ObservedShot& shot, Columns& columns) const;
   Eigen::VectorXd change_by_albedo(const ObservedShot& shot,
                                    const std::vector<Eigen::Index>& rows) const;

@@ -1,8 +1,10 @@
-// The nuisances of SceneNuisances that move what the samples see: pose, lens, the picture's shift,
-// and the object's position and size.
+// The nuisances of SceneNuisances that move what the samples see: pose, lens, the picture's shift
+// and blur, and the object's position and size.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 #include <fmt/core.h>
@@ -15,6 +17,7 @@
 #include "core/estimation/nuisance_columns.h"
 #include "core/estimation/nuisances.h"
 #include "core/material/fresnel.h"
+#include "core/view/row_blur.h"
 
 namespace scattermeter {
 namespace {
@@ -27,29 +30,47 @@ double log_slope(double eta, double cos_theta) {
          (std::min(1.0, cos_theta + step) - (cos_theta - step));
 }
 
+// Right and down, in the world.
+Eigen::Matrix<double, 3, 2> axes_of_picture(const Rigid3d& camera_from_world) {
+  return camera_from_world.rotation.toRotationMatrix().transpose().leftCols<2>();
+}
+
 }  // namespace
 
-SceneNuisances::SeenChange SceneNuisances::seen_change(
-    const ObservedShot& shot, const std::vector<Eigen::Index>& rows) const {
+Eigen::Matrix3Xd SceneNuisances::gradient_per_mm(const ObservedShot& shot,
+                                                 const std::vector<Eigen::Index>& rows) const {
   const SeenObject& seen = *shot.seen;
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  SeenChange out{Eigen::Matrix3Xd::Zero(3, n), Eigen::Matrix3Xd::Zero(3, n)};
-  Eigen::VectorXd l = Eigen::VectorXd::Zero(n);
+  Eigen::Matrix3Xd out = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(rows.size()));
   for (const std::string& name : shot.stated->lights) {
     const SceneLight& light = scene_.light(name);
     if (light->is_fitted()) continue;
     const ChannelSensitivity& own =
         sensitivities_.at({shot.seen.get(), name, light.channel_of(channel_)});
     const double power = light->power()[static_cast<Eigen::Index>(channel_)];
-    for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index i = 0; i < out.cols(); ++i) {
       const Eigen::Index row = rows[static_cast<std::size_t>(i)];
       const auto along =
           tangents(seen.patches->normal(seen.map.patch_of_row[static_cast<std::size_t>(row)]));
       for (std::size_t t = 0; t < 2; ++t) {
-        out.per_mm.col(i) += power * own.sensitivity->per_tangent_mm[t](row, own.medium) * along[t];
+        out.col(i) += power * own.sensitivity->per_tangent_mm[t](row, own.medium) * along[t];
       }
-      l[i] += power * own.sensitivity->l(row, own.medium);
     }
+  }
+  return out;
+}
+
+SceneNuisances::SeenChange SceneNuisances::seen_change(
+    const ObservedShot& shot, const std::vector<Eigen::Index>& rows) const {
+  const SeenObject& seen = *shot.seen;
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  SeenChange out{gradient_per_mm(shot, rows), Eigen::Matrix3Xd::Zero(3, n)};
+  Eigen::VectorXd l = Eigen::VectorXd::Zero(n);
+  for (const std::string& name : shot.stated->lights) {
+    const SceneLight& light = scene_.light(name);
+    if (light->is_fitted()) continue;
+    const ChannelSensitivity& own =
+        sensitivities_.at({shot.seen.get(), name, light.channel_of(channel_)});
+    l += light->power()[static_cast<Eigen::Index>(channel_)] * own.sensitivity->l(rows, own.medium);
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto row = static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]);
@@ -185,6 +206,51 @@ void SceneNuisances::add_place(const ObservedShot& shot, const SeenChange& seen_
     columns.add(stated.piece_name() + ".size", "mesh scale", stated.scale_relative_std,
                 change.col(6));
   }
+}
+
+Eigen::VectorXd SceneNuisances::change_by_blur(const ObservedShot& shot,
+                                               const std::vector<Eigen::Index>& rows,
+                                               const Eigen::Matrix2d& covariance_mm2) const {
+  const SeenObject& seen = *shot.seen;
+  // Of chosen rows (core/view/chosen_rows.h), none are adjacent.
+  if (seen.map.adjacent_rows.empty()) {
+    return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+  }
+  std::vector<Eigen::Index> all(seen.sites.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Eigen::Vector3d> centers_mm, normals;
+  for (std::size_t row = 0; row < seen.sites.size(); ++row) {
+    centers_mm.push_back(seen.sites[row].center_mm);
+    normals.push_back(seen.patches->normal(seen.map.patch_of_row[row]));
+  }
+  const BlurredRows of_view{centers_mm, normals, seen.map.adjacent_rows, seen.camera_center_mm,
+                            axes_of_picture(shot.pose.camera_from_world)};
+  return scattermeter::change_by_blur(of_view, gradient_per_mm(shot, all), covariance_mm2)(rows);
+}
+
+Eigen::VectorXd SceneNuisances::light_by_blur(const ObservedShot& shot,
+                                              const std::vector<Eigen::Index>& rows) const {
+  if (!shot.edge_blur || shot.edge_blur->mm2.isZero(0.0)) {
+    return Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+  }
+  return change_by_blur(shot, rows, shot.edge_blur->mm2);
+}
+
+// What outlines tell of the point spread is off by a share of it, as its shape is not known (across
+// slanted edges, motion by 4 px looks like 0.8 px instead of 1.2), and by what the fit to a sharp
+// edge may yield. Where they tell nothing, it may be most of a pixel. Samples without frames are
+// sharp.
+void SceneNuisances::add_blur(const ObservedShot& shot, Columns& columns) const {
+  constexpr double kShare = 1.0;
+  constexpr double kSharp_px2 = 0.05;
+  constexpr double kUnknown_px2 = 0.4;
+  if (!shot.edge_blur) return;
+  const double px_mm = shot.px_mm(scene_.camera.intrinsics.fx_px);
+  const double least_px2 = shot.edge_blur->is_measured ? kSharp_px2 : kUnknown_px2;
+  const Eigen::Matrix2d by_std_mm2 =
+      kShare * shot.edge_blur->mm2 + least_px2 * px_mm * px_mm * Eigen::Matrix2d::Identity();
+  columns.add("blur of " + shot.stated->material + " " + shot.seen->object->stated->name, "focus",
+              1.0, change_by_blur(shot, columns.rows(), by_std_mm2));
 }
 
 }  // namespace scattermeter

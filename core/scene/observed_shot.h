@@ -1,11 +1,16 @@
 // A shot reduced to observations of its patches.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "core/camera/camera_pose.h"
 #include "core/camera/cfa_samples.h"
@@ -40,6 +45,18 @@ struct ShotExposure {
   std::array<double, kRgb> pedestal_std_counts{};
 };
 
+// Blur of the object's outline.
+struct EdgeBlur {
+  bool is_measured = false;  // false: of a round body, or where too little of the outline is seen
+  // Covariance of the point spread beyond what a sharp edge may seem to have, along the picture's
+  // axes (right, down), on the object.
+  Eigen::Matrix2d mm2 = Eigen::Matrix2d::Zero();
+  double largest_std_mm() const {
+    const double mean = 0.5 * mm2.trace();
+    return std::sqrt(std::max(0.0, mean + std::hypot(0.5 * (mm2(0, 0) - mm2(1, 1)), mm2(0, 1))));
+  }
+};
+
 // The part of a shot's files that a measurement uses and a cache stores.
 struct DecodedShot {
   Observation observation;
@@ -48,8 +65,7 @@ struct DecodedShot {
   double f_number = 0;
   std::vector<ShotExposure> exposures;           // as observation's; empty for samples from memory
   std::array<double, kRgb> frame_mean_counts{};  // glare is a share of it
-  // Blur of the object's outline, standard deviation, mm on the object; below 0: not measured.
-  double edge_blur_mm = -1;
+  std::optional<EdgeBlur> edge_blur;             // absent: not looked for
 };
 
 struct ObservedShot : DecodedShot {
@@ -63,6 +79,10 @@ struct ObservedShot : DecodedShot {
   const std::string& view_name() const { return has_own_pose ? stated->file : stated->object; }
   // The name of its pose among the nuisances, without the number of the combination.
   std::string pose_name() const { return has_own_pose ? "pose " + stated->file : "pose"; }
+  // Size of a pixel on the object.
+  double px_mm(double fx_px) const {
+    return (pose.camera_from_world * seen->object->box.center_mm()).z() / fx_px;
+  }
 };
 
 }  // namespace scattermeter

@@ -113,6 +113,26 @@ TEST(DeviationRuns, NoWrongOk) {
   EXPECT_EQ(seen, static_cast<int>(results.size()));
 }
 
+// Out of focus by 1.5 px or moved by 4 px, where the mean free path is 3 to 12 px.
+TEST(DeviationRuns, BlurredShotsAreMeasuredRight) {
+  DeviationOptions options;
+  options.image_width_px = 484;
+  options.runs = 0;
+  options.rendering = DeviationRendering::kDipole;
+  options.bodies = {"cube", "pyramid"};
+  options.kinds = {"out of focus", "motion blur"};
+  options.sizes = {1};
+  int given = 0;
+  for (const std::uint64_t seed : {2, 3}) {
+    options.run_seed = seed;
+    for (const DeviationResult& result : bench_deviations(options)) {
+      EXPECT_NE(result.judged.verdict, DeviationVerdict::kWrongOk) << deviation_line(result);
+      given += result.judged.verdict == DeviationVerdict::kRight ? 1 : 0;
+    }
+  }
+  EXPECT_GE(given, 2 * 2 * 2 * 2 * 3 * 3 / 4);
+}
+
 // A wrong answer would be noticed: the same answers, judged by another truth.
 TEST(DeviationRuns, WouldNotice) {
   DeviationOptions options;

@@ -1,5 +1,6 @@
 #include "apps/instrument/focus.h"
 
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -16,11 +17,12 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Gaussian blur of each phase of the filter array by itself.
-capture::RawFrame blurred(const capture::RawFrame& frame, double std_px) {
-  const int reach = 2 * static_cast<int>(std::ceil(2.0 * std_px));
-  const auto along = [&](const capture::RawFrame& from, int dx, int dy) {
+// Gaussian blur of each phase of the filter array by itself, to the right and down.
+capture::RawFrame blurred(const capture::RawFrame& frame, std::array<double, 2> stds_px) {
+  const auto along = [&](const capture::RawFrame& from, double std_px, int dx, int dy) {
+    const int reach = 2 * static_cast<int>(std::ceil(2.0 * std_px));
     capture::RawFrame out = from;
+    if (reach == 0) return out;
     for (int y = reach; y < from.height_px - reach; ++y) {
       for (int x = reach; x < from.width_px - reach; ++x) {
         double sum = 0.0, weight = 0.0;
@@ -35,7 +37,7 @@ capture::RawFrame blurred(const capture::RawFrame& frame, double std_px) {
     }
     return out;
   };
-  return along(along(frame, 1, 0), 0, 1);
+  return along(along(frame, stds_px[0], 1, 0), stds_px[1], 0, 1);
 }
 
 class FocusTest : public ::testing::Test {
@@ -64,12 +66,29 @@ class FocusTest : public ::testing::Test {
 
 TEST_F(FocusTest, BlurIsMeasuredOnTheOutline) {
   const SceneShot& shot = rig_.scene.shots[0];
-  EXPECT_LT(edge_blur_mm(rig_, scenes_, shot, frame(0), pose_), 0.35 * px_mm());
-  EXPECT_NEAR(edge_blur_mm(rig_, scenes_, shot, blurred(frame(0), 2.0), pose_) / px_mm(), 2.0, 0.4);
+  const EdgeBlur sharp = edge_blur(rig_, scenes_, shot, frame(0), pose_);
+  EXPECT_TRUE(sharp.is_measured);
+  EXPECT_LT(sharp.largest_std_mm(), 0.35 * px_mm());
+  const EdgeBlur round = edge_blur(rig_, scenes_, shot, blurred(frame(0), {2.0, 2.0}), pose_);
+  EXPECT_NEAR(std::sqrt(round.mm2(0, 0)) / px_mm(), 2.0, 0.4);
+  EXPECT_NEAR(std::sqrt(round.mm2(1, 1)) / px_mm(), 2.0, 0.4);
 }
 
-// 2 (0.1 / 1)^2 of sigma_s', as many deviations of sigma_a; refused from 3 % on.
-TEST_F(FocusTest, BlurWidensAndRefuses) {
+// As by a camera that moved to the side.
+TEST_F(FocusTest, BlurInOneDirectionIsToldFromThatInAll) {
+  const EdgeBlur seen =
+      edge_blur(rig_, scenes_, rig_.scene.shots[0], blurred(frame(0), {2.0, 0.0}), pose_);
+  EXPECT_NEAR(std::sqrt(seen.mm2(0, 0)) / px_mm(), 2.0, 0.4);
+  EXPECT_LT(std::sqrt(seen.mm2(1, 1)) / px_mm(), 0.7);
+  EXPECT_NEAR(seen.largest_std_mm() / px_mm(), 2.0, 0.4);
+}
+
+TEST_F(FocusTest, RoundBodiesTellNothing) {
+  scenes_.at("cube").is_round = true;
+  EXPECT_FALSE(edge_blur(rig_, scenes_, rig_.scene.shots[0], frame(0), pose_).is_measured);
+}
+
+TEST_F(FocusTest, BlurThatIsNotSmallRefuses) {
   std::vector<ChannelResult> results(1);
   results[0].material = "m";
   Estimate& e = results[0].estimate;
@@ -77,16 +96,11 @@ TEST_F(FocusTest, BlurWidensAndRefuses) {
   e.sigma_a_per_mm = normal_quantity(0.01, 0.001);
   std::vector<ObservedShot> shots(1);
   shots[0].stated = &rig_.scene.shots[0];
-  shots[0].edge_blur_mm = 0.1;
-  widen_by_blur(shots, 1000.0, results);
-  EXPECT_NEAR(e.sigma_s_prime_per_mm.std, std::hypot(0.01, 0.02 * 0.99), 1e-12);
-  EXPECT_NEAR(e.sigma_a_per_mm.std, std::hypot(0.001, 1.98 * 0.001), 1e-12);
-  EXPECT_LT(e.correlation, -0.5);
-  ASSERT_EQ(e.budget.size(), 1U);
-  EXPECT_EQ(e.budget[0].cause, "focus");
+  shots[0].edge_blur = EdgeBlur{true, 0.59 * 0.59 * Eigen::Matrix2d::Identity()};
+  refuse_blurred(shots, 1000.0, results);
   EXPECT_TRUE(e.reasons.empty());
-  shots[0].edge_blur_mm = 0.13;
-  widen_by_blur(shots, 1000.0, results);
+  shots[0].edge_blur = EdgeBlur{true, Eigen::Matrix2d{{0.61 * 0.61, 0.0}, {0.0, 0.0}}};
+  refuse_blurred(shots, 1000.0, results);
   ASSERT_EQ(e.reasons.size(), 1U);
   EXPECT_THAT(e.reasons[0], HasSubstr("out of focus, or moved during the exposure"));
 }
@@ -103,8 +117,9 @@ TEST_F(FocusTest, RefusedShotsAreToldToBeBlurred) {
     std::vector<ChannelResult> results(1);
     results[0].material = "m";
     results[0].estimate.reasons = {"not explained"};
-    shots[0].edge_blur_mm = blur_px * px_mm();
-    widen_by_blur(shots, rig_.scene.camera.intrinsics.fx_px, results);
+    shots[0].edge_blur =
+        EdgeBlur{true, std::pow(blur_px * px_mm(), 2) * Eigen::Matrix2d::Identity()};
+    refuse_blurred(shots, rig_.scene.camera.intrinsics.fx_px, results);
     const std::vector<std::string>& reasons = results[0].estimate.reasons;
     ASSERT_EQ(reasons.size(), blur_px < 1.0 ? 1U : 2U);
     EXPECT_EQ(reasons[0], "not explained");

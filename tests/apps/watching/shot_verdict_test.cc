@@ -64,7 +64,7 @@ TEST_F(ShotVerdictTest, ExposureIsAdvised) {
 }
 
 TEST_F(ShotVerdictTest, BlurIsAFault) {
-  look_.shots.front().edge_blur_mm = 2.0;
+  look_.shots.front().edge_blur = EdgeBlur{true, 4.0 * Eigen::Matrix2d::Identity()};
   EXPECT_THAT(verdict().problems, ElementsAre(HasSubstr("out of focus, or moved")));
 }
 

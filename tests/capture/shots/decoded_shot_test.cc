@@ -29,7 +29,17 @@ TEST(DecodedShot, KeepsEveryBit) {
   EXPECT_TRUE(std::isnan(back->exposures[0].departure.log_ratio));
   EXPECT_EQ(back->exposures[1].departure.mean_counts, 0.3);
   EXPECT_EQ(back->frame_mean_counts, shot.frame_mean_counts);
-  EXPECT_EQ(back->edge_blur_mm, shot.edge_blur_mm);
+  ASSERT_TRUE(back->edge_blur);
+  EXPECT_EQ(back->edge_blur->mm2, shot.edge_blur->mm2);
+}
+
+TEST(DecodedShot, BlurThatWasNotLookedForOrNotSeen) {
+  DecodedShot shot = decoded_example();
+  shot.edge_blur = EdgeBlur{};
+  ASSERT_TRUE(decoded_shot(to_bytes(shot))->edge_blur);
+  EXPECT_FALSE(decoded_shot(to_bytes(shot))->edge_blur->is_measured);
+  shot.edge_blur.reset();
+  EXPECT_FALSE(decoded_shot(to_bytes(shot))->edge_blur);
 }
 
 // Bytes that are cut short anywhere, or lists that do not fit together.
