@@ -5,8 +5,12 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "apps/instrument/content_name.h"
+#include "core/base/kept_store.h"
 
 namespace scattermeter::apps {
 
@@ -33,6 +37,34 @@ class KeptFolder {
   std::uintmax_t most_bytes_;
   std::mutex mutex_;
   std::vector<std::pair<std::string, std::string>> waiting_;  // paths and contents
+};
+
+// A KeptStore in such a folder.
+template <class Kept>
+class FolderStore : public KeptStore<Kept> {
+ public:
+  std::string name(const std::vector<double>& numbers) const override {
+    return content_name(numbers);
+  }
+  std::optional<Kept> find(const std::string& name) override {
+    const std::optional<std::string> bytes = files_.find(name);
+    return bytes ? kept_in(*bytes) : std::nullopt;
+  }
+  void keep(const std::string& name, const Kept& kept) override {
+    files_.keep(name, bytes_of(kept));
+  }
+  std::string write() { return files_.write(); }  // KeptFolder::write()
+
+ protected:
+  FolderStore(std::string folder, std::string ending)
+      : files_(std::move(folder), std::move(ending)) {}
+
+ private:
+  virtual std::string bytes_of(const Kept& kept) const = 0;
+  // nullopt: not the bytes of one.
+  virtual std::optional<Kept> kept_in(std::string_view bytes) const = 0;
+
+  KeptFolder files_;
 };
 
 }  // namespace scattermeter::apps

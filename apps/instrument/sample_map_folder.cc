@@ -71,39 +71,6 @@ std::vector<Run> runs_of(const std::vector<std::int32_t>& row_of_sample) {
   return out;
 }
 
-std::string bytes_of(const SampleMap& map) {
-  std::vector<double> samples, of_quarters;
-  std::vector<std::int32_t> n_quarters, n_adjacent, adjacent;
-  for (const SampleSpread& s : map.samples) append(s, samples);
-  for (const auto& quarters : map.of_quarters) {
-    n_quarters.push_back(static_cast<std::int32_t>(quarters.size()));
-    for (const SampleSpread& s : quarters) append(s, of_quarters);
-  }
-  for (const auto& rows : map.adjacent_rows) {
-    n_adjacent.push_back(static_cast<std::int32_t>(rows.size()));
-    adjacent.insert(adjacent.end(), rows.begin(), rows.end());
-  }
-  std::vector<float> factors;
-  std::copy_if(map.pi_over_transmittance.begin(), map.pi_over_transmittance.end(),
-               std::back_inserter(factors), [](float factor) { return factor != 0.0F; });
-  std::string out;
-  append(std::vector<int>{map.x0, map.y0, map.width, map.height}, out);
-  append(
-      std::vector<std::size_t>{map.samples_on_object, map.samples_guarded, map.patches_partly_seen},
-      out);
-  append(map.patch_of_row, out);
-  append(runs_of(map.row_of_sample), out);
-  append(factors, out);
-  append(map.coverage, out);
-  append(map.guarded_of_row, out);
-  append(samples, out);
-  append(n_quarters, out);
-  append(of_quarters, out);
-  append(n_adjacent, out);
-  append(adjacent, out);
-  return out;
-}
-
 // The sum of numbers none of which is negative.
 std::size_t sum_of(const std::vector<std::int32_t>& counts) {
   std::size_t sum = 0;
@@ -185,18 +152,45 @@ SampleMap map_of(std::string_view bytes) {
 
 }  // namespace
 
-std::optional<SampleMap> SampleMapFolder::find(const std::string& name) {
-  const std::optional<std::string> bytes = files_.find(name);
-  if (!bytes) return std::nullopt;
+std::string SampleMapFolder::bytes_of(const SampleMap& map) const {
+  std::vector<double> samples, of_quarters;
+  std::vector<std::int32_t> n_quarters, n_adjacent, adjacent;
+  for (const SampleSpread& s : map.samples) append(s, samples);
+  for (const auto& quarters : map.of_quarters) {
+    n_quarters.push_back(static_cast<std::int32_t>(quarters.size()));
+    for (const SampleSpread& s : quarters) append(s, of_quarters);
+  }
+  for (const auto& rows : map.adjacent_rows) {
+    n_adjacent.push_back(static_cast<std::int32_t>(rows.size()));
+    adjacent.insert(adjacent.end(), rows.begin(), rows.end());
+  }
+  std::vector<float> factors;
+  std::copy_if(map.pi_over_transmittance.begin(), map.pi_over_transmittance.end(),
+               std::back_inserter(factors), [](float factor) { return factor != 0.0F; });
+  std::string out;
+  append(std::vector<int>{map.x0, map.y0, map.width, map.height}, out);
+  append(
+      std::vector<std::size_t>{map.samples_on_object, map.samples_guarded, map.patches_partly_seen},
+      out);
+  append(map.patch_of_row, out);
+  append(runs_of(map.row_of_sample), out);
+  append(factors, out);
+  append(map.coverage, out);
+  append(map.guarded_of_row, out);
+  append(samples, out);
+  append(n_quarters, out);
+  append(of_quarters, out);
+  append(n_adjacent, out);
+  append(adjacent, out);
+  return out;
+}
+
+std::optional<SampleMap> SampleMapFolder::kept_in(std::string_view bytes) const {
   try {
-    return map_of(*bytes);
+    return map_of(bytes);
   } catch (const NoMap&) {
     return std::nullopt;
   }
-}
-
-void SampleMapFolder::keep(const std::string& name, const SampleMap& map) {
-  files_.keep(name, bytes_of(map));
 }
 
 }  // namespace scattermeter::apps

@@ -3,28 +3,21 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
-#include <vector>
 
-#include "apps/instrument/content_name.h"
 #include "apps/instrument/kept_folder.h"
 #include "core/view/sample_map_store.h"
 
 namespace scattermeter::apps {
 
-class SampleMapFolder : public SampleMapStore {
+class SampleMapFolder : public FolderStore<SampleMap> {
  public:
-  explicit SampleMapFolder(std::string folder) : files_(std::move(folder), ".map") {}
-
-  std::string name(const std::vector<double>& numbers) const override {
-    return content_name(numbers);
-  }
-  std::optional<SampleMap> find(const std::string& name) override;
-  void keep(const std::string& name, const SampleMap& map) override;
-  std::string write() { return files_.write(); }  // KeptFolder::write()
+  explicit SampleMapFolder(std::string folder) : FolderStore(std::move(folder), ".map") {}
 
  private:
-  KeptFolder files_;
+  std::string bytes_of(const SampleMap& map) const override;
+  std::optional<SampleMap> kept_in(std::string_view bytes) const override;
 };
 
 }  // namespace scattermeter::apps

@@ -1,6 +1,7 @@
 #include "apps/instrument/weight_folder.h"
 
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <string_view>
@@ -13,7 +14,9 @@ namespace {
 using Shape = std::array<std::int64_t, 2>;
 using Elements = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-std::string weights_as_bytes(const WeightMatrix& weights) {
+}  // namespace
+
+std::string WeightFolder::bytes_of(const WeightMatrix& weights) const {
   const Shape shape{weights.rows(), weights.cols()};
   const Elements elements = weights.cast<float>();
   std::string out(reinterpret_cast<const char*>(shape.data()), sizeof shape);
@@ -22,7 +25,7 @@ std::string weights_as_bytes(const WeightMatrix& weights) {
   return out;
 }
 
-std::optional<WeightMatrix> weights_of(std::string_view bytes) {
+std::optional<WeightMatrix> WeightFolder::kept_in(std::string_view bytes) const {
   Shape shape;
   if (bytes.size() < sizeof shape) return std::nullopt;
   std::memcpy(shape.data(), bytes.data(), sizeof shape);
@@ -37,17 +40,6 @@ std::optional<WeightMatrix> weights_of(std::string_view bytes) {
   Elements elements(rows, columns);
   std::memcpy(elements.data(), bytes.data(), bytes.size());
   return elements.cast<double>();
-}
-
-}  // namespace
-
-std::optional<WeightMatrix> WeightFolder::find(const std::string& name) {
-  const std::optional<std::string> bytes = files_.find(name);
-  return bytes ? weights_of(*bytes) : std::nullopt;
-}
-
-void WeightFolder::keep(const std::string& name, const WeightMatrix& weights) {
-  files_.keep(name, weights_as_bytes(weights));
 }
 
 }  // namespace scattermeter::apps
