@@ -194,6 +194,24 @@ void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
   }
 }
 
+// A lamp that was copied from another one in the file, and then not edited.
+void require_different_leds(const YamlField& lights, const Scene& scene) {
+  for (auto one = scene.lights.begin(); one != scene.lights.end(); ++one) {
+    if (one->led() == nullptr || one->led()->calibrated_for) continue;
+    const Led& led = one->led()->led;
+    for (auto other = scene.lights.begin(); other != one; ++other) {
+      if (other->led() == nullptr) continue;
+      const Led& same = other->led()->led;
+      if (led.position_mm != same.position_mm || led.axis != same.axis ||
+          (led.intensity_W_per_sr != same.intensity_W_per_sr).any()) {
+        continue;
+      }
+      lights.at(one->name).fail("has position, axis and intensity of " + other->name +
+                                ": state where it is, or list one of the two only");
+    }
+  }
+}
+
 }  // namespace
 
 Rig read_rig(const std::string& path, bool with_radiance) {
@@ -228,6 +246,7 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   for (const auto& [name, field] : lights.entries()) {
     rig.scene.lights.push_back(read_light(name, field, path, rig.limits));
   }
+  require_different_leds(lights, rig.scene);
   take_responsivity_of_leds(lights, rig);
   std::map<std::string, int> line_of_file;
   const YamlField shots = top.at("shots");

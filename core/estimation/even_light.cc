@@ -5,6 +5,20 @@
 #include "core/light/ambient_light.h"
 
 namespace scattermeter {
+namespace {
+
+// Smooth light: patches of a twelfth of the object.
+PatchMesh coarse_patches(const SeenObject& seen) {
+  const ObjectScene& object = *seen.object;
+  return PatchMesh(object.mesh(),
+                   std::max(2.0 * seen.patches->patch_size_mm(), object.size_mm() / 12.0));
+}
+
+const RayScene& shadows_of(const SeenObject& seen) {
+  return seen.shadows != nullptr ? *seen.shadows : *seen.object->rays;
+}
+
+}  // namespace
 
 LightKey even_light_key(const ObservedShot& shot) { return {shot.seen.get(), "", 0}; }
 
@@ -22,14 +36,27 @@ bool may_have_even_light(const Scene& scene, const ObservedShot& shot) {
 Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& knots,
                                   const std::vector<LitMedium>& media, WeightStore* store) {
   const ObjectScene& object = *seen.object;
-  const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
-  // Smooth light: patches of a twelfth of the object.
-  const PatchMesh coarse(object.mesh(),
-                         std::max(2.0 * seen.patches->patch_size_mm(), object.size_mm() / 12.0));
-  const double eta = object.stated->eta_int_over_ext;
-  return coarse_images(object, sites_at_centers(seen),
-                       AmbientLight().illuminate(coarse, shadows, eta, LightUse::kBudget)[0], knots,
-                       media, store);
+  return coarse_images(
+      object, sites_at_centers(seen),
+      AmbientLight().illuminate(coarse_patches(seen), shadows_of(seen),
+                                object.stated->eta_int_over_ext, LightUse::kBudget)[0],
+      knots, media, store);
+}
+
+std::array<Eigen::MatrixXd, 3> light_from_axes_images(const SeenObject& seen,
+                                                      const DistanceKnots& knots,
+                                                      const std::vector<LitMedium>& media,
+                                                      WeightStore* store) {
+  const ObjectScene& object = *seen.object;
+  const std::vector<ExitSite> sites = sites_at_centers(seen);
+  const Eigen::MatrixXd even = even_light_images(seen, knots, media, store);
+  const std::array<IncidentLight, 3> lights = illuminate_more_from_axes(
+      coarse_patches(seen), shadows_of(seen), object.stated->eta_int_over_ext);
+  std::array<Eigen::MatrixXd, 3> out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out[k] = coarse_images(object, sites, lights[k], knots, media, store) - even;
+  }
+  return out;
 }
 
 double facing_irradiance_W_per_mm2(const Scene& scene, const ObservedShot& shot,

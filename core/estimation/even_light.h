@@ -2,6 +2,7 @@
 // light.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,6 +25,13 @@ bool may_have_even_light(const Scene& scene, const ObservedShot& shot);
 Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& knots,
                                   const std::vector<LitMedium>& media,
                                   WeightStore* store = nullptr);
+
+// The same under light of radiance w_k from the direction w, k = x, y, z in the world: with light
+// from all sides, light that comes more from one of them.
+std::array<Eigen::MatrixXd, 3> light_from_axes_images(const SeenObject& seen,
+                                                      const DistanceKnots& knots,
+                                                      const std::vector<LitMedium>& media,
+                                                      WeightStore* store = nullptr);
 
 // Irradiance by the shot's LEDs of surfaces at the object's centre that face them, unshadowed,
 // W/mm^2, summed; channel 0 R, 1 G, 2 B.

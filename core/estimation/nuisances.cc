@@ -97,8 +97,14 @@ void SceneNuisances::add_even_light(const ObservedShot& shot, Columns& columns) 
   const double std = scene_.even_light_share_std *
                      facing_irradiance_W_per_mm2(scene_, shot, channel_) / std::numbers::pi;
   if (!(std > 0.0)) return;
+  const LightSensitivity& s = *own->second.sensitivity;
   columns.add("even light " + shot.stated->file, "even light", std,
-              columns.of(own->second.sensitivity->l, own->second.medium));
+              columns.of(s.l, own->second.medium));
+  // As it comes more from one side.
+  for (std::size_t k = 0; k < s.per_change.size(); ++k) {
+    columns.add(fmt::format("even light along {} {}", "xyz"[k], shot.stated->file), "even light",
+                std, columns.of(s.per_change[k], own->second.medium));
+  }
 }
 
 std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,

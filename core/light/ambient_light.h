@@ -2,6 +2,8 @@
 // prior.
 #pragma once
 
+#include <array>
+
 #include "core/light/light.h"
 
 namespace scattermeter {
@@ -21,5 +23,10 @@ struct AmbientLight final : Light {
   bool is_fitted() const override { return true; }
   std::vector<LightNuisance> nuisances(const std::string& name, std::size_t channel) const override;
 };
+
+// Light of radiance 1 + w_k from the direction w, k = x, y, z in the world, for a budget.
+std::array<IncidentLight, 3> illuminate_more_from_axes(const PatchMesh& patches,
+                                                       const RayScene& scene,
+                                                       double eta_int_over_ext);
 
 }  // namespace scattermeter

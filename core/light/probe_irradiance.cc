@@ -75,7 +75,7 @@ ProbeIrradiance::ProbeIrradiance(const ProbeTree& tree, const RayScene* scene,
   };
   while (lattice_size() > kMostLattice) ++shift_;
   lattice_.assign(lattice_size(), 0U);
-  if (tree_.is_even()) set_facet(Eigen::Vector3d::UnitZ(), {});
+  if (tree_.is_linear()) find_linear_sky();
 }
 
 void ProbeIrradiance::set_facet(const Eigen::Vector3d& normal,
@@ -90,8 +90,22 @@ void ProbeIrradiance::set_facet(const Eigen::Vector3d& normal,
     bright_energy_.push_back(cut_energy(pixel, true, kSumCuts));
     open_bright_ += bright_energy_.back();
   }
-  // Even light is the same on all facets: that of the first, which the constructor sets.
-  if (facet_ == 1 || !tree_.is_even()) open_sky_ = sky_energy(tree_.root());
+  open_sky_ = linear_sky_ ? (linear_sky_->level + (linear_sky_->per_normal * normal).array()).eval()
+                          : sky_energy(tree_.root());
+}
+
+// From the facets towards the axes and away from them.
+void ProbeIrradiance::find_linear_sky() {
+  LinearSky found;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+    set_facet(axis, {});
+    const Eigen::Array3d towards = open_sky_;
+    set_facet(-axis, {});
+    found.level += (towards + open_sky_) / 6.0;
+    if (!tree_.is_even()) found.per_normal.col(k) = 0.5 * (towards - open_sky_).matrix();
+  }
+  linear_sky_ = found;
 }
 
 // Light of a small cell: its directions' cosines are spread about the mean by the standard

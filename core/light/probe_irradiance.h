@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -42,6 +43,7 @@ class ProbeIrradiance {
   Eigen::Array3d arriving(const ProbeLight& light) const;
   bool is_fine(const ProbeLight& light, bool bright) const;
   Eigen::Array3d sky_energy(const ProbeCell& cell);
+  void find_linear_sky();
   Eigen::Array3d cut_energy(const ProbeCell& cell, bool bright, int cuts) const;
   bool dim(const Eigen::Array3d& energy) const;
   bool visible(double x_px, double y_px);
@@ -53,6 +55,12 @@ class ProbeIrradiance {
   double tolerance_;
   Eigen::Quaterniond world_from_probe_;
   int wide_level_;  // cells above it are always subdivided
+  // Of an open facet under a linear probe.
+  struct LinearSky {
+    Eigen::Array3d level = Eigen::Array3d::Zero();
+    Eigen::Matrix3d per_normal = Eigen::Matrix3d::Zero();  // by channel
+  };
+  std::optional<LinearSky> linear_sky_;
 
   // Values of the facet.
   Eigen::Vector3d normal_;

@@ -33,7 +33,8 @@ ProbeTree::ProbeTree(Environment environment, const Options& options)
     : environment_(checked(std::move(environment))),
       map_(environment_.projection, environment_.width_px, environment_.height_px),
       is_even_(std::equal(environment_.radiance.begin() + 3, environment_.radiance.end(),
-                          environment_.radiance.begin())) {
+                          environment_.radiance.begin())),
+      is_linear_(is_even_ || options.is_linear) {
   find_bright(options.bright_share);
   build();
 }

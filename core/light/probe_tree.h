@@ -40,6 +40,9 @@ class ProbeTree {
     // A pixel is bright when its flux, in any channel, exceeds this share of the flux of all pixels
     // that are not bright, and its radiance four times the mean.
     double bright_share = 3e-3;
+    // The radiance is a constant plus a multiple of the direction's cosine to an axis, in each
+    // channel: what an open facet receives is linear in its normal.
+    bool is_linear = false;
   };
   // Throws std::invalid_argument unless probe_problem() is empty.
   explicit ProbeTree(Environment environment);
@@ -55,6 +58,8 @@ class ProbeTree {
   const Eigen::Array3d& bright_flux() const { return bright_flux_; }
   // Whether every direction has the same radiance.
   bool is_even() const { return is_even_; }
+  // As the options say, or even.
+  bool is_linear() const { return is_linear_; }
 
   // The rectangle of the picture that a cell covers; empty if the cell lies outside the picture.
   ImageRect rect(const ProbeCell& cell) const;
@@ -79,7 +84,7 @@ class ProbeTree {
 
   Environment environment_;
   ProbeMap map_;
-  bool is_even_;
+  bool is_even_, is_linear_;
   std::vector<ProbeCell> bright_;      // by row, then column
   std::vector<bool> bright_by_pixel_;  // empty: none is
   std::vector<Level> levels_;          // level 1 first

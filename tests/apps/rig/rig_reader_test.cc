@@ -137,6 +137,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "cube.obj, eta: 1.4",
                 "cube.obj, eta: 1.4, phase: {g: 0.5, gamma_std: 0.2}",
                 {"objects.cube.phase.gamma_std", "unknown key", "g_std"}},
+        Mistake{"LampCopied",
+                "[-70, -20, 60], axis: [70, 20, -50]",
+                "[30, -60, 80], axis: [-30, 60, -70]",
+                {"lights.led2", "position, axis and intensity of led1"}},
         Mistake{"NotYaml", "camera:", "camera: [", {"YAML"}}),
     [](const auto& mistake) { return mistake.param.name; });
 

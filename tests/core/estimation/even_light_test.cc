@@ -39,6 +39,35 @@ TEST(EvenLight, IsTheImageOfAmbientLight) {
   EXPECT_LT((coarse.col(1) - 2.0 * coarse.col(0)).norm(), 1e-9 * exact.norm());
 }
 
+// The face towards more light is brighter, by up to two thirds of even light, others are not.
+TEST(EvenLight, FromOneSideMore) {
+  const test_support::DipoleCube cube;
+  const SeenObject& seen = *cube.shots[0].seen;
+  const DistanceKnots knots = smooth_knots(cube.lit);
+  const std::vector<LitMedium> media = {{test_support::kCubeMedium, 1.0}};
+  const Eigen::VectorXd even = even_light_images(seen, knots, media).col(0);
+  const auto along = light_from_axes_images(seen, knots, media);
+  for (int k = 0; k < 3; ++k) {
+    double towards = 0.0, aside = 0.0;
+    int n_towards = 0, n_aside = 0;
+    for (Eigen::Index row = 0; row < even.size(); ++row) {
+      const double n =
+          seen.patches->normal(seen.map.patch_of_row[static_cast<std::size_t>(row)])[k];
+      const double share = along[static_cast<std::size_t>(k)](row, 0) / even[row];
+      EXPECT_LT(std::abs(share), 2.0 / 3.0 + 0.02);
+      if (std::abs(n) > 0.9) {
+        towards += share * n;
+        ++n_towards;
+      } else {
+        aside += share;
+        ++n_aside;
+      }
+    }
+    EXPECT_GE(towards, 0.3 * n_towards) << k;
+    EXPECT_LE(std::abs(aside), 0.2 * n_aside) << k;
+  }
+}
+
 TEST(EvenLight, IrradianceOfAFaceTowardsTheLeds) {
   test_support::DipoleCube cube;
   Led& led = cube.scene.lights[0].led()->led;

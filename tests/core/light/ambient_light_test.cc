@@ -24,6 +24,24 @@ TEST(AmbientLight, PutsPiOnEverySurface) {
   }
 }
 
+// Radiance w_k adds 2 pi / 3 n_k to the irradiance of a facet with normal n: nothing in the sum of
+// a body's opposite faces, and that much on the face towards +k.
+TEST(AmbientLight, MoreFromOneSide) {
+  const TriangleMesh cube = test_support::make_cube();
+  const RayScene scene(cube);
+  const PatchMesh patches(cube, 4.0);
+  const auto lit = illuminate_more_from_axes(patches, scene, 1.0);
+  for (int k = 0; k < 3; ++k) {
+    const IncidentLight& light = lit[static_cast<std::size_t>(k)];
+    EXPECT_NEAR(test_support::total(light), std::numbers::pi * 6.0 * 400.0, 30.0);
+    double towards = 0.0;
+    for (int p = 0; p < patches.size(); ++p) {
+      if (patches.normal(p)[k] > 0.5) towards += light.patch_power_sr[static_cast<std::size_t>(p)];
+    }
+    EXPECT_NEAR(towards, (1.0 + 2.0 / 3.0) * std::numbers::pi * 400.0, 15.0) << k;
+  }
+}
+
 TEST(AmbientLight, IsFittedAsAnAbsoluteRadiance) {
   AmbientLight light;
   EXPECT_TRUE(light.is_fitted());
