@@ -46,10 +46,10 @@ Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& k
 std::array<Eigen::MatrixXd, 3> light_from_axes_images(const SeenObject& seen,
                                                       const DistanceKnots& knots,
                                                       const std::vector<LitMedium>& media,
+                                                      const Eigen::MatrixXd& even,
                                                       WeightStore* store) {
   const ObjectScene& object = *seen.object;
   const std::vector<ExitSite> sites = sites_at_centers(seen);
-  const Eigen::MatrixXd even = even_light_images(seen, knots, media, store);
   const std::array<IncidentLight, 3> lights = illuminate_more_from_axes(
       coarse_patches(seen), shadows_of(seen), object.stated->eta_int_over_ext);
   std::array<Eigen::MatrixXd, 3> out;

@@ -27,10 +27,11 @@ Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& k
                                   WeightStore* store = nullptr);
 
 // The same under light of radiance w_k from the direction w, k = x, y, z in the world: with light
-// from all sides, light that comes more from one of them.
+// from all sides, light that comes more from one of them. even: even_light_images().
 std::array<Eigen::MatrixXd, 3> light_from_axes_images(const SeenObject& seen,
                                                       const DistanceKnots& knots,
                                                       const std::vector<LitMedium>& media,
+                                                      const Eigen::MatrixXd& even,
                                                       WeightStore* store = nullptr);
 
 // Irradiance by the shot's LEDs of surfaces at the object's centre that face them, unshadowed,

@@ -97,7 +97,8 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
     const SeenObject& seen = *std::get<0>(item.key);
     if (std::get<1>(item.key).empty()) {
       item.out.l = even_light_images(seen, knots, item.media, e.kept.store.get());
-      const auto by_axis = light_from_axes_images(seen, knots, item.media, e.kept.store.get());
+      const auto by_axis =
+          light_from_axes_images(seen, knots, item.media, item.out.l, e.kept.store.get());
       item.out.per_change.assign(by_axis.begin(), by_axis.end());
       return stage.step();
     }

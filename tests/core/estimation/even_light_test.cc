@@ -45,15 +45,15 @@ TEST(EvenLight, FromOneSideMore) {
   const SeenObject& seen = *cube.shots[0].seen;
   const DistanceKnots knots = smooth_knots(cube.lit);
   const std::vector<LitMedium> media = {{test_support::kCubeMedium, 1.0}};
-  const Eigen::VectorXd even = even_light_images(seen, knots, media).col(0);
-  const auto along = light_from_axes_images(seen, knots, media);
+  const Eigen::MatrixXd even = even_light_images(seen, knots, media);
+  const auto along = light_from_axes_images(seen, knots, media, even);
   for (int k = 0; k < 3; ++k) {
     double towards = 0.0, aside = 0.0;
     int n_towards = 0, n_aside = 0;
-    for (Eigen::Index row = 0; row < even.size(); ++row) {
+    for (Eigen::Index row = 0; row < even.rows(); ++row) {
       const double n =
           seen.patches->normal(seen.map.patch_of_row[static_cast<std::size_t>(row)])[k];
-      const double share = along[static_cast<std::size_t>(k)](row, 0) / even[row];
+      const double share = along[static_cast<std::size_t>(k)](row, 0) / even(row, 0);
       EXPECT_LT(std::abs(share), 2.0 / 3.0 + 0.02);
       if (std::abs(n) > 0.9) {
         towards += share * n;
