@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -75,10 +77,16 @@ double mean_counts(const ColourFrame& frame, std::size_t channel) {
   return sum / static_cast<double>(frame.counts[channel].size());
 }
 
-double brightest_counts(const ColourFrame& frame) {
+double counts_exceeded(const ColourFrame& frame, double share) {
   float most = 0.0F;
   for (const std::vector<float>& plane : frame.counts) {
-    most = std::max(most, *std::max_element(plane.begin(), plane.end()));
+    std::vector<float> lit;
+    std::copy_if(plane.begin(), plane.end(), std::back_inserter(lit),
+                 [](float counts) { return counts > 0.0F; });
+    if (lit.empty()) continue;
+    const auto above = static_cast<std::ptrdiff_t>(share * static_cast<double>(lit.size()));
+    std::nth_element(lit.begin(), lit.begin() + above, lit.end(), std::greater<>());
+    most = std::max(most, lit[static_cast<std::size_t>(above)]);
   }
   return static_cast<double>(most);
 }

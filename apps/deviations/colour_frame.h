@@ -30,8 +30,9 @@ ColourFrame black_frame(int width_px, int height_px, double range_counts);
 void scale_channel(ColourFrame& frame, std::size_t channel, double factor);
 void scale_frame(ColourFrame& frame, double factor);
 double mean_counts(const ColourFrame& frame, std::size_t channel);
-// Largest of the three channels.
-double brightest_counts(const ColourFrame& frame);
+// Counts that this share of a channel's lit pixels exceeds, in the channel where it is largest; 0
+// in a black frame. 0 <= share < 1.
+double counts_exceeded(const ColourFrame& frame, double share);
 
 // Convolves with a normal distribution of this standard deviation in both directions, or along the
 // rows only. Beyond the frame it is black. Precondition: std_px > 0.

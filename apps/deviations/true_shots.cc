@@ -11,6 +11,10 @@
 namespace scattermeter::apps {
 namespace {
 
+// Share of the pixels that the noise of a rendering may have made too bright: time is not chosen
+// for them.
+constexpr double kOutliers = 1e-3;
+
 // Adds columns of the picture, those left or right of its middle if there are two materials.
 enum class Part { kAll, kLeft, kRight };
 void add_picture(ColourFrame& frame, const ColourRadiance& picture, const Eigen::Array3d& factor,
@@ -68,7 +72,7 @@ ExpectedShots expected_shots(const TrueSetup& setup, const Rig& stated, bool vol
       add(shot.media, shot.right_half ? Part::kLeft : Part::kAll);
       if (shot.right_half) add(*shot.right_half, Part::kRight);
     }
-    brightest = std::max(brightest, brightest_counts(frame));
+    brightest = std::max(brightest, counts_exceeded(frame, kOutliers));
   }
   out.exposure_s =
       rounded_exposure_s(brightest > 0.0 ? kExposedTo * out.frames.front().range_counts / brightest

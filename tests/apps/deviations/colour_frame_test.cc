@@ -55,11 +55,22 @@ TEST(ColourFrame, Discs) {
   EXPECT_NEAR(frame.at(1, 0, 15), 100.0, 1e-3);
 }
 
+TEST(ColourFrame, CountsExceeded) {
+  ColourFrame frame = black_frame(20, 10, 4000.0);
+  EXPECT_EQ(counts_exceeded(frame, 0.0), 0.0);
+  for (std::size_t k = 0; k < 100; ++k) frame.counts[1][2 * k] = static_cast<float>(k + 1);
+  frame.counts[2][7] = 50.0F;
+  EXPECT_EQ(counts_exceeded(frame, 0.0), 100.0);
+  EXPECT_EQ(counts_exceeded(frame, 0.1), 90.0);  // 91 to 100 are more
+  frame.counts[0][7] = 95.0F;
+  EXPECT_EQ(counts_exceeded(frame, 0.1), 95.0);
+}
+
 TEST(ColourFrame, ScalesAndMosaic) {
   ColourFrame frame = point();
   scale_frame(frame, 0.5);
   scale_channel(frame, 1, 3.0);
-  EXPECT_NEAR(brightest_counts(frame), 1500.0, 1e-3);
+  EXPECT_NEAR(counts_exceeded(frame, 0.0), 1500.0, 1e-3);
   for (std::size_t c = 0; c < 3; ++c) {
     for (float& counts : frame.counts[c]) counts = static_cast<float>(c + 1);
   }
