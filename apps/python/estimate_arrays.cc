@@ -183,6 +183,8 @@ std::string estimate_arrays(const py::dict& camera, const py::dict& objects, con
         deviation(dict, where, "position_std_mm", default_uncertainty::kObjectPosition_mm);
     object.scale_relative_std =
         deviation(dict, where, "scale_relative_std", default_uncertainty::kMeshScale);
+    object.surface_alpha_std =
+        deviation(dict, where, "surface_alpha_std", default_uncertainty::kSurfaceAlpha);
     object.edge_std_mm = deviation(dict, where, "edge_std_mm", default_uncertainty::kEdge_mm);
     meshes.push_back(triangle_mesh(dict, where));
   }

@@ -65,6 +65,7 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   object.edge_std_mm = field.number_or("edge_std_mm", default_uncertainty::kEdge_mm, 0.0, 1000.0);
   object.gamma_std = default_uncertainty::kGamma;
   if (const auto f = field.find("phase")) read_phase(*f, object);
+  object.surface_alpha_std = default_uncertainty::kSurfaceAlpha;
   if (const auto f = field.find("roughness")) read_roughness(*f, object);
   if (const auto f = field.find("patch_size_mm")) object.patch_size_mm = f->positive();
   if (const auto f = field.find("pose")) read_place(*f, object);

@@ -10,6 +10,8 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr double kLeastAlpha = 0.01;
+// That light enters and leaves a rough surface otherwise is then below 1 %.
+constexpr double kMostGlossOfSmooth = 0.05;
 // Of alpha, where its deviation is not stated.
 constexpr double kRelativeStd = 0.3;
 
@@ -44,8 +46,8 @@ void read_roughness(const YamlField& field, SceneObject& object) {
   }
   object.surface_alpha_std =
       field.number_or("alpha_std", kRelativeStd * object.surface_alpha, 0.0, 1.0);
-  if (object.surface_alpha == 0.0 && object.surface_alpha_std > 0.0) {
-    field.at("alpha_std").fail("a smooth surface (alpha 0) has no alpha_std: state a small alpha");
+  if (object.surface_alpha == 0.0 && object.surface_alpha_std > kMostGlossOfSmooth) {
+    field.at("alpha_std").fail("expected at most 0.05 for a smooth surface (alpha 0)");
   }
 }
 

@@ -56,13 +56,16 @@ ChannelRows channel_rows(const Scene& scene, const MaterialChannel& channel) {
     const SeenObject& seen = *shot->seen;
     ChannelObservation& o = rows.emplace_back(shot->observation.channel[channel.channel]);
     leave_out_blurred(scene, *shot, o);
-    if (const double alpha = seen.object->stated->surface_alpha; alpha > 0.0) {
+    const SceneObject& object = *seen.object->stated;
+    const bool is_rough = object.surface_alpha > 0.0;
+    const double alpha = is_rough ? object.surface_alpha : object.surface_alpha_std;
+    if (alpha > 0.0) {
       const RowGloss gloss = row_gloss(scene, *shot->stated, seen, channel.channel, alpha);
       for (std::size_t j = 0; j < o.l.size(); ++j) {
         if (is_glossy(gloss, j)) leave_out(o, j, RowState::kMirror);
       }
-      continue;
     }
+    if (is_rough) continue;
     for (const std::string& name : shot->stated->lights) {
       const auto position_mm = scene.light(name)->position_mm();
       if (!position_mm) continue;

@@ -42,7 +42,9 @@ std::vector<MaterialChannel> material_channels(const Scene& scene,
         one.phase = object.phase;
         one.gamma_std = std::max(one.gamma_std, object.gamma_std);
         one.surface_alpha = std::max(one.surface_alpha, object.surface_alpha);
-        one.surface_alpha_std = std::max(one.surface_alpha_std, object.surface_alpha_std);
+        if (object.surface_alpha > 0.0) {
+          one.surface_alpha_std = std::max(one.surface_alpha_std, object.surface_alpha_std);
+        }
         one.shots.push_back(&shot);
       }
       if (!one.shots.empty()) out.push_back(one);

@@ -7,6 +7,7 @@
 
 #include "core/estimation/even_light.h"
 #include "core/estimation/nuisance_columns.h"
+#include "core/scene/rough_surfaces.h"
 #include "core/scene/surroundings.h"
 
 namespace scattermeter {
@@ -107,6 +108,15 @@ void SceneNuisances::add_even_light(const ObservedShot& shot, Columns& columns) 
   }
 }
 
+// Far from the mirror direction, gloss is in proportion to alpha^2: it varies as a whole.
+void SceneNuisances::add_gloss(const ObservedShot& shot, Columns& columns) const {
+  const SceneObject& object = *shot.seen->object->stated;
+  if (object.surface_alpha > 0.0 || !(object.surface_alpha_std > 0.0)) return;
+  columns.add("gloss of " + object.name, "roughness", 1.0,
+              row_gloss(scene_, *shot.stated, *shot.seen, channel_, object.surface_alpha_std)
+                  .l(columns.rows()));
+}
+
 std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
                                                     const ChannelObservation& observed,
                                                     const std::vector<Eigen::Index>& rows) const {
@@ -139,6 +149,7 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
     add_place(shot, change, columns);
     add_blur(shot, columns);
     add_even_light(shot, columns);
+    add_gloss(shot, columns);
     columns.add("eta", "eta", eta_std, per_eta);
   }
   const Eigen::VectorXd by_albedo = change_by_albedo(shot, rows);

@@ -35,10 +35,11 @@ struct NuisanceColumn {
 // each shot; the shift of its picture; pose (six independent combinations of each pose's
 // covariance); lens (as many as its calibration has parameters, common to all shots, each with the
 // resulting change of the pose fitted with that lens; its effect on calibrated LEDs and scale is
-// not included); eta; the albedo of the plane below the object; each file's black level, the
-// pedestal, glare and the exposure times (common to files of the same stated time; in a bracket
-// each affects the part of a row that comes from it). Those with a standard deviation of 0 are left
-// out, but for eta, which is then tested against the image.
+// not included); eta; the gloss of a surface that is stated as smooth; the albedo of the plane
+// below the object; each file's black level, the pedestal, glare and the exposure times (common to
+// files of the same stated time; in a bracket each affects the part of a row that comes from it).
+// Those with a standard deviation of 0 are left out, but for eta, which is then tested against the
+// image.
 class SceneNuisances {
  public:
   // Of one channel. sensitivities: for every view and light of the shots passed to columns().
@@ -83,6 +84,7 @@ class SceneNuisances {
   void add_place(const ObservedShot& shot, const SeenChange& change, Columns& columns) const;
   void add_blur(const ObservedShot& shot, Columns& columns) const;
   void add_even_light(const ObservedShot& shot, Columns& columns) const;
+  void add_gloss(const ObservedShot& shot, Columns& columns) const;
   Eigen::VectorXd change_by_albedo(const ObservedShot& shot,
                                    const std::vector<Eigen::Index>& rows) const;
   void add_radiance(const ObservedShot& shot, const ChannelObservation& observed,

@@ -37,7 +37,7 @@ double over_root(double value, double variance) {
 
 // The next step for a contradiction, by the group of the quantity.
 const char* advice(const std::string& group) {
-  constexpr std::array<std::pair<const char*, const char*>, 19> kAdvice = {{
+  constexpr std::array<std::pair<const char*, const char*>, 20> kAdvice = {{
       {"pose", "check the pose points, and that neither camera nor object has moved"},
       {"camera shift", "fasten camera and object, and take the shot again"},
       {"lens", "calibrate the camera at this focus, and check the mesh's proportions"},
@@ -51,6 +51,7 @@ const char* advice(const std::string& group) {
       {"LED calibration", "calibrate the LED again"},
       {"scale", "check the LED's intensity and the camera's responsivity"},
       {"eta", "measure the refractive index, or state a larger eta_std"},
+      {"roughness", "state the roughness of the object's surface"},
       {"phase function", "state the phase function of the material, or a larger g_std"},
       {"even light", "switch off other lamps, or list an ambient light"},
       {"surroundings", "state the surroundings, or put the object on a black stand"},

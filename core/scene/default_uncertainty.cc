@@ -18,6 +18,7 @@ void take_where_none(Scene& scene) {
     take(object.position_std_mm, kObjectPosition_mm);
     take(object.scale_relative_std, kMeshScale);
     take(object.edge_std_mm, kEdge_mm);
+    if (object.surface_alpha == 0.0) take(object.surface_alpha_std, kSurfaceAlpha);
   }
   for (SceneLight& light : scene.lights) {
     LedLight* led = light.led();

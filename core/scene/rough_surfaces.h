@@ -17,7 +17,8 @@ struct RowGloss {
   Eigen::VectorXd l;           // gloss_per_mm2()
   Eigen::VectorXd irradiance;  // on the surface, shadows left out
 };
-// surface_alpha > 0: taken for that of the object.
+// surface_alpha > 0: taken for that of the object. Far from the mirror directions, in proportion to
+// its square.
 RowGloss row_gloss(const Scene& scene, const SceneShot& shot, const SeenObject& seen,
                    std::size_t channel, double surface_alpha);
 

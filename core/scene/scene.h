@@ -65,7 +65,8 @@ struct SceneObject {
   std::optional<PieceSearch> to_be_found;  // that position is only about right
   double eta_int_over_ext = 1.3;
   double eta_std = 0;
-  // Width of the surface's microfacets (RoughBoundary), 0: smooth; all materials of the object.
+  // Width of the surface's microfacets (RoughBoundary), 0: smooth; all materials of the object. The
+  // deviation of 0: a smooth surface that may have the faint gloss of one so rough.
   double surface_alpha = 0;
   double surface_alpha_std = 0;
   PhaseFunction phase;

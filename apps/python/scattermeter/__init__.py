@@ -208,8 +208,8 @@ def estimate(
     responsivity_relative_std; without a responsivity the scale is free.
     objects, by name: vertices_mm (n, 3) and triangles (m, 3) of a closed mesh in the world frame,
     counter-clockwise from outside; eta; optional eta_std (0.01), g (0; of Henyey and Greenstein),
-    gamma_std (0.55; with g: 0.1), position_std_mm (0.1), scale_relative_std (0.002) and
-    edge_std_mm (0.1).
+    gamma_std (0.55; with g: 0.1), position_std_mm (0.1), scale_relative_std (0.002),
+    edge_std_mm (0.1) and surface_alpha_std (0.03; of a smooth surface's gloss).
     lights, by name, LEDs: position_mm (3), axis (3), intensity_W_per_sr (3); optional exponent
     or lobe ({angle_deg, relative} or {angle_deg, relative_x, relative_y, x_axis}), radius_mm,
     position_std_mm (0.3), axis_std_deg (1), exponent_std (0.05), intensity_relative_std (0.01).

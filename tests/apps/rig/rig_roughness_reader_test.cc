@@ -27,10 +27,12 @@ class RigRoughnessReader : public testing::Test {
 
 TEST_F(RigRoughnessReader, ReadsNumbersAndFinishes) {
   EXPECT_EQ(read_rig(small_.rig()).scene.object("cube").surface_alpha, 0.0);
+  EXPECT_EQ(read_rig(small_.rig()).scene.object("cube").surface_alpha_std, 0.03);
   EXPECT_EQ(cube("{alpha: 0.2, alpha_std: 0.05}").surface_alpha, 0.2);
   EXPECT_EQ(cube("{alpha: 0.2, alpha_std: 0.05}").surface_alpha_std, 0.05);
   EXPECT_NEAR(cube("{alpha: 0.2}").surface_alpha_std, 0.06, 1e-15);
   EXPECT_EQ(cube("{alpha: 0}").surface_alpha_std, 0.0);
+  EXPECT_EQ(cube("{alpha: 0, alpha_std: 0.05}").surface_alpha_std, 0.05);
   EXPECT_EQ(cube("polished").surface_alpha, 0.03);
   EXPECT_EQ(cube("as-milled").surface_alpha, 0.15);
   EXPECT_EQ(cube("matt").surface_alpha, 0.35);

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "core/scene/rough_surfaces.h"
 #include "tests/fixtures/core/dipole_cube.h"
 
 namespace scattermeter {
@@ -41,6 +42,26 @@ TEST(ChannelRows, RowsThatMirrorTheLightAreLeftOut) {
   }
   EXPECT_GT(mirrored, 10U);
   EXPECT_EQ(rows[0].rows_used, before.rows_used - mirrored);
+}
+
+// Where a surface that is stated as smooth may be glossy, rows are left out farther off.
+TEST(ChannelRows, RowsThatMayBeGlossyAreLeftOut) {
+  test_support::DipoleCube cube;
+  cube.scene.lights[0].led()->led.position_mm = {28, 120, 120};
+  cube.scene.lights[0].led()->led.axis = Eigen::Vector3d(-28, -120, -100).normalized();
+  cube.show(test_support::kCubeMedium);
+  const auto rows = [&] {
+    return channel_rows(cube.scene, material_channels(cube.scene, cube.shots, "G").front())[0];
+  };
+  const ChannelObservation exact = rows();
+  cube.scene.objects[0].surface_alpha_std = 0.03;
+  const ChannelObservation open = rows();
+  const RowGloss gloss = row_gloss(cube.scene, cube.scene.shots[0], *cube.shots[0].seen, 1, 0.03);
+  EXPECT_LT(open.rows_used, exact.rows_used);
+  for (std::size_t j = 0; j < exact.l.size(); ++j) {
+    if (exact.state[j] != RowState::kUsed) continue;
+    EXPECT_EQ(open.state[j], is_glossy(gloss, j) ? RowState::kMirror : RowState::kUsed);
+  }
 }
 
 class TwoShots : public ::testing::Test {

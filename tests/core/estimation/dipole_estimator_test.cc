@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/scene/rough_surfaces.h"
 #include "tests/fixtures/core/cube_estimation.h"
 
 namespace scattermeter {
@@ -65,6 +66,37 @@ TEST(DipoleEstimator, RefusesWhatTheMeshLeavesUndetermined) {
     EXPECT_THAT(reasons, ::testing::Contains(::testing::HasSubstr("do not determine sigma_s'")))
         << shots;
   }
+}
+
+// The face towards the camera, stated as smooth, has the halo of a polished one about the LED's
+// mirror image: counted, it does no harm; taken for exactly smooth, the shots contradict the model.
+TEST(DipoleEstimator, AllowsForTheGlossOfASmoothSurface) {
+  const auto measured = [](double alpha_std) {
+    DipoleCube cube(2);
+    Led& led = cube.scene.lights[0].led()->led;
+    led.position_mm = {28, 120, 120};
+    led.axis = Eigen::Vector3d(-28, -120, -100).normalized();
+    cube.show(kCubeMedium, 5e-3, 9);
+    for (ObservedShot& shot : cube.shots) {
+      for (std::size_t c = 0; c < kRgb; ++c) {
+        const Eigen::VectorXd l = row_gloss(cube.scene, *shot.stated, *shot.seen, c, 0.03).l;
+        for (std::size_t j = 0; j < shot.observation.channel[c].l.size(); ++j) {
+          shot.observation.channel[c].l[j] += l[static_cast<Eigen::Index>(j)];
+        }
+      }
+    }
+    cube.scene.objects[0].surface_alpha_std = alpha_std;
+    CubeEstimation run(cube, "G");
+    estimate_dipole(run.estimation);
+    return run.estimation.results[0];
+  };
+  const ChannelResult open = measured(0.03);
+  ASSERT_FALSE(open.refused()) << open.estimate.reasons.front();
+  const Estimate& e = open.estimate;
+  EXPECT_LT(std::abs(e.sigma_s_prime_per_mm.value - 0.9), 3.0 * e.sigma_s_prime_per_mm.std);
+  EXPECT_LT(std::abs(e.sigma_a_per_mm.value - 0.01), 3.0 * e.sigma_a_per_mm.std);
+  const ChannelResult exact = measured(0.0);
+  EXPECT_TRUE(exact.refused());
 }
 
 // A speck of dust: one row a third too dark.
