@@ -1,11 +1,14 @@
 #include "apps/pages/page_number.h"
 
-#include <string>
+#include <cstdlib>
 
 #include <fmt/core.h>
 
 namespace scattermeter::apps {
 
-double page_number(double value) { return std::stod(fmt::format("{:.6g}", value)) + 0.0; }
+// std::stod() throws for subnormal numbers, which the light far from a source may be.
+double page_number(double value) {
+  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr) + 0.0;
+}
 
 }  // namespace scattermeter::apps
