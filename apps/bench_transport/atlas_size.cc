@@ -49,7 +49,7 @@ AtlasSizeRow size_of_atlas(const std::string& name, const AtlasSizeOptions& opti
   {
     TransportAtlas in_memory;
     const auto large =
-        static_cast<double>(rows_of(LitBody(name, body_options).in(in_memory).node(middle, 1)));
+        static_cast<double>(rows_of(*LitBody(name, body_options).in(in_memory).node(middle, 1)));
     body_options.patch_size_mm *= std::sqrt(large / options.rows);
   }
   const LitBody body(name, body_options);
@@ -63,7 +63,7 @@ AtlasSizeRow size_of_atlas(const std::string& name, const AtlasSizeOptions& opti
   const int first = node_below(0.2) - 1, last = node_below(10.0) + 2;
   row.nodes = last - first + 1;
   const double before = resident_bytes();
-  for (int node = middle - 1; node <= middle + 2; ++node) row.rows = rows_of(lit.node(node, 1));
+  for (int node = middle - 1; node <= middle + 2; ++node) row.rows = rows_of(*lit.node(node, 1));
   row.medium_bytes = resident_bytes() - before;
   for (int node = first; node <= last; ++node) lit.node(node, 1);
   row.all_bytes = resident_bytes() - before;

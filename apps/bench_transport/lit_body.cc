@@ -69,9 +69,10 @@ std::array<Eigen::VectorXd, 2> LitBody::halves_at_node(TransportAtlas& atlas, in
                                                        double sigma_a_per_mm,
                                                        std::int64_t paths) const {
   TransportAtlas::LitView& lit = in(atlas);
-  const WhiteRows& at = lit.node(node, WhiteRows::levels_for(static_cast<double>(paths)));
-  const Eigen::VectorXd l = at.light(sigma_a_per_mm).l;
-  const Eigen::VectorXd off = at.departures(sigma_a_per_mm).second_half.l;
+  const std::shared_ptr<const WhiteRows> at =
+      lit.node(node, WhiteRows::levels_for(static_cast<double>(paths)));
+  const Eigen::VectorXd l = at->light(sigma_a_per_mm).l;
+  const Eigen::VectorXd off = at->departures(sigma_a_per_mm).second_half.l;
   const double power =
       rig_.scene.lights.front()->power()[static_cast<Eigen::Index>(channel_.channel)];
   std::array<Eigen::VectorXd, 2> out{Eigen::VectorXd(n_rows()), Eigen::VectorXd(n_rows())};

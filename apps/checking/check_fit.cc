@@ -191,7 +191,7 @@ std::vector<bool> judged_channels(Estimation& e,
     result.model = "transport";
     result.dipole = result.estimate;
     result.rows.clear();
-    search_by_transport(e.scene, e.channels[i], *systems[i], *e.kept.atlas, e.options, stage,
+    search_by_transport(e.scene, e.channels[i], *systems[i], *e.kept.atlas, true, e.options, stage,
                         result);
     judged[i] = true;
     if (shows_more_than_dipole(result)) e.results[i] = std::move(result);

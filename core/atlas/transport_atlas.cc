@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "core/base/random_stream.h"
@@ -109,6 +108,7 @@ const TransportAtlas::View& TransportAtlas::view(const SeenObject& seen,
 TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const SeenObject& seen,
                                                   const SceneLight& light, std::size_t channel,
                                                   const AtlasMedium& medium) {
+  const std::scoped_lock lock(in_use_);
   const double eta_int_over_ext = medium.eta_int_over_ext;
   const DiffusePlane plane = plane_below(scene, *seen.object).in(channel);
   // An LED lights all channels alike but for its power.
@@ -119,6 +119,7 @@ TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const Seen
   });
   if (known != lit_.end()) return *known;
   LitView v;
+  v.in_use_ = &in_use_;
   v.source_ = entry_above(light, *seen.object->rays, eta_int_over_ext, static_cast<int>(channel),
                           plane, medium.surface_alpha);
   v.light_ = &light;
@@ -149,33 +150,41 @@ TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const Seen
 }
 
 // With the paths that are in the store.
-WhiteRows& TransportAtlas::LitView::known_node(int idx) const {
-  const auto [at, is_new] =
-      nodes_.try_emplace(idx, view_->rows, sigma_s_per_mm(idx), view_->boundary->size_mm());
-  if (is_new && store_ != nullptr) {
-    while (nodes_.size() > kHeldNodes) {
-      const bool first_is_farthest = idx - nodes_.begin()->first > nodes_.rbegin()->first - idx;
-      nodes_.erase(first_is_farthest ? nodes_.begin() : std::prev(nodes_.end()));
-    }
-    if (auto sums = store_->find(body_, view_->center_mm, idx)) at->second.take(std::move(*sums));
+const std::shared_ptr<WhiteRows>& TransportAtlas::LitView::known_node(int idx) const {
+  std::shared_ptr<WhiteRows>& node = nodes_[idx];
+  if (node) return node;
+  node = std::make_shared<WhiteRows>(view_->rows, sigma_s_per_mm(idx), view_->boundary->size_mm());
+  if (store_ == nullptr) return node;
+  const auto is_farther = [&](const auto& a, const auto& b) {
+    // Those that somebody holds come last.
+    return std::pair(a.second.use_count() == 1, std::abs(a.first - idx)) <
+           std::pair(b.second.use_count() == 1, std::abs(b.first - idx));
+  };
+  while (nodes_.size() > kHeldNodes) {
+    const auto farthest = std::max_element(nodes_.begin(), nodes_.end(), is_farther);
+    if (farthest->second.use_count() > 1 || farthest->first == idx) break;
+    nodes_.erase(farthest);
   }
-  return at->second;
+  if (auto sums = store_->find(body_, view_->center_mm, idx)) node->take(std::move(*sums));
+  return node;
 }
 
 std::int64_t TransportAtlas::LitView::missing_paths(int idx, int levels) const {
-  return std::max<std::int64_t>(0, WhiteRows::paths_of(levels) - known_node(idx).paths());
+  const std::scoped_lock lock(*in_use_);
+  return std::max<std::int64_t>(0, WhiteRows::paths_of(levels) - known_node(idx)->paths());
 }
 
-const WhiteRows& TransportAtlas::LitView::node(int idx, int levels) {
-  WhiteRows& out = known_node(idx);
-  if (out.levels() >= levels) return out;
+std::shared_ptr<const WhiteRows> TransportAtlas::LitView::node(int idx, int levels) {
+  const std::scoped_lock lock(*in_use_);
+  const std::shared_ptr<WhiteRows> out = known_node(idx);
+  if (out->levels() >= levels) return out;
   const ScatteringMedium medium =
-      scattering_medium({out.sigma_s_per_mm(), 0.0, view_->eta}, phase_, view_->surface_alpha);
+      scattering_medium({out->sigma_s_per_mm(), 0.0, view_->eta}, phase_, view_->surface_alpha);
   const CameraConnection camera = view_->camera->with(medium, plane_);
   const PathWorld world{*view_->boundary, medium, *source_, &camera, plane_};
   const std::uint64_t seed = seed_ + static_cast<std::uint64_t>(idx + static_cast<int>(kNodes / 2));
-  while (out.levels() < levels) out.refine(world, seed);
-  if (store_ != nullptr) store_->keep(body_, view_->center_mm, idx, out.sums());
+  while (out->levels() < levels) out->refine(world, seed);
+  if (store_ != nullptr) store_->keep(body_, view_->center_mm, idx, out->sums());
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <list>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,7 +32,8 @@ struct AtlasMedium {
 
 // Nodes stand at fixed values of sigma_s', evenly in its logarithm, and are traced when they are
 // asked for. Seeds follow from what a node is of, so that the same levels have the same digits
-// whoever asked for them, and in whatever order. Not to be used from several threads at once.
+// whoever asked for them, and in whatever order. Several threads may use it at once if none traces:
+// others would wait for it, and what they hold of the node would change.
 //
 // Views whose camera centres, seen from the object, are at most kNearViews apart share their nodes:
 // l is the light inside (core/transport/camera_connection.h), which between two such directions
@@ -44,8 +46,8 @@ class TransportAtlas {
   static double sigma_s_per_mm(int node);  // sigma_s'
   // rad
   static constexpr double kNearViews = 1e-3;
-  // With a store, so many nodes of a light and view are in memory: the four of a point, and some
-  // to move among. Others are read again.
+  // With a store, so many nodes of a light and view are in memory beside those that somebody holds:
+  // the four of a point, and some to move among. Others are read again.
   static constexpr std::size_t kHeldNodes = 6;
 
   // store: of nodes, null: only in memory.
@@ -59,8 +61,8 @@ class TransportAtlas {
       return view_->rows.row_of_patch[static_cast<std::size_t>(patch)];
     }
     double size_mm() const { return view_->boundary->size_mm(); }
-    // The node with at least so many levels. levels >= 1. Valid until the next call.
-    const WhiteRows& node(int idx, int levels);
+    // The node with at least so many levels, traced if need be. levels >= 1.
+    std::shared_ptr<const WhiteRows> node(int idx, int levels);
     // Paths to be traced for that.
     std::int64_t missing_paths(int idx, int levels) const;
 
@@ -77,7 +79,8 @@ class TransportAtlas {
       double surface_alpha = 0;
       bool shows(const SeenObject& seen, const AtlasMedium& medium) const;
     };
-    WhiteRows& known_node(int idx) const;
+    // The atlas is locked in its turn.
+    const std::shared_ptr<WhiteRows>& known_node(int idx) const;
 
     const View* view_ = nullptr;
     const SceneLight* light_ = nullptr;
@@ -87,8 +90,9 @@ class TransportAtlas {
     std::unique_ptr<EntrySource> source_;
     std::uint64_t seed_ = 0;
     AtlasStore* store_ = nullptr;
-    std::string body_;  // its name in the store
-    mutable std::map<int, WhiteRows> nodes_;
+    std::string body_;              // its name in the store
+    std::mutex* in_use_ = nullptr;  // of the atlas
+    mutable std::map<int, std::shared_ptr<WhiteRows>> nodes_;
   };
 
   // Of unit power. Scene and objects are the same in all calls, and outlive the atlas. Throws
@@ -100,6 +104,7 @@ class TransportAtlas {
   using View = LitView::View;
   const View& view(const SeenObject& seen, const Eigen::Vector3d& center_mm,
                    const AtlasMedium& medium);
+  std::mutex in_use_;
   std::shared_ptr<AtlasStore> store_;
   std::list<View> views_;
   std::list<LitView> lit_;

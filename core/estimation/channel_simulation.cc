@@ -138,8 +138,8 @@ void add_rows(const ScatteringImage& some, const RowPairs& rows, ScatteringImage
 }  // namespace
 
 ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& channel,
-                                     TransportAtlas& atlas)
-    : scene_(scene), channel_(channel) {
+                                     TransportAtlas& atlas, bool may_trace)
+    : scene_(scene), channel_(channel), may_trace_(may_trace) {
   for (std::size_t s = 0; s < channel.shots.size(); ++s) {
     const ObservedShot& shot = *channel.shots[s];
     for (const std::string& name : shot.stated->lights) {
@@ -152,7 +152,7 @@ ChannelSimulation::ChannelSimulation(const Scene& scene, const MaterialChannel& 
       auto known = std::find_if(lit_.begin(), lit_.end(),
                                 [&](const Lit& v) { return v.in_atlas == in_atlas; });
       if (known == lit_.end()) {
-        lit_.push_back({in_atlas, power, {}, {}});
+        lit_.push_back({in_atlas, power, {}, {}, {}});
         known = std::prev(lit_.end());
       }
       known->shots.push_back(s);
@@ -202,12 +202,18 @@ std::int64_t ChannelSimulation::missing_paths(const ScatteringPoint& at, int blo
   return paths;
 }
 
+std::shared_ptr<const WhiteRows> ChannelSimulation::node_of(const Lit& lit, int idx,
+                                                            int levels) const {
+  if (!may_trace_ && lit.in_atlas->missing_paths(idx, levels) > 0) throw PathsMissing();
+  return lit.in_atlas->node(idx, levels);
+}
+
 Eigen::VectorXd ChannelSimulation::light_at_node(int node, double sigma_a_per_mm,
                                                  int blocks) const {
   Eigen::VectorXd l = surfaces_.gloss();
   const int levels = WhiteRows::levels_for(kBlockPaths * blocks);
   for (const Lit& v : lit_) {
-    const Eigen::VectorXd of_view = v.in_atlas->node(node, levels).light(sigma_a_per_mm).l;
+    const Eigen::VectorXd of_view = node_of(v, node, levels)->light(sigma_a_per_mm).l;
     for (const auto& [row, at_view] : v.rows) l[row] += v.power * of_view[at_view];
   }
   return l;
@@ -227,16 +233,18 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
   std::vector<OfLight> of_light;
   for (const Lit& v : lit_) of_light.emplace_back(v.rows.size());
   const ScatteringImage here = control(at);
+  std::vector<std::vector<std::shared_ptr<const WhiteRows>>> held(lit_.size());
   for (const Share& share : shares(at.sigma_s_per_mm, blocks)) {
     const Carried to_here = carried(
         here, control({TransportAtlas::sigma_s_per_mm(share.node), at.sigma_a_per_mm, at.scale}));
-    // The atlas is not for several threads; what its nodes say is.
-    std::vector<const WhiteRows*> nodes;
-    for (const Lit& v : lit_) nodes.push_back(&v.in_atlas->node(share.node, share.levels));
+    // Tracing is not for several threads; what the nodes say is.
+    for (std::size_t i = 0; i < lit_.size(); ++i) {
+      held[i].push_back(node_of(lit_[i], share.node, share.levels));
+    }
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(std::size_t{0}, lit_.size(), [&](std::size_t i) {
-        of_light[i].add(lit_[i].rows, lit_[i].power, *nodes[i], share, to_here, at.sigma_a_per_mm,
-                        projections);
+        of_light[i].add(lit_[i].rows, lit_[i].power, *held[i].back(), share, to_here,
+                        at.sigma_a_per_mm, projections);
       });
     });
     for (const OfLight& light : of_light) {
@@ -246,6 +254,7 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
     }
   }
   for (std::size_t i = 0; i < lit_.size(); ++i) {
+    lit_[i].held = std::move(held[i]);
     add_rows(of_light[i].image, lit_[i].rows, image);
     add_rows(of_light[i].off, lit_[i].rows, off);
   }

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -27,8 +29,13 @@ class ChannelSimulation {
   // The dipole's image and derivatives at a point, with the simulation's rows.
   using Control = std::function<ScatteringImage(const ScatteringPoint&)>;
 
-  // Throws InputError if a light reaches no part of an object.
-  ChannelSimulation(const Scene& scene, const MaterialChannel& channel, TransportAtlas& atlas);
+  // Thrown where paths are missing that may not be traced.
+  struct PathsMissing : std::exception {};
+
+  // may_trace: otherwise it has the paths that the atlas has. Throws InputError if a light reaches
+  // no part of an object.
+  ChannelSimulation(const Scene& scene, const MaterialChannel& channel, TransportAtlas& atlas,
+                    bool may_trace = true);
 
   double largest_size_mm() const;  // of the lit bodies
 
@@ -57,10 +64,11 @@ class ChannelSimulation {
   };
   // For either half of the paths: any number of rows x n_rows().
   using Projections = std::array<Eigen::SparseMatrix<double>, 2>;
-  // Traces what is missing for so many blocks.
+  // Traces what is missing for so many blocks, or throws PathsMissing.
   Look look(const ScatteringPoint& at, int blocks, const Projections& projections,
             const Control& control) const;
-  // The light alone, at a node of the atlas, from at least so many blocks there: as image.l.
+  // The light alone, at a node of the atlas, from at least so many blocks there: as image.l. Traces
+  // or throws as look() does.
   Eigen::VectorXd light_at_node(int node, double sigma_a_per_mm, int blocks) const;
   // Paths that look() would trace.
   std::int64_t missing_paths(const ScatteringPoint& at, int blocks) const;
@@ -73,10 +81,14 @@ class ChannelSimulation {
     std::vector<std::size_t> shots;
     // Pairs of a row of the images that it lights and the row of the view.
     std::vector<std::pair<Eigen::Index, Eigen::Index>> rows;
+    // Of the last look: the next one needs them again.
+    mutable std::vector<std::shared_ptr<const WhiteRows>> held;
   };
+  std::shared_ptr<const WhiteRows> node_of(const Lit& lit, int idx, int levels) const;
 
   const Scene& scene_;
   const MaterialChannel& channel_;
+  bool may_trace_;
   RoughSurfaces surfaces_;
   std::vector<Lit> lit_;
   std::vector<double> area_mm2_;

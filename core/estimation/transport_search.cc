@@ -42,7 +42,8 @@ constexpr double kTransportOutlierStd = 8.0;
 class TransportSearch {
  public:
   TransportSearch(const Scene& scene, const MaterialChannel& channel, const DipoleSystem& dipole,
-                  TransportAtlas& atlas, const EstimateOptions& options, const ProgressStage& stage)
+                  TransportAtlas& atlas, bool may_trace, const EstimateOptions& options,
+                  const ProgressStage& stage)
       : channel_(channel),
         knots_(dipole.knots),
         system_(system_of_paths(dipole, channel.gamma_std, channel.surface_alpha_std > 0.0)),
@@ -50,7 +51,7 @@ class TransportSearch {
         scale_(scale_prior(scene)),
         options_(options),
         stage_(stage),
-        simulation_(scene, channel, atlas),
+        simulation_(scene, channel, atlas, may_trace),
         phase_(scene, channel, knots_),
         budget_(blocks_of(std::min(options.paths, options.looking_paths.value_or(options.paths))),
                 options.time_limit_s) {
@@ -253,25 +254,11 @@ class TransportSearch {
     result.look = residual_look(rows, channel_);
     if (options_.keep_rows) result.rows = std::move(rows);
     widen_by_mesh_scale(channel_, estimate);
-    report_shots(round, result);
+    report_shots(round, channel_, result);
     result.has_enough_paths =
         round.has_enough_paths() ||
         next_blocks(round.at(), round.blocks(), budget_.with(blocks_of(options_.paths))) == 0;
     refuse_undetermined(estimate);
-  }
-
-  void report_shots(const TransportRound& round, ChannelResult& result) const {
-    const std::vector<std::size_t> shots = round.shots();
-    const std::vector<ScatteringEquation::Step> steps = round.steps_of_shots();
-    for (std::size_t i = 0; i < shots.size(); ++i) {
-      ShotResult& single = result.singles.emplace_back();
-      single.file = channel_.shots[shots[i]]->stated->file;
-      single.estimate.rows = round.rows_of_shot(i);
-      report_step(steps[i], single.estimate);
-    }
-    if (steps.size() < 2) return;
-    result.agreement = round.agreement(steps);
-    widen_by_disagreement(result.agreement, result.estimate);
   }
 
   const MaterialChannel& channel_;
@@ -290,11 +277,18 @@ class TransportSearch {
 
 }  // namespace
 
-void search_by_transport(const Scene& scene, const MaterialChannel& channel,
-                         const DipoleSystem& dipole, TransportAtlas& atlas,
+bool search_by_transport(const Scene& scene, const MaterialChannel& channel,
+                         const DipoleSystem& dipole, TransportAtlas& atlas, bool may_trace,
                          const EstimateOptions& options, const ProgressStage& stage,
                          ChannelResult& result) {
-  TransportSearch(scene, channel, dipole, atlas, options, stage).run(result);
+  ChannelResult found = result;
+  try {
+    TransportSearch(scene, channel, dipole, atlas, may_trace, options, stage).run(found);
+  } catch (const ChannelSimulation::PathsMissing&) {
+    return false;
+  }
+  result = std::move(found);
+  return true;
 }
 
 }  // namespace scattermeter

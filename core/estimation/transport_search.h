@@ -31,9 +31,10 @@ namespace scattermeter {
 //
 // Starts from the result's estimate and replaces it, its singles and agreement; if the search
 // fails, the estimate is refused. Uses options.paths, looking_paths, time_limit_s and keep_rows.
-// Throws Cancelled.
-void search_by_transport(const Scene& scene, const MaterialChannel& channel,
-                         const DipoleSystem& dipole, TransportAtlas& atlas,
+// may_trace: otherwise, where the atlas lacks paths that the search asks for, it returns false and
+// leaves the result as it is; such searches may run side by side. Throws Cancelled.
+bool search_by_transport(const Scene& scene, const MaterialChannel& channel,
+                         const DipoleSystem& dipole, TransportAtlas& atlas, bool may_trace,
                          const EstimateOptions& options, const ProgressStage& stage,
                          ChannelResult& result);
 

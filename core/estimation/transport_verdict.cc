@@ -7,6 +7,9 @@
 
 #include <fmt/core.h>
 
+#include "core/estimation/channel_result.h"
+#include "core/estimation/material_channel.h"
+#include "core/estimation/transport_round.h"
 #include "core/fit/prior_pulls.h"
 #include "core/fit/residual.h"
 
@@ -102,6 +105,21 @@ void report_step(const ScatteringEquation::Step& step, Estimate& estimate) {
 bool is_better(const Estimate& one, const Estimate& other) {
   const Quantity &s = one.sigma_s_prime_per_mm, &t = other.sigma_s_prime_per_mm;
   return s.std * t.value < t.std * s.value;
+}
+
+void report_shots(const TransportRound& round, const MaterialChannel& channel,
+                  ChannelResult& result) {
+  const std::vector<std::size_t> shots = round.shots();
+  const std::vector<ScatteringEquation::Step> steps = round.steps_of_shots();
+  for (std::size_t i = 0; i < shots.size(); ++i) {
+    ShotResult& single = result.singles.emplace_back();
+    single.file = channel.shots[shots[i]]->stated->file;
+    single.estimate.rows = round.rows_of_shot(i);
+    report_step(steps[i], single.estimate);
+  }
+  if (steps.size() < 2) return;
+  result.agreement = round.agreement(steps);
+  widen_by_disagreement(result.agreement, result.estimate);
 }
 
 void report_residual(const DenseSystem& system, const Eigen::VectorXd& rest,

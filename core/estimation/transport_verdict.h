@@ -9,6 +9,10 @@
 
 namespace scattermeter {
 
+struct ChannelResult;
+struct MaterialChannel;
+class TransportRound;
+
 // In these functions, `blocks` is the number of blocks of paths traced in a round for each light
 // and view.
 
@@ -52,6 +56,11 @@ void report_step(const ScatteringEquation::Step& step, Estimate& estimate);
 
 // Whether sigma_s' has the smaller relative deviation.
 bool is_better(const Estimate& one, const Estimate& other);
+
+// Adds the estimates of the shots one by one and their agreement, by which the joint one is
+// widened.
+void report_shots(const TransportRound& round, const MaterialChannel& channel,
+                  ChannelResult& result);
 
 // Writes how far the image is off: rest, before and after (`settled`) the nuisances take their most
 // probable values, the latter against `variance`; W/mm^2 and its square, of the system's rows.

@@ -1,8 +1,11 @@
 #include "core/estimation/transport_search.h"
 
+#include <array>
+#include <cstddef>
 #include <memory>
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include "tests/fixtures/core/dipole_cube.h"
 
@@ -18,19 +21,24 @@ DipoleSystem handed_over(const test_support::DipoleCube& cube, const MaterialCha
           smooth_knots(cube.lit), rows};
 }
 
-ChannelResult searched(test_support::DipoleCube& cube, const EstimateOptions& options,
-                       Progress* progress = nullptr) {
-  cube.show(test_support::kCubeMedium, 0.01);
-  const MaterialChannel channel = material_channels(cube.scene, cube.shots, "R").front();
+ChannelResult start() {
   ChannelResult result;
   result.estimate.converged = true;
   result.estimate.sigma_s_prime_per_mm.value = 0.9;
   result.estimate.sigma_a_per_mm.value = 0.01;
   result.estimate.scale.value = 1.0;
   result.singles.resize(2);
+  return result;
+}
+
+ChannelResult searched(test_support::DipoleCube& cube, const EstimateOptions& options,
+                       Progress* progress = nullptr) {
+  cube.show(test_support::kCubeMedium, 0.01);
+  const MaterialChannel channel = material_channels(cube.scene, cube.shots, "R").front();
+  ChannelResult result = start();
   const ProgressStage stage(progress, "transport", 1);
   TransportAtlas atlas;
-  search_by_transport(cube.scene, channel, handed_over(cube, channel), atlas, options, stage,
+  search_by_transport(cube.scene, channel, handed_over(cube, channel), atlas, true, options, stage,
                       result);
   return result;
 }
@@ -70,6 +78,39 @@ TEST(TransportSearch, EndsWhereItIsCancelled) {
   } progress;
   test_support::DipoleCube cube(1, 3.0);
   EXPECT_THROW(searched(cube, {}, &progress), Cancelled);
+}
+
+// With the paths that a search has left, others run side by side and find what it would find again.
+TEST(TransportSearch, NeedsNoMorePathsThanItHasTraced) {
+  test_support::DipoleCube cube(2, 3.0);
+  cube.show(test_support::kCubeMedium, 0.01);
+  const MaterialChannel channel = material_channels(cube.scene, cube.shots, "R").front();
+  const DipoleSystem system = handed_over(cube, channel);
+  EstimateOptions options;
+  options.paths = 300'000;
+  const ProgressStage stage(nullptr, "transport", 1);
+  TransportAtlas atlas;
+  const auto search = [&](bool may_trace, ChannelResult& result) {
+    return search_by_transport(cube.scene, channel, system, atlas, may_trace, options, stage,
+                               result);
+  };
+  ChannelResult result = start();
+  EXPECT_FALSE(search(false, result));
+  EXPECT_EQ(result.singles.size(), 2U);
+  EXPECT_EQ(result.estimate.sigma_s_prime_per_mm.value, 0.9);
+  EXPECT_TRUE(search(true, result));
+  ASSERT_GT(result.estimate.rows, 20U);
+
+  ChannelResult again = start();
+  EXPECT_TRUE(search(true, again));
+  ASSERT_TRUE(again.estimate.converged);
+  std::array<ChannelResult, 4> beside = {start(), start(), start(), start()};
+  tbb::parallel_for(std::size_t{0}, beside.size(),
+                    [&](std::size_t i) { EXPECT_TRUE(search(false, beside[i])); });
+  for (const ChannelResult& r : beside) {
+    EXPECT_EQ(r.estimate.sigma_s_prime_per_mm.value, again.estimate.sigma_s_prime_per_mm.value);
+    EXPECT_EQ(r.estimate.sigma_a_per_mm.std, again.estimate.sigma_a_per_mm.std);
+  }
 }
 
 }  // namespace
