@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/core.h>
 
+#include "apps/instrument/closer_look.h"
 #include "calib/pose/edge_points.h"
 #include "calib/pose/silhouette_check.h"
 
@@ -35,7 +36,7 @@ EdgeBlur edge_blur(const Rig& rig, const ObjectScenes& objects, const SceneShot&
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(*seen_px2);
   const Eigen::Vector2d beyond_px2 =
       (axes.eigenvalues().array() - kSharp_px * kSharp_px).cwiseMax(0.0);
-  const double px_mm = (pose.camera_from_world * object.box.center_mm()).z() / lens.fx_px;
+  const double px_mm = 1.0 / px_per_mm(lens, object, pose);
   return {true, px_mm * px_mm * axes.eigenvectors() * beyond_px2.asDiagonal() *
                     axes.eigenvectors().transpose()};
 }

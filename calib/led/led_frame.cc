@@ -2,16 +2,14 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "core/base/covariance_root.h"
+#include "core/base/tangents.h"
 
 namespace scattermeter::calib {
 
 LedFrame::LedFrame(const LedScene& led_scene, const Led& center)
     : scene(led_scene), lens(led_scene.intrinsics), led(center) {
-  tangents[0] = led.axis.unitOrthogonal();
-  tangents[1] = led.axis.cross(tangents[0]);
+  tangents = scattermeter::tangents(led.axis);
   for (const LedView& v : scene.views) pose_root.push_back(covariance_root(v.pose_covariance));
   ambient_unit.assign(scene.plane_shots(), Eigen::Array3d::Zero());
   std::vector<Eigen::Array3d> n(ambient_unit);

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/tangents.h"
 #include "core/light/incident_light.h"
 #include "core/material/dipole.h"
 #include "core/material/fresnel.h"
@@ -77,11 +78,6 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
 }
 
 }  // namespace
-
-std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d first = normal.unitOrthogonal();
-  return {first, normal.cross(first)};
-}
 
 Eigen::MatrixXd scaled_curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
                               double eta) {

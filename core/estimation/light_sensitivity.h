@@ -28,7 +28,7 @@ struct LightSensitivity {
   Eigen::MatrixXd l;                        // nominal
   std::vector<Eigen::MatrixXd> per_change;  // by each quantity of Light::changes()
   Eigen::MatrixXd per_eta;                  // by eta, of predicted - observed l: both depend on it
-  std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by a shift of the sites along two tangents
+  std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by a shift of the sites along tangents()
   Eigen::MatrixXd per_albedo;                     // by the albedo of the plane below; of LEDs only
   Eigen::MatrixXd per_edge_mm;  // by the mm by which edges are cut back; of LEDs only; may be empty
 };
@@ -87,8 +87,5 @@ Eigen::MatrixXd coarse_images(const ObjectScene& object, const std::vector<ExitS
 LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal,
                              const ChangedImages& images, const std::vector<LitMedium>& media,
                              const DistanceKnots& knots);
-
-// Two unit tangents of a row's facet; the directions of per_tangent_mm.
-std::array<Eigen::Vector3d, 2> tangents(const Eigen::Vector3d& normal);
 
 }  // namespace scattermeter

@@ -11,6 +11,7 @@
 
 #include "core/base/covariance_root.h"
 #include "core/base/cross_matrix.h"
+#include "core/base/tangents.h"
 #include "core/camera/lens.h"
 #include "core/camera/lens_parameters.h"
 #include "core/camera/pose_shift.h"

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/covariance_root.h"
+#include "core/base/tangents.h"
 
 namespace scattermeter {
 namespace {
@@ -20,11 +21,6 @@ std::array<Eigen::Index, kSeen> seen_by(std::size_t channel) {
 // A nuisance whose last entry is the coefficient of the logarithm of the intensity.
 LightNuisance calibrated_nuisance(const std::string& name, const Eigen::VectorXd& seen) {
   return {name, "LED calibration", 1.0, seen.head(kSeen - 1), seen[kSeen - 1], 0.0};
-}
-
-std::array<Eigen::Vector3d, 2> axis_tangents(const Led& led) {
-  const Eigen::Vector3d first = led.axis.unitOrthogonal();
-  return {first, led.axis.cross(first)};
 }
 
 }  // namespace
@@ -54,11 +50,11 @@ std::vector<LightChange> LedLight::changes(const Eigen::Vector3d& object_center_
     other.position_mm[i] += move_mm;
     add(other, move_mm);
   }
-  const std::array<Eigen::Vector3d, 2> tangents =
-      calibrated ? calibrated->tangents : axis_tangents(led);
+  const std::array<Eigen::Vector3d, 2> across =
+      calibrated ? calibrated->tangents : tangents(led.axis);
   for (std::size_t t = 0; t < 2 && (calibrated || axis_std_rad > 0.0); ++t) {
     Led other = led;
-    other.axis = (led.axis + kTurn_rad * tangents[t]).normalized();
+    other.axis = (led.axis + kTurn_rad * across[t]).normalized();
     add(other, kTurn_rad);
   }
   if (calibrated || exponent_std > 0.0) {

@@ -7,16 +7,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "core/base/tangents.h"
+
 namespace scattermeter {
 namespace {
-
-// Two unit tangents, as columns.
-Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& normal) {
-  Eigen::Matrix<double, 3, 2> out;
-  out.col(0) = normal.unitOrthogonal();
-  out.col(1) = normal.cross(out.col(0));
-  return out;
-}
 
 // The covariance on the surface, in its tangents, of displacements in the picture.
 Eigen::Matrix2d covariance_on_surface(const Eigen::Matrix<double, 3, 2>& tangents,
@@ -70,16 +64,16 @@ Eigen::VectorXd change_by_blur(const BlurredRows& rows, const Eigen::Matrix3Xd& 
   }
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
   for (std::size_t j = 0; j < n; ++j) {
-    const Eigen::Matrix<double, 3, 2> tangents = tangent_basis(rows.normals[j]);
+    Eigen::Matrix<double, 3, 2> along;
+    along << tangents(rows.normals[j])[0], tangents(rows.normals[j])[1];
     // Least squares for the second derivatives a, b, c of [a b; b c].
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     Eigen::Vector3d products = Eigen::Vector3d::Zero();
     for (const std::int32_t neighbour : rows.adjacent[j]) {
       const auto i = static_cast<std::size_t>(neighbour);
-      const Eigen::Vector2d by_mm =
-          tangents.transpose() * (rows.centers_mm[i] - rows.centers_mm[j]);
+      const Eigen::Vector2d by_mm = along.transpose() * (rows.centers_mm[i] - rows.centers_mm[j]);
       const Eigen::Vector2d change =
-          tangents.transpose() *
+          along.transpose() *
           (gradient_per_mm.col(neighbour) - gradient_per_mm.col(static_cast<Eigen::Index>(j)));
       const Eigen::Matrix<double, 2, 3> of_second{{by_mm.x(), by_mm.y(), 0.0},
                                                   {0.0, by_mm.x(), by_mm.y()}};
@@ -94,7 +88,7 @@ Eigen::VectorXd change_by_blur(const BlurredRows& rows, const Eigen::Matrix3Xd& 
     const Eigen::Matrix2d of_light{{second[0], second[1]}, {second[1], second[2]}};
     const Eigen::Vector3d to_camera = (rows.camera_center_mm - rows.centers_mm[j]).normalized();
     out[static_cast<Eigen::Index>(j)] =
-        0.5 * (of_light * covariance_on_surface(tangents, rows.normals[j], to_camera,
+        0.5 * (of_light * covariance_on_surface(along, rows.normals[j], to_camera,
                                                 rows.picture_axes, covariance_mm2))
                   .trace();
   }

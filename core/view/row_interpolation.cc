@@ -11,6 +11,8 @@
 #include <Eigen/Geometry>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/base/tangents.h"
+
 namespace scattermeter {
 namespace {
 
@@ -127,7 +129,7 @@ RowInterpolation interpolation_of_rows(const std::vector<Eigen::Vector3d>& cente
       of_row[j] = {{row, column[j], 1.0}};
       return;
     }
-    const Eigen::Vector3d first = normals[j].unitOrthogonal(), second = normals[j].cross(first);
+    const auto [first, second] = tangents(normals[j]);
     for (const auto& [k, share] : shares_about(row, adjacent, chosen, [&](std::int32_t other) {
            const Eigen::Vector3d step = centers_mm[static_cast<std::size_t>(other)] - centers_mm[j];
            return Eigen::Vector2d(first.dot(step), second.dot(step));

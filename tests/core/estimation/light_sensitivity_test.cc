@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/tangents.h"
 #include "core/estimation/channel_weights.h"
 #include "core/material/fresnel.h"
 #include "tests/fixtures/core/dipole_cube.h"

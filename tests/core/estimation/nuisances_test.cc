@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "calib/pose/shot_pose.h"
+#include "core/base/tangents.h"
 #include "core/light/incident_light.h"
 #include "core/material/dipole.h"
 #include "tests/fixtures/apps/calibrated_nuisances.h"

@@ -9,6 +9,7 @@
 #include "apps/simulation/bodies_rig.h"
 #include "calib/pose/shot_pose.h"
 #include "core/base/covariance_root.h"
+#include "core/base/tangents.h"
 #include "core/camera/lens.h"
 #include "core/camera/lens_parameters.h"
 #include "core/camera/pose_shift.h"
