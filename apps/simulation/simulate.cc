@@ -4,6 +4,8 @@
 #include <optional>
 #include <system_error>
 
+#include <fmt/core.h>
+
 #include "apps/instrument/open_objects.h"
 #include "apps/simulation/chosen_exposure.h"
 #include "apps/simulation/simulate_camera_calibration.h"
@@ -72,6 +74,12 @@ capture::RawFrame board_frame(const Rig& rig) {
 SimulatedShots simulate(const Rig& given_rig, const std::string& out_folder,
                         const SimulateOptions& options, Progress* progress) {
   const Rig given = with_format(given_rig, options.format);
+  const CameraIntrinsics& lens = given.scene.camera.intrinsics;
+  if (lens.width_px % 2 != 0 || lens.height_px % 2 != 0) {
+    throw InputError(
+        given.path + ": camera.image_size_px",
+        fmt::format("raw files have even sides, got {} x {}", lens.width_px, lens.height_px));
+  }
   // A board with a shot of its own is in no other shot.
   Rig rig = given;
   if (!rig.pose.board_shot.empty()) {

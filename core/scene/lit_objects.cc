@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
+
+#include <fmt/core.h>
 
 #include "core/base/input_error.h"
 
@@ -27,11 +30,16 @@ LitObjects::LitObjects(const Scene& scene, const ObjectScenes& objects,
     const double samples_mm = 8.0 * distance_to_camera_mm / scene.camera.intrinsics.fx_px;
     const double chosen_mm = std::max(object.size_mm() / 50.0, samples_mm);
     const double size_mm = patch_size_mm.value_or(object.stated->patch_size_mm.value_or(chosen_mm));
+    const std::string field =
+        scene.at(object.stated->line) + ": objects." + name + ".patch_size_mm";
+    if (size_mm > object.size_mm()) {
+      throw InputError(field, fmt::format("{:.4g} mm is larger than the object, {:.4g} mm", size_mm,
+                                          object.size_mm()));
+    }
     try {
       patches_[name] = std::make_unique<PatchMesh>(object.mesh(), size_mm);
     } catch (const std::length_error& e) {
-      throw InputError(scene.at(object.stated->line) + ": objects." + name + ".patch_size_mm",
-                       e.what());
+      throw InputError(field, e.what());
     }
   }
 }

@@ -90,6 +90,16 @@ TEST_F(CheckOutline, NoneFound) {
   ASSERT_EQ(items.size(), 1U);
   EXPECT_FALSE(items[0].passed);
   EXPECT_THAT(items[0].advice, HasSubstr("not found"));
+  // A round body's may end in the dark.
+  ObjectScene round;
+  round.is_round = true;
+  const auto seen = std::make_shared<SeenObject>();
+  seen->object = &round;
+  std::vector<ObservedShot> cubes = made_.checked.shots;
+  made_.checked.shots.assign(2, {});
+  for (ObservedShot& shot : made_.checked.shots) shot.seen = seen;
+  EXPECT_TRUE(check_outline(made_.checked)[0].passed);
+  made_.checked.shots = std::move(cubes);
   // Not enough straight edges, but the contour was seen where it belongs, or elsewhere.
   OutlineFindings& looks = made_.checked.looks.emplace();
   looks.diagnosis.emplace();

@@ -10,6 +10,7 @@
 #include "calib/pose/shot_pose.h"
 #include "capture/raw/raw_reader.h"
 #include "capture/raw/tiff_layout.h"
+#include "core/base/input_error.h"
 #include "tests/fixtures/apps/small_rig.h"
 #include "tests/fixtures/apps/yaml_text.h"
 
@@ -48,6 +49,22 @@ TEST_F(Simulate, FilesAreTheVirtualShots) {
   const capture::RawFrame second = capture::read_raw(file("second.dng"));
   EXPECT_TRUE(second.samples == shots.frame(1, 7, 1).samples);
   EXPECT_NEAR(second.exposure_s, 0.01, 1e-6);
+}
+
+// What no raw file can hold, and a time that none is exposed for, are named with their field.
+TEST_F(Simulate, RefusesWhatNoShotHas) {
+  const auto says = [](const std::string& field, const std::string& value) {
+    return ::testing::ThrowsMessage<InputError>(
+        ::testing::AllOf(HasSubstr(field), HasSubstr(value)));
+  };
+  Rig given = rig_;
+  rig_.scene.camera.intrinsics.width_px -= 1;
+  EXPECT_THAT([&] { made(); }, says("camera.image_size_px", "even sides"));
+  rig_ = given;
+  for (SceneShot& shot : rig_.scene.shots) shot.exposure_s.reset();
+  rig_.scene.camera.exposure_s.reset();
+  for (double& r : rig_.scene.camera.responsivity.value()) r *= 1e-20;
+  EXPECT_THAT([&] { made(); }, says("camera.exposure_s", "responsivity"));
 }
 
 // A NEF has the tone curve of its camera; what it cannot hold is refused by name, before any work.

@@ -27,6 +27,9 @@ TEST(LitObjects, ChoosesThePatchSize) {
   EXPECT_DOUBLE_EQ(size_mm(std::nullopt, 180.0), 2.5);
   EXPECT_DOUBLE_EQ(size_mm(4.0, 180.0), 4.0);
   EXPECT_THROW(size_mm(1e-5, 180.0), InputError);
+  EXPECT_THAT(
+      [&] { size_mm(1000.0, 180.0); },
+      ThrowsMessage<InputError>(HasSubstr("objects.cube.patch_size_mm: 1000 mm is larger")));
 }
 
 TEST(LitObjects, MakesEachLightOnce) {
