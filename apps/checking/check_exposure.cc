@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <limits>
 
 #include "apps/checking/check.h"
 
@@ -13,10 +12,9 @@ std::vector<CheckItem> check_exposure(const CheckedRig& checked) {
       const double samples = std::max<double>(1.0, static_cast<double>(o.samples));
       clipped.push_back(
           checked.of_channel(i, c, 100.0 * static_cast<double>(o.samples_clipped) / samples));
-      // If everything is clipped, the brightness is unknown.
+      // If everything is clipped, it is not dark.
       const bool all_clipped = o.rows_clipped == o.l.size() && !o.l.empty();
-      brightest.push_back(checked.of_channel(
-          i, c, all_clipped ? std::numeric_limits<double>::quiet_NaN() : o.brightest_snr));
+      if (!all_clipped) brightest.push_back(checked.of_channel(i, c, o.brightest_snr));
     }
   }
   return {judged("clipped", "% of samples", {checked.options.max_clipped_percent}, "expose shorter",

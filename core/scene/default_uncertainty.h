@@ -18,8 +18,8 @@ inline constexpr double kObjectPosition_mm = 0.1;
 inline constexpr double kMeshScale = 0.002;
 // Machined edges are broken by some 0.1 mm, moulded and printed ones rounded by as much.
 inline constexpr double kEdge_mm = 0.1;
-// Moulded and polished faces mirror a lamp as a blot with a faint halo: alpha of a face that is
-// stated as smooth or not at all.
+// Moulded and polished faces mirror a lamp as a blot with a faint halo: alpha of a face whose
+// roughness is not stated.
 inline constexpr double kSurfaceAlpha = 0.03;
 // A position taken with a ruler, mm, and a direction by eye, degrees.
 inline constexpr double kLedPosition_mm = 0.3;

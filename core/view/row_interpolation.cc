@@ -129,10 +129,10 @@ RowInterpolation interpolation_of_rows(const std::vector<Eigen::Vector3d>& cente
       of_row[j] = {{row, column[j], 1.0}};
       return;
     }
-    const auto [first, second] = tangents(normals[j]);
+    const auto along = tangents(normals[j]);
     for (const auto& [k, share] : shares_about(row, adjacent, chosen, [&](std::int32_t other) {
            const Eigen::Vector3d step = centers_mm[static_cast<std::size_t>(other)] - centers_mm[j];
-           return Eigen::Vector2d(first.dot(step), second.dot(step));
+           return Eigen::Vector2d(along[0].dot(step), along[1].dot(step));
          })) {
       of_row[j].emplace_back(row, column[static_cast<std::size_t>(k)], share);
     }

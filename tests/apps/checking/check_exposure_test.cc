@@ -64,12 +64,15 @@ TEST(CheckExposure, ByHand) {
   EXPECT_FALSE(items[1].passed);
   EXPECT_EQ(items[1].where, "b.dng B");
   EXPECT_TRUE(items[1].at_least);
-  // All rows clipped: nothing is known of the brightness.
+  // What is clipped altogether is not to be exposed longer.
   made.checked.shots[1].observation.channel[2].brightest_snr = 100.0;
   made.checked.shots[1].observation.channel[0].rows_clipped = 2;
+  made.checked.shots[1].observation.channel[0].samples_clipped = 200;
+  made.checked.shots[1].observation.channel[0].brightest_snr = 0.0;
   items = check_exposure(made.checked);
-  EXPECT_FALSE(items[1].passed);
-  EXPECT_EQ(items[1].where, "b.dng R");
+  EXPECT_FALSE(items[0].passed);
+  EXPECT_EQ(items[0].where, "b.dng R");
+  EXPECT_TRUE(items[1].passed);
 }
 
 }  // namespace
