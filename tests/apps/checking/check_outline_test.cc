@@ -91,7 +91,9 @@ TEST_F(CheckOutline, NoneFound) {
   EXPECT_FALSE(items[0].passed);
   EXPECT_THAT(items[0].advice, HasSubstr("not found"));
   // A round body's may end in the dark.
+  const SceneObject stated;
   ObjectScene round;
+  round.stated = &stated;
   round.is_round = true;
   const auto seen = std::make_shared<SeenObject>();
   seen->object = &round;
