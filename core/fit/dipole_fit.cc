@@ -34,8 +34,9 @@ void set_uncertainty(const FitUncertainty& fit, const DipoleSolver& solver, cons
   estimate.correlation = all(0, 1) / std::sqrt(all(0, 0) * all(1, 1));
   const double scale = std::exp(p.log_s);
   estimate.scale = normal_quantity(scale, scale * fit.log_scale_std());
-  const Eigen::Matrix2d noise = fit.covariance([](const std::string&) { return true; });
-  estimate.budget.push_back({"noise", std::sqrt(noise(0, 0)), std::sqrt(noise(1, 1))});
+  const Eigen::Matrix2d noise = fit.by_noise();
+  estimate.budget.push_back(
+      {"noise", std::sqrt(std::max(0.0, noise(0, 0))), std::sqrt(std::max(0.0, noise(1, 1)))});
   for (const std::string& cause : fit.causes()) {
     const Eigen::Matrix2d rest = fit.covariance([&](const std::string& c) { return c == cause; });
     estimate.budget.push_back({cause, std::sqrt(std::max(0.0, all(0, 0) - rest(0, 0))),

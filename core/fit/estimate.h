@@ -31,8 +31,8 @@ inline bool is_upper_limit(const Quantity& q) {
 }
 
 // The contribution of one cause to the uncertainty: the standard deviation whose square would
-// vanish from the variance if the cause were known exactly (for "noise": what remains when all
-// others are).
+// vanish from the variance if the cause were known exactly (for "noise": by which it scatters the
+// estimate, which takes on some to be less sensitive to other causes).
 struct BudgetLine {
   std::string cause;  // "noise", "scale", or a nuisance's group
   double std_sigma_s_prime_per_mm = 0;

@@ -33,19 +33,21 @@ FitUncertainty::FitUncertainty(const RecoveredReflectance& recovered,
   jacobian.col(2) = kernel * (scale * curve.r);
   jacobian.rightCols(n_fitted) = recovered.sqrt_information.middleCols(curve.r.size(), n_fitted);
   information_ = jacobian.transpose() * jacobian / noise_inflation;
+  prior_ = Eigen::VectorXd::Zero(n);
   causes_ = {"", "", "scale"};
   if (prior.relative_std > 0.0) {
     movable_.push_back(2);
     if (!prior.is_free()) {
-      information_(2, 2) += 1.0 / (prior.relative_std * prior.relative_std);
+      prior_[2] = 1.0 / (prior.relative_std * prior.relative_std);
     }
   }
   for (std::size_t i = 0; i < static_cast<std::size_t>(n_fitted); ++i) {
     const Eigen::Index at = 3 + static_cast<Eigen::Index>(i);
     movable_.push_back(at);
-    information_(at, at) += 1.0 / (nuisances[i].std * nuisances[i].std);
+    prior_[at] = 1.0 / (nuisances[i].std * nuisances[i].std);
     causes_.push_back(nuisances[i].group);
   }
+  information_.diagonal() += prior_;
   const Eigen::Index n_held = static_cast<Eigen::Index>(nuisances.size()) - n_fitted;
   held_ = jacobian.transpose() * recovered.sqrt_information.rightCols(n_held) / noise_inflation;
   for (Eigen::Index i = 0; i < n_held; ++i) {
@@ -68,9 +70,13 @@ Eigen::Matrix2d FitUncertainty::covariance(
     const Eigen::VectorXd push = inverse * held_.col(i)(free);
     all += push * push.transpose();
   }
+  return in_sigma(all.topLeftCorner(2, 2));
+}
+
+Eigen::Matrix2d FitUncertainty::in_sigma(const Eigen::Matrix2d& of_u_and_q) const {
   Eigen::Matrix2d to_sigma;  // d(sigma_s', sigma_a) / d(u, q)
   to_sigma << (1.0 - q_) * sigma_t_per_mm_, -sigma_t_per_mm_, q_ * sigma_t_per_mm_, sigma_t_per_mm_;
-  return to_sigma * all.topLeftCorner(2, 2) * to_sigma.transpose();
+  return to_sigma * of_u_and_q * to_sigma.transpose();
 }
 
 Eigen::Matrix2d FitUncertainty::covariance_of_fitted() const {
@@ -84,6 +90,15 @@ double FitUncertainty::log_scale_std() const {
   std::vector<Eigen::Index> free = {0, 1};
   free.insert(free.end(), movable_.begin(), movable_.end());
   return std::sqrt(inverse_of(information_(free, free))(2, 2));
+}
+
+Eigen::Matrix2d FitUncertainty::by_noise() const {
+  std::vector<Eigen::Index> free = {0, 1};
+  free.insert(free.end(), movable_.begin(), movable_.end());
+  // The inverse C of the information is C (that of the data) C + C (that of the priors) C.
+  const Eigen::MatrixXd inverse = inverse_of(information_(free, free));
+  const Eigen::MatrixXd by_priors = inverse.topRows(2) * prior_(free).asDiagonal();
+  return in_sigma(inverse.topLeftCorner<2, 2>() - by_priors * inverse.leftCols(2));
 }
 
 std::vector<std::string> FitUncertainty::causes() const {

@@ -29,13 +29,20 @@ class FitUncertainty {
   Eigen::Matrix2d covariance_of_fitted() const;
   // Standard deviation of log s; 0 for an exact scale.
   double log_scale_std() const;
+  // The part of covariance(), with no cause known, by which noise scatters the estimate, in the
+  // same units: more than if all causes were known, as the fit takes on noise where that makes it
+  // less sensitive to them.
+  Eigen::Matrix2d by_noise() const;
   // The causes besides noise: "scale" and the nuisances' groups, each once.
   std::vector<std::string> causes() const;
 
  private:
   double sigma_t_per_mm_;
   double q_;
+  Eigen::Matrix2d in_sigma(const Eigen::Matrix2d& of_u_and_q) const;
+
   Eigen::MatrixXd information_;
+  Eigen::VectorXd prior_;            // that of the priors, of every parameter
   std::vector<std::string> causes_;  // of every parameter
   Eigen::MatrixXd held_;             // J^T C std: parameters x nuisances that are not fitted
   std::vector<std::string> held_causes_;

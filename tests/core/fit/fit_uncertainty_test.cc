@@ -86,6 +86,26 @@ TEST_F(TiltedLight, BudgetNamesEveryCause) {
   EXPECT_GT(e.budget[2].std_sigma_s_prime_per_mm, 0.0);
 }
 
+// Without any tilt, answers scatter as the budget's noise says, which holds what the fit takes on
+// to be less sensitive to tilts: with exactly known ones, it scatters less.
+TEST_F(TiltedLight, BudgetKnowsTheScatterByNoiseAlone) {
+  constexpr int kSeeds = 200;
+  Eigen::ArrayXd s(kSeeds);
+  double predicted = 0.0, of_known = 0.0;
+  for (int i = 0; i < kSeeds; ++i) {
+    DenseSystem drawn = system(static_cast<unsigned>(i + 1), 0.0, 0.0);
+    const Estimate e = fit_dipole(drawn, knots_, {}).estimate;
+    s[i] = e.sigma_s_prime_per_mm.value;
+    predicted += e.budget.front().std_sigma_s_prime_per_mm / kSeeds;
+    drawn.nuisances.clear();
+    drawn.nuisance_columns.resize(0, 0);
+    of_known += fit_dipole(drawn, knots_, {}).estimate.sigma_s_prime_per_mm.std / kSeeds;
+  }
+  // 200 seeds know a deviation to 5 %.
+  EXPECT_NEAR(std::sqrt((s - 1.2).square().mean()) / predicted, 1.0, 0.15);
+  EXPECT_GT(predicted, 1.05 * of_known);
+}
+
 // A nuisance that is held: the answer is the one without it, the uncertainty holds its push. Drawn
 // from its prior, the answers scatter as predicted.
 TEST_F(TiltedLight, HeldNuisanceWidensOnly) {
