@@ -117,7 +117,7 @@ void ShotForecaster::add_lights(const std::vector<CandidateShot>& shots, ViewWei
 
 bool ShotForecaster::add_led(const SeenObject& seen, const SceneLight& led, ViewWeights& lit) {
   const ObjectScene& object = *seen.object;
-  const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
+  const RayScene& shadows = seen.shadowing();
   const IncidentLight light = led->illuminate(
       *seen.patches, shadows, object.stated->eta_int_over_ext, LightUse::kMeasure)[0];
   if (light.lit.empty()) return false;

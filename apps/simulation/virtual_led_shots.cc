@@ -44,7 +44,7 @@ VirtualLedShots::VirtualLedShots(const Rig& rig, bool noise)
     if (shot.exposure_s) {
       exposure = *shot.exposure_s;
     } else if (brightest > 0.0F) {
-      exposure = rounded_exposure_s(kExposedTo * sensor_.range_counts() / brightest);
+      exposure = full_exposure_s(rig.path, kExposedTo * sensor_.range_counts() / brightest);
     }
     exposure_s_.push_back(exposure);
     counts_.push_back(std::move(picture));

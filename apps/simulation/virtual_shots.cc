@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/core.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/simulation/chosen_exposure.h"
@@ -55,16 +54,7 @@ void VirtualShots::choose_exposure(const Eigen::Array3d& brightest) {
     for (std::size_t c = 0; c < 3; ++c) {
       peak = std::max(peak, responsivity_[c] * brightest[static_cast<Eigen::Index>(c)]);
     }
-    const double exact_s = peak > 0.0 ? range / peak : 1.0;
-    constexpr double kShortest_s = 1e-9, kLongest_s = 1e9;
-    if (!(exact_s > kShortest_s && exact_s < kLongest_s)) {
-      throw InputError(
-          rig_.path + ": camera.exposure_s",
-          fmt::format("is missing, and full exposure would take {:.2g} s: check the "
-                      "lights' intensities and camera.responsivity_counts_mm2_sr_per_W_s",
-                      exact_s));
-    }
-    default_exposure_s_ = rounded_exposure_s(exact_s);
+    default_exposure_s_ = peak > 0.0 ? full_exposure_s(rig_.path, range / peak) : 1.0;
   } else {
     default_exposure_s_ = rig_.scene.camera.exposure_s.value_or(kDefaultExposure_s);
     const double peak = brightest.maxCoeff();

@@ -26,7 +26,7 @@ Eigen::MatrixXd change_by_chamfers(const SeenObject& seen, const Led& led,
                                    const DistanceKnots& knots, const std::vector<LitMedium>& media,
                                    double width_mm, WeightStore* store) {
   const ObjectScene& object = *seen.object;
-  const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
+  const RayScene& shadows = seen.shadowing();
   const double eta = object.stated->eta_int_over_ext;
   const double patch_mm = seen.patches->patch_size_mm();
   IncidentLight lost, gained;

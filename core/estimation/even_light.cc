@@ -14,10 +14,6 @@ PatchMesh coarse_patches(const SeenObject& seen) {
                    std::max(2.0 * seen.patches->patch_size_mm(), object.size_mm() / 12.0));
 }
 
-const RayScene& shadows_of(const SeenObject& seen) {
-  return seen.shadows != nullptr ? *seen.shadows : *seen.object->rays;
-}
-
 }  // namespace
 
 LightKey even_light_key(const ObservedShot& shot) { return {shot.seen.get(), "", 0}; }
@@ -38,7 +34,7 @@ Eigen::MatrixXd even_light_images(const SeenObject& seen, const DistanceKnots& k
   const ObjectScene& object = *seen.object;
   return coarse_images(
       object, sites_at_centers(seen),
-      AmbientLight().illuminate(coarse_patches(seen), shadows_of(seen),
+      AmbientLight().illuminate(coarse_patches(seen), seen.shadowing(),
                                 object.stated->eta_int_over_ext, LightUse::kBudget)[0],
       knots, media, store);
 }
@@ -51,7 +47,7 @@ std::array<Eigen::MatrixXd, 3> light_from_axes_images(const SeenObject& seen,
   const ObjectScene& object = *seen.object;
   const std::vector<ExitSite> sites = sites_at_centers(seen);
   const std::array<IncidentLight, 3> lights = illuminate_more_from_axes(
-      coarse_patches(seen), shadows_of(seen), object.stated->eta_int_over_ext);
+      coarse_patches(seen), seen.shadowing(), object.stated->eta_int_over_ext);
   std::array<Eigen::MatrixXd, 3> out;
   for (std::size_t k = 0; k < 3; ++k) {
     out[k] = coarse_images(object, sites, lights[k], knots, media, store) - even;

@@ -35,7 +35,7 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
   const double eta = object.stated->eta_int_over_ext;
   const PatchMesh coarse(object.mesh(), 2.0 * seen.patches->patch_size_mm());
   const auto lit_by = [&](const Light& other, double eta_here) {
-    const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *object.rays;
+    const RayScene& shadows = seen.shadowing();
     return SourceCloud(other.illuminate(coarse, shadows, eta_here, LightUse::kMeasure)[channel],
                        object.box.center_mm());
   };

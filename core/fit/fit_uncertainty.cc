@@ -85,16 +85,20 @@ Eigen::Matrix2d FitUncertainty::covariance_of_fitted() const {
   });
 }
 
-double FitUncertainty::log_scale_std() const {
-  if (movable_.empty() || movable_.front() != 2) return 0.0;
+std::vector<Eigen::Index> FitUncertainty::free_parameters() const {
   std::vector<Eigen::Index> free = {0, 1};
   free.insert(free.end(), movable_.begin(), movable_.end());
+  return free;
+}
+
+double FitUncertainty::log_scale_std() const {
+  if (movable_.empty() || movable_.front() != 2) return 0.0;
+  const std::vector<Eigen::Index> free = free_parameters();
   return std::sqrt(inverse_of(information_(free, free))(2, 2));
 }
 
 Eigen::Matrix2d FitUncertainty::by_noise() const {
-  std::vector<Eigen::Index> free = {0, 1};
-  free.insert(free.end(), movable_.begin(), movable_.end());
+  const std::vector<Eigen::Index> free = free_parameters();
   // The inverse C of the information is C (that of the data) C + C (that of the priors) C.
   const Eigen::MatrixXd inverse = inverse_of(information_(free, free));
   const Eigen::MatrixXd by_priors = inverse.topRows(2) * prior_(free).asDiagonal();

@@ -37,10 +37,13 @@ class FitUncertainty {
   std::vector<std::string> causes() const;
 
  private:
-  double sigma_t_per_mm_;
-  double q_;
+  // u, q and what else is free.
+  std::vector<Eigen::Index> free_parameters() const;
+  // Covariance of (sigma_s', sigma_a) for one of (u, q).
   Eigen::Matrix2d in_sigma(const Eigen::Matrix2d& of_u_and_q) const;
 
+  double sigma_t_per_mm_;
+  double q_;
   Eigen::MatrixXd information_;
   Eigen::VectorXd prior_;            // that of the priors, of every parameter
   std::vector<std::string> causes_;  // of every parameter

@@ -68,7 +68,7 @@ RowGloss row_gloss(const Scene& scene, const SceneShot& shot, const SeenObject& 
   const auto n = static_cast<Eigen::Index>(seen.sites.size());
   RowGloss out{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
   const RoughBoundary boundary(surface_alpha, seen.object->stated->eta_int_over_ext);
-  const RayScene& shadows = seen.shadows != nullptr ? *seen.shadows : *seen.object->rays;
+  const RayScene& shadows = seen.shadowing();
   for (const std::string& name : shot.lights) {
     const SceneLight& light = scene.light(name);
     if (light.led() == nullptr) continue;

@@ -32,6 +32,7 @@ struct SeenObject {
   // The geometry that shadows an LED, if it is more than the object itself (changed_weights());
   // else null.
   const RayScene* shadows = nullptr;
+  const RayScene& shadowing() const { return shadows != nullptr ? *shadows : *object->rays; }
 };
 
 // Seen from `pose`, shifted by `shift`. maps: of views of other programs; may be null.

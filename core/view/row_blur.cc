@@ -64,8 +64,9 @@ Eigen::VectorXd change_by_blur(const BlurredRows& rows, const Eigen::Matrix3Xd& 
   }
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n));
   for (std::size_t j = 0; j < n; ++j) {
+    const auto axes = tangents(rows.normals[j]);
     Eigen::Matrix<double, 3, 2> along;
-    along << tangents(rows.normals[j])[0], tangents(rows.normals[j])[1];
+    along << axes[0], axes[1];
     // Least squares for the second derivatives a, b, c of [a b; b c].
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     Eigen::Vector3d products = Eigen::Vector3d::Zero();

@@ -17,5 +17,11 @@ TEST(ChosenExposure, KeepsWhatHasTwoDigits) {
   }
 }
 
+TEST(ChosenExposure, IsOneThatARawFileHolds) {
+  EXPECT_DOUBLE_EQ(full_exposure_s("rig.yaml", 0.0987), 0.098);
+  EXPECT_THROW(full_exposure_s("rig.yaml", 4e-13), InputError);
+  EXPECT_THROW(full_exposure_s("rig.yaml", 2e12), InputError);
+}
+
 }  // namespace
 }  // namespace scattermeter::apps
