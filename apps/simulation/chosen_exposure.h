@@ -4,10 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include <fmt/core.h>
-
-#include "core/base/input_error.h"
-
 namespace scattermeter::apps {
 
 // For shots whose brightness does not depend on the time, as the rig has no responsivity.
@@ -25,16 +21,6 @@ inline double rounded_exposure_s(double exact_s) {
 
 // The same for shots to be written. Throws InputError, naming the rig, for a time that no raw file
 // holds.
-inline double full_exposure_s(const std::string& rig_path, double exact_s) {
-  constexpr double kShortest_s = 1e-9, kLongest_s = 1e9;
-  if (!(exact_s > kShortest_s && exact_s < kLongest_s)) {
-    throw InputError(rig_path + ": camera.exposure_s",
-                     fmt::format("is missing, and full exposure would take {:.2g} s: check the "
-                                 "lights' intensities and "
-                                 "camera.responsivity_counts_mm2_sr_per_W_s",
-                                 exact_s));
-  }
-  return rounded_exposure_s(exact_s);
-}
+double full_exposure_s(const std::string& rig_path, double exact_s);
 
 }  // namespace scattermeter::apps

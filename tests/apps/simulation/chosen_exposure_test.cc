@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/input_error.h"
+
 namespace scattermeter::apps {
 namespace {
 
