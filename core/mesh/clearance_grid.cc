@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -10,6 +11,8 @@
 
 namespace scattermeter {
 namespace {
+
+constexpr double kStepsPerCell = 4.0;
 
 // min over j of value[j] + (i - j)^2 for every i of a row.
 void transform_row(std::vector<float>& row, std::vector<float>& work) {
@@ -60,11 +63,11 @@ ClearanceGrid::ClearanceGrid(const TriangleMesh& mesh, int cells) {
       }
     }
   }
-  // Rounded down, so that float stays a bound.
-  bound_mm_.reserve(squared.size());
-  for (float s : squared) {
-    bound_mm_.push_back(
-        static_cast<float>(std::sqrt(static_cast<double>(s)) * cell_mm_ * 0.999999));
+  step_mm_ = cell_mm_ / kStepsPerCell;
+  steps_.reserve(squared.size());
+  for (const float s : squared) {
+    const double steps = kStepsPerCell * std::sqrt(static_cast<double>(s)) * 0.999999;
+    steps_.push_back(static_cast<std::uint8_t>(std::min(steps, 255.0)));
   }
 }
 

@@ -1,7 +1,7 @@
 // A grid of lower bounds of the distance to the surface.
 #pragma once
 
-#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,11 +22,12 @@ class ClearanceGrid {
   // bounds.
   double at(const Eigen::Vector3d& x) const {
     const Eigen::Vector3d u = (x - origin_mm_) * cells_per_mm_;
-    const int i = static_cast<int>(std::floor(u.x()));
-    const int j = static_cast<int>(std::floor(u.y()));
-    const int k = static_cast<int>(std::floor(u.z()));
-    if (i < 0 || j < 0 || k < 0 || i >= n_[0] || j >= n_[1] || k >= n_[2]) return -1.0;
-    return bound_mm_[index(i, j, k)];
+    if (!(u.x() >= 0.0 && u.y() >= 0.0 && u.z() >= 0.0)) return -1.0;
+    const int i = static_cast<int>(u.x());
+    const int j = static_cast<int>(u.y());
+    const int k = static_cast<int>(u.z());
+    if (i >= n_[0] || j >= n_[1] || k >= n_[2]) return -1.0;
+    return steps_[index(i, j, k)] * step_mm_;
   }
 
  private:
@@ -42,7 +43,8 @@ class ClearanceGrid {
   double cell_mm_;
   double cells_per_mm_;
   Eigen::Vector3i n_;
-  std::vector<float> bound_mm_;
+  double step_mm_;                   // of bounds
+  std::vector<std::uint8_t> steps_;  // down to the bound's; a byte each, as paths read at random
 };
 
 }  // namespace scattermeter

@@ -21,17 +21,6 @@ constexpr double kSureDepth = 0.7;
 // Relative to the body's size: a point this far beyond a plane still counts as on the body.
 constexpr double kOnBody = 1e-9;
 
-bool on_facet(const TriangleMesh& mesh, int facet, const Eigen::Vector3d& normal,
-              const Eigen::Vector3d& x) {
-  const auto& t = mesh.triangles[static_cast<std::size_t>(facet)];
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d& a = mesh.vertices_mm[static_cast<std::size_t>(t[i])];
-    const Eigen::Vector3d& b = mesh.vertices_mm[static_cast<std::size_t>(t[(i + 1) % 3])];
-    if (normal.dot((b - a).cross(x - a)) < 0.0) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 CameraConnection::CameraConnection(const PathBoundary& boundary,
@@ -193,6 +182,9 @@ void CameraConnection::through_facets(const Vertex& vertex, double deepest_mm,
   beams_->for_candidates(vertex.x, deepest_mm, [&](const FacetBeams::Facet& facet) {
     const double depth_mm = facet.normal.dot(facet.foot - vertex.x);
     if (!(depth_mm > 0.0 && depth_mm < deepest_mm)) return;
+    const auto [near, far] =
+        passage_between(vertex.x, depth_mm, facet.normal, facet.foot, facet.height_mm, eta_);
+    if (!facet.may_hold(near, far)) return;
     const auto [ray, passage] =
         passage_to(vertex.x, depth_mm, facet.normal, facet.foot, facet.height_mm, eta_);
     if (!(ray.length_mm < deepest_mm)) return;
@@ -237,10 +229,9 @@ void CameraConnection::through_rough_facets(const Vertex& vertex, double deepest
 // The passage lies on the facet, nothing is in the way from there to the camera, nor to the point.
 bool CameraConnection::may_be_seen(const Vertex& vertex, const FacetBeams::Facet& facet,
                                    const Eigen::Vector3d& passage) const {
-  const RayScene& scene = boundary_.scene();
-  if (!on_facet(scene.mesh(), facet.facet_idx, facet.normal, passage)) return false;
+  if (!facet.holds(passage)) return false;
   if (boundary_.convex()) return true;
-  return (facet.surely_seen || !scene.occluded(passage, facet.normal, camera_mm_)) &&
+  return (facet.surely_seen || !boundary_.scene().occluded(passage, facet.normal, camera_mm_)) &&
          boundary_.clear_inside(vertex.x, passage);
 }
 

@@ -14,7 +14,7 @@
 namespace scattermeter {
 namespace {
 
-constexpr double kRound = 1e-9;  // of the body's size, and rad
+constexpr double kRound = 1e-6;  // of the body's size, and rad
 // Of the body's size: how far along a beam its direction counts when facets are split into halves.
 constexpr double kReach = 0.05;
 
@@ -37,7 +37,9 @@ FacetBeams::FacetBeams(const TriangleMesh& mesh, const Eigen::Vector3d& camera_i
     throw std::invalid_argument("FacetBeams: eta_int_over_ext = " +
                                 std::to_string(eta_int_over_ext));
   }
-  const double size_mm = bounds(mesh).size_mm().maxCoeff();
+  const Box3d box = bounds(mesh);
+  const double size_mm = box.size_mm().maxCoeff();
+  origin_mm_ = box.center_mm();
   round_mm_ = kRound * size_mm;
   const std::vector<bool> seen = surely_seen(mesh, camera_in_world_mm);
   std::vector<Beam> beams;
@@ -57,28 +59,36 @@ FacetBeams::FacetBeams(const TriangleMesh& mesh, const Eigen::Vector3d& camera_i
     beam.half_angle += kRound;
     beam.direction = refracted(ray, normal, eta_int_over_ext).normalized();
     beams.push_back(beam);
-    facets_.push_back({f, seen[static_cast<std::size_t>(f)], height_mm, normal,
-                       camera_in_world_mm - height_mm * normal});
+    Facet facet{f,      seen[static_cast<std::size_t>(f)],       height_mm,
+                normal, camera_in_world_mm - height_mm * normal, {},
+                {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d& from = mesh.vertices_mm[static_cast<std::size_t>(t[i])];
+      const Eigen::Vector3d& to = mesh.vertices_mm[static_cast<std::size_t>(t[(i + 1) % 3])];
+      facet.inward[i] = normal.cross(to - from);
+      facet.edge[i] = facet.inward[i].dot(from);
+    }
+    facets_.push_back(facet);
   }
   if (!beams.empty()) grow(mesh, beams, kReach * size_mm);
 }
 
+struct FacetBeams::Bounds {
+  Eigen::Vector3d center;
+  double radius_mm = 0;
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  double sin_half = 0;
+  double cos2_half = 0;
+};
+
 void FacetBeams::grow(const TriangleMesh& mesh, std::vector<Beam>& beams, double reach_mm) {
-  struct Open {
-    int node;
+  struct Range {
     std::size_t from, to;
+    std::size_t size() const { return to - from; }
   };
-  nodes_.reserve(2 * beams.size() - 1);
-  nodes_.push_back(node_around(mesh, beams.data(), beams.data() + beams.size()));
-  std::vector<Open> open = {{0, 0, beams.size()}};
-  while (!open.empty()) {
-    const Open o = open.back();
-    open.pop_back();
-    if (o.to - o.from == 1) {
-      nodes_[static_cast<std::size_t>(o.node)].first = -beams[o.from].facet - 1;
-      continue;
-    }
-    // Halves along the widest of three coordinates of position and three of direction.
+  // The middle of a range, halved along the widest of three coordinates of position and three of
+  // direction.
+  const auto halved = [&](const Range& o) {
     const auto coordinate = [&](const Beam& b, int axis) {
       return axis < 3 ? b.middle[axis] : reach_mm * b.direction[axis - 3];
     };
@@ -96,23 +106,71 @@ void FacetBeams::grow(const TriangleMesh& mesh, std::vector<Beam>& beams, double
         widest = axis;
       }
     }
-    const std::size_t half = o.from + (o.to - o.from) / 2;
+    const std::size_t half = o.from + o.size() / 2;
     const auto at = [&](std::size_t i) { return beams.begin() + static_cast<std::ptrdiff_t>(i); };
     std::nth_element(at(o.from), at(half), at(o.to), [&](const Beam& a, const Beam& b) {
       const double ca = coordinate(a, widest);
       const double cb = coordinate(b, widest);
       return ca != cb ? ca < cb : a.facet < b.facet;
     });
-    const int first = static_cast<int>(nodes_.size());
-    nodes_[static_cast<std::size_t>(o.node)].first = first;
-    nodes_.push_back(node_around(mesh, &beams[o.from], &beams[half]));
-    nodes_.push_back(node_around(mesh, &beams[half], beams.data() + o.to));
-    open.push_back({first + 1, half, o.to});
-    open.push_back({first, o.from, half});
+    return half;
+  };
+  const auto empty_node = [] {
+    constexpr float kFarAway = 1e15F;
+    Node node;
+    for (Lanes& c : node.center) c.setConstant(kFarAway);
+    for (Lanes& a : node.axis) a.setZero();
+    node.radius_mm.setConstant(-1.0F);
+    node.sin_half.setZero();
+    node.cos2_half.setZero();
+    node.child.fill(0);
+    return node;
+  };
+  struct Open {
+    std::size_t node;
+    Range range;
+  };
+  nodes_.push_back(empty_node());
+  std::vector<Open> open = {{0, {0, beams.size()}}};
+  while (!open.empty()) {
+    const Open o = open.back();
+    open.pop_back();
+    std::vector<Range> parts = {o.range};
+    while (parts.size() < kChildren) {
+      Range& largest =
+          *std::max_element(parts.begin(), parts.end(),
+                            [](const Range& a, const Range& b) { return a.size() < b.size(); });
+      if (largest.size() < 2) break;
+      const Range second{halved(largest), largest.to};
+      largest.to = second.from;
+      parts.push_back(second);
+    }
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const Range& part = parts[k];
+      int child = -beams[part.from].facet - 1;
+      if (part.size() > 1) {
+        child = static_cast<int>(nodes_.size());
+        open.push_back({nodes_.size(), part});
+        nodes_.push_back(empty_node());
+      }
+      const Bounds of = bounds_of(mesh, &beams[part.from], beams.data() + part.to);
+      const auto lane = static_cast<Eigen::Index>(k);
+      Node& node = nodes_[o.node];
+      const Eigen::Vector3f center = (of.center - origin_mm_).cast<float>();
+      const Eigen::Vector3f axis = of.axis.cast<float>();
+      for (std::size_t i = 0; i < 3; ++i) {
+        node.center[i][lane] = center[static_cast<Eigen::Index>(i)];
+        node.axis[i][lane] = axis[static_cast<Eigen::Index>(i)];
+      }
+      node.radius_mm[lane] = static_cast<float>(of.radius_mm);
+      node.sin_half[lane] = static_cast<float>(of.sin_half);
+      node.cos2_half[lane] = static_cast<float>(of.cos2_half);
+      node.child[k] = child;
+    }
   }
 }
 
-FacetBeams::Node FacetBeams::node_around(const TriangleMesh& mesh, const Beam* from,
+FacetBeams::Bounds FacetBeams::bounds_of(const TriangleMesh& mesh, const Beam* from,
                                          const Beam* to) const {
   const auto for_corners = [&](const auto& call) {
     for (const Beam* b = from; b != to; ++b) {
@@ -128,24 +186,24 @@ FacetBeams::Node FacetBeams::node_around(const TriangleMesh& mesh, const Beam* f
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   });
-  Node node{};
-  node.center = to - from == 1 ? from->middle : Eigen::Vector3d(0.5 * (low + high));
+  Bounds out;
+  out.center = to - from == 1 ? from->middle : Eigen::Vector3d(0.5 * (low + high));
   for_corners([&](const Eigen::Vector3d& p) {
-    node.radius_mm = std::max(node.radius_mm, (p - node.center).norm());
+    out.radius_mm = std::max(out.radius_mm, (p - out.center).norm());
   });
-  node.radius_mm += round_mm_;
+  out.radius_mm += round_mm_;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Beam* b = from; b != to; ++b) sum += b->direction;
   double half_angle = 0.0;
   for (const Beam* b = from; b != to; ++b) {
     half_angle = std::max(half_angle, angle(sum, b->direction) + b->half_angle);
   }
-  constexpr double kWide = 1.5;  // rad; the bound is valid below a right angle
-  const bool cone = half_angle < kWide && sum.norm() > 0.0;
-  node.axis = cone ? Eigen::Vector3d(sum.normalized()) : Eigen::Vector3d::Zero();
-  node.sin_half = cone ? std::sin(half_angle) : 0.0;
-  node.cos2_half = cone ? std::pow(std::cos(half_angle), 2) : 0.0;
-  return node;
+  if (half_angle < kWidest && sum.norm() > 0.0) {
+    out.axis = sum.normalized();
+    out.sin_half = std::sin(half_angle);
+    out.cos2_half = std::pow(std::cos(half_angle), 2);
+  }
+  return out;
 }
 
 }  // namespace scattermeter
