@@ -10,8 +10,7 @@
 namespace scattermeter::apps {
 namespace {
 
-// Of each end of a straight edge in the picture: besides the search's own error, that of the mesh's
-// size.
+// Of each corner in the picture: besides the search's own error, that of the mesh's size.
 double line_std_px(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose) {
   double out = rig.pose.edge_std_px;
   for (const auto& [name, object] : objects) {

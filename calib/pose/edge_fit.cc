@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <ceres/ceres.h>
 
+#include "calib/pose/outline_errors.h"
 #include "core/base/covariance_root.h"
 #include "core/base/dense_solve.h"
 #include "core/base/solver_options.h"
@@ -93,31 +94,15 @@ double difference_step(int parameter) {
   return is_mm ? 1e-4 : 1e-6;
 }
 
-// Whitened residuals of the pieces of one line.
-class LineCost final : public ceres::CostFunction {
+// Whitened residuals of points whose errors are independent of those of all others.
+class OutlineCost final : public ceres::CostFunction {
  public:
-  LineCost(const Problem& problem, std::vector<std::size_t> which, const EdgeFitOptions& options)
-      : problem_(problem), which_(std::move(which)) {
-    const auto n = static_cast<Eigen::Index>(which_.size());
-    // Positions along the line, -1 and 1 at its ends.
-    Eigen::VectorXd q(n);
-    const EdgePoint& first = problem.points[which_[0]];
-    for (Eigen::Index i = 0; i < n; ++i) {
-      q[i] = first.tangent.dot(problem.points[which_[static_cast<std::size_t>(i)]].point_mm -
-                               first.point_mm);
-    }
-    const double middle = 0.5 * (q.maxCoeff() + q.minCoeff());
-    const double half = 0.5 * (q.maxCoeff() - q.minCoeff());
-    q = half > 0 ? ((q.array() - middle) / half).matrix().eval() : Eigen::VectorXd::Zero(n).eval();
-    Eigen::MatrixXd covariance = 0.5 * options.line_std_px * options.line_std_px *
-                                 (Eigen::MatrixXd::Ones(n, n) + q * q.transpose());
-    for (Eigen::Index i = 0; i < n; ++i) {
-      covariance(i, i) += std::pow(problem.points[which_[static_cast<std::size_t>(i)]].std_px, 2) +
-                          std::pow(options.piece_std_px, 2);
-    }
-    if (options.robust) covariance(0, 0) += std::pow(options.robust_px, 2);
-    whitening_ = inverse_lu(cholesky_lower(covariance));
-    set_num_residuals(static_cast<int>(n));
+  OutlineCost(const Problem& problem, std::vector<std::size_t> which, const EdgeFitOptions& options)
+      : problem_(problem),
+        which_(std::move(which)),
+        errors_(problem.points, which_, options.line_std_px,
+                std::hypot(options.piece_std_px, options.robust ? options.robust_px : 0.0)) {
+    set_num_residuals(static_cast<int>(which_.size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(problem.free.size()));
   }
 
@@ -125,11 +110,10 @@ class LineCost final : public ceres::CostFunction {
                 double** jacobians) const override {
     const Eigen::VectorXd v = problem_.all(parameters[0]);
     Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
-    r = whitening_ * problem_.residuals(which_, v);
+    r = errors_.whitened(problem_.residuals(which_, v));
     if (!r.allFinite()) return false;
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> j(
-        jacobians[0], num_residuals(), static_cast<Eigen::Index>(problem_.free.size()));
+    Eigen::MatrixXd j(num_residuals(), static_cast<Eigen::Index>(problem_.free.size()));
     for (std::size_t i = 0; i < problem_.free.size(); ++i) {
       const double step = difference_step(problem_.free[i]);
       Eigen::VectorXd up = v;
@@ -137,16 +121,18 @@ class LineCost final : public ceres::CostFunction {
       up[problem_.free[i]] += step;
       down[problem_.free[i]] -= step;
       j.col(static_cast<Eigen::Index>(i)) =
-          whitening_ *
-          ((problem_.residuals(which_, up) - problem_.residuals(which_, down)) / (2 * step));
+          (problem_.residuals(which_, up) - problem_.residuals(which_, down)) / (2 * step);
     }
+    j = errors_.whitened(j);
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+        jacobians[0], j.rows(), j.cols()) = j;
     return j.allFinite();
   }
 
  private:
   const Problem& problem_;
   std::vector<std::size_t> which_;
-  Eigen::MatrixXd whitening_;  // W with W C W^T = 1, C the covariance of the residuals
+  OutlineErrors errors_;
 };
 
 // Normal prior about 0: the residual is a root of its information times the values.
@@ -171,16 +157,24 @@ class PriorCost final : public ceres::CostFunction {
   Eigen::MatrixXd root_;
 };
 
-// The pieces of each line; in a robust fit each piece is a line of its own.
-using EdgeLines = std::map<std::pair<int, int>, std::vector<std::size_t>>;
-EdgeLines lines_to_fit(const std::vector<EdgePoint>& points, bool robust) {
-  EdgeLines lines;
+// Points by the errors that they have in common: those of a body, or of each line of a body of so
+// many that they are those of a curved surface; in a robust fit each by itself.
+std::vector<std::vector<std::size_t>> groups_of(const std::vector<EdgePoint>& points, bool robust) {
+  constexpr std::size_t kMostLines = 64;
+  std::map<int, std::map<int, std::vector<std::size_t>>> bodies;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto key = robust ? std::pair<int, int>{static_cast<int>(i), 0}
-                            : std::pair<int, int>{points[i].body_idx, points[i].line_idx};
-    lines[key].push_back(i);
+    bodies[points[i].body_idx][robust ? static_cast<int>(i) : points[i].line_idx].push_back(i);
   }
-  return lines;
+  std::vector<std::vector<std::size_t>> out;
+  for (const auto& [body, lines] : bodies) {
+    const bool is_one = !robust && lines.size() <= kMostLines;
+    if (is_one) out.emplace_back();
+    for (const auto& [line, which] : lines) {
+      if (!is_one) out.emplace_back();
+      out.back().insert(out.back().end(), which.begin(), which.end());
+    }
+  }
+  return out;
 }
 
 // Inverse of J^T J at the current values of the problem.
@@ -204,8 +198,8 @@ Eigen::MatrixXd inverse_information(ceres::Problem& least_squares) {
   return norms.cwiseInverse().asDiagonal() * covariance * norms.cwiseInverse().asDiagonal();
 }
 
-// Sum of squares of the lines at the current values; none if a point has no image.
-std::optional<double> unfitted_chi2(const std::vector<std::unique_ptr<LineCost>>& costs) {
+// Sum of squares of the points at the current values; none if a point has no image.
+std::optional<double> unfitted_chi2(const std::vector<std::unique_ptr<OutlineCost>>& costs) {
   double chi2 = 0;
   for (const auto& cost : costs) {
     Eigen::VectorXd r(cost->num_residuals());
@@ -254,9 +248,9 @@ EdgeFit fit_edges(const std::vector<EdgePoint>& points, const CameraIntrinsics& 
                                         [](int i) { return i == kFocal || i == kDistortion; });
   const Problem problem{points, intrinsics,       camera_from_world, options.free,
                         size,   Lens(intrinsics), lens_changes};
-  std::vector<std::unique_ptr<LineCost>> costs;
-  for (const auto& [key, which] : lines_to_fit(points, options.robust)) {
-    costs.push_back(std::make_unique<LineCost>(problem, which, options));
+  std::vector<std::unique_ptr<OutlineCost>> costs;
+  for (std::vector<std::size_t>& which : groups_of(points, options.robust)) {
+    costs.push_back(std::make_unique<OutlineCost>(problem, std::move(which), options));
   }
   if (options.free.empty()) {
     const std::optional<double> chi2 = unfitted_chi2(costs);

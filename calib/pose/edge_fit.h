@@ -29,8 +29,8 @@ struct EdgeFitOptions {
   std::vector<int> free;  // indices of the fitted parameters
   // Information matrix of the normal prior about 0 of all parameters, n x n with n = 15 + bodies.
   Eigen::MatrixXd prior;
-  // Standard deviations of the errors of mesh, lens and edge profile, px: of each end of a line
-  // (interpolated linearly for the pieces between them), and of each piece independently.
+  // Standard deviations of the errors of mesh, lens and edge profile, px: of each corner in either
+  // direction (see OutlineErrors), and of each piece independently.
   double line_std_px = 0;
   double piece_std_px = 0;
   bool robust = false;  // Cauchy's loss for each piece independently, without lines

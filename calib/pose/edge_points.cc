@@ -53,6 +53,7 @@ std::vector<Candidate> predict(std::span<const EdgeShot> shots, const Lens& lens
       c.point.shot_idx = static_cast<int>(i);
       c.point.body_idx = shots[i].body_idx;
       c.point.line_idx = piece.line_idx;
+      c.point.line_end_mm = piece.line_end_mm;
       c.point.kind = piece.kind;
       c.point.point_mm = piece.center_mm;
       c.point.tangent = piece.half_mm.normalized();

@@ -1,6 +1,7 @@
 // Points of a body's outline, predicted from its mesh and located in a shot.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct EdgePoint {
   int shot_idx = 0;
   int body_idx = 0;
   int line_idx = 0;  // of the body's mesh; see EdgePiece
+  std::array<Eigen::Vector3d, 2> line_end_mm;
   EdgeKind kind = EdgeKind::kContour;
   Eigen::Vector3d point_mm;     // on the mesh, world
   Eigen::Vector3d tangent;      // unit, world

@@ -9,7 +9,7 @@ namespace scattermeter::calib {
 
 struct EdgeScatter {
   double piece_std_px = 0;  // of each piece about the straight line of its edge
-  double line_std_px = 0;   // of each end of a line, see EdgeFitOptions
+  double line_std_px = 0;   // of each corner, see EdgeFitOptions
 };
 
 // Estimates the scatter by the method of moments (R. C. Paule, J. Mandel, "Consensus values and

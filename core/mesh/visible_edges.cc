@@ -22,6 +22,7 @@ struct MeshEdge {
   std::array<Eigen::Vector3d, 2> end_mm;
   std::array<int, 2> facet;
   int line_idx;
+  std::array<Eigen::Vector3d, 2> line_end_mm;
 };
 
 // Edges in the order in which the triangles name them first.
@@ -35,10 +36,9 @@ std::vector<MeshEdge> edges_of(const TriangleMesh& mesh, double size_mm) {
       const int b = t[(k + 1) % 3];
       const auto [it, is_new] = by_ends.try_emplace(std::minmax(a, b), edges.size());
       if (is_new) {
-        edges.push_back({{mesh.vertices_mm[static_cast<std::size_t>(a)],
-                          mesh.vertices_mm[static_cast<std::size_t>(b)]},
-                         {static_cast<int>(f), -1},
-                         0});
+        const std::array<Eigen::Vector3d, 2> ends = {mesh.vertices_mm[static_cast<std::size_t>(a)],
+                                                     mesh.vertices_mm[static_cast<std::size_t>(b)]};
+        edges.push_back({ends, {static_cast<int>(f), -1}, 0, ends});
       } else {
         edges[it->second].facet[1] = static_cast<int>(f);
       }
@@ -47,6 +47,7 @@ std::vector<MeshEdge> edges_of(const TriangleMesh& mesh, double size_mm) {
   // Lines are the same when direction and foot of the perpendicular from the origin agree.
   using Key = std::array<std::int64_t, 6>;
   std::map<Key, int> lines;
+  std::vector<std::array<Eigen::Vector3d, 2>> line_ends;
   for (MeshEdge& e : edges) {
     Eigen::Vector3d u = (e.end_mm[1] - e.end_mm[0]).normalized();
     int major = 0;
@@ -58,8 +59,16 @@ std::vector<MeshEdge> edges_of(const TriangleMesh& mesh, double size_mm) {
       key[static_cast<std::size_t>(i)] = std::llround(1e4 * u[i]);
       key[static_cast<std::size_t>(3 + i)] = std::llround(1e3 * foot[i] / size_mm);
     }
-    e.line_idx = lines.try_emplace(key, static_cast<int>(lines.size())).first->second;
+    const auto [line, is_new] = lines.try_emplace(key, static_cast<int>(lines.size()));
+    e.line_idx = line->second;
+    if (is_new) line_ends.push_back({e.end_mm[0], e.end_mm[0]});
+    auto& [first, last] = line_ends[static_cast<std::size_t>(e.line_idx)];
+    for (const Eigen::Vector3d& end : e.end_mm) {
+      if (end[major] < first[major]) first = end;
+      if (end[major] > last[major]) last = end;
+    }
   }
+  for (MeshEdge& e : edges) e.line_end_mm = line_ends[static_cast<std::size_t>(e.line_idx)];
   return edges;
 }
 
@@ -158,6 +167,7 @@ std::vector<EdgePiece> visible_edges(const RayScene& scene, const Eigen::Vector3
     for (int i = 0; i < n; ++i) {
       EdgePiece piece;
       piece.line_idx = e.line_idx;
+      piece.line_end_mm = e.line_end_mm;
       piece.center_mm = e.end_mm[0] + along * ((i + 0.5) / n);
       piece.half_mm = along * (0.5 / n);
       piece.outward = along.cross(piece.center_mm - eye_mm).normalized();

@@ -1,6 +1,7 @@
 // The edges of a body that are visible in a picture of it.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,9 +20,10 @@ enum class EdgeKind {
 // A straight piece of an edge.
 struct EdgePiece {
   EdgeKind kind = EdgeKind::kContour;
-  int line_idx = 0;           // common to the pieces of one straight line of the mesh
-  Eigen::Vector3d center_mm;  // world
-  Eigen::Vector3d half_mm;    // the piece is center +- half
+  int line_idx = 0;  // common to the pieces of one straight line of the mesh
+  std::array<Eigen::Vector3d, 2> line_end_mm;  // vertices of the mesh; of lines that meet, the same
+  Eigen::Vector3d center_mm;                   // world
+  Eigen::Vector3d half_mm;                     // the piece is center +- half
   // Unit, perpendicular to the edge and to the line of sight: away from the body (contour, step),
   // from one facet to the other (crease).
   Eigen::Vector3d outward;
