@@ -23,6 +23,7 @@
 #include "core/estimation/estimation.h"
 #include "core/estimation/model_choice.h"
 #include "core/estimation/transport_search.h"
+#include "core/estimation/transport_start.h"
 #include "core/estimation/view_shift.h"
 #include "core/fit/prior_pulls.h"
 #include "core/view/row_selection.h"
@@ -187,10 +188,7 @@ std::vector<bool> judged_channels(Estimation& e,
   if (best.empty()) return judged;
   ProgressStage stage(e.progress, "transport", best.size());
   for (const auto& [material, i] : best) {
-    ChannelResult result = e.results[i];
-    result.model = "transport";
-    result.dipole = result.estimate;
-    result.rows.clear();
+    ChannelResult result = start_from_dipole(e.results[i]);
     search_by_transport(e.scene, e.channels[i], *systems[i], *e.kept.atlas, true, e.options, stage,
                         result);
     judged[i] = true;

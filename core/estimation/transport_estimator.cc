@@ -24,11 +24,8 @@ using Systems = std::vector<std::optional<DipoleSystem>>;
 // The channel by transport; false, with nothing changed, where that lacks paths.
 bool search_one(Estimation& e, const Systems& systems, std::size_t channel, bool may_trace,
                 std::span<const ChannelResult> others, ProgressStage& stage) {
-  ChannelResult result = e.results[channel];
-  result.dipole = result.estimate;
+  ChannelResult result = start_from_dipole(e.results[channel]);
   if (!start_as_before(e.options.found, result)) start_like_others(others, result.estimate);
-  result.model = "transport";
-  result.rows.clear();
   if (!search_by_transport(e.scene, e.channels[channel], *systems[channel], *e.kept.atlas,
                            may_trace, e.options, stage, result)) {
     return false;

@@ -43,6 +43,14 @@ std::pair<double, double> offset_of(const Eigen::ArrayXd& light, bool has_free_s
 
 }  // namespace
 
+ChannelResult start_from_dipole(const ChannelResult& by_dipole) {
+  ChannelResult out = by_dipole;
+  out.dipole = by_dipole.estimate;
+  out.model = "transport";
+  out.rows.clear();
+  return out;
+}
+
 void start_like_others(std::span<const ChannelResult> found, Estimate& start) {
   if (!determines(start)) return;
   const ChannelResult* like = nullptr;

@@ -11,6 +11,10 @@
 
 namespace scattermeter {
 
+// The result by the dipole as that with which a search begins: its estimate is also kept as
+// `dipole`.
+ChannelResult start_from_dipole(const ChannelResult& by_dipole);
+
 // Moves the start (so far the dipole's estimate) by what transport has found already, `found`
 // holding channels that it has searched, among others. Where the dipole does not hold, its
 // estimates are off by what the body's shape does to them, and that is nearly the same in like

@@ -59,9 +59,13 @@ FacetBeams::FacetBeams(const TriangleMesh& mesh, const Eigen::Vector3d& camera_i
     beam.half_angle += kRound;
     beam.direction = refracted(ray, normal, eta_int_over_ext).normalized();
     beams.push_back(beam);
-    Facet facet{f,      seen[static_cast<std::size_t>(f)],       height_mm,
-                normal, camera_in_world_mm - height_mm * normal, {},
-                {}};
+    Facet facet{.facet_idx = f,
+                .surely_seen = seen[static_cast<std::size_t>(f)],
+                .height_mm = height_mm,
+                .normal = normal,
+                .foot = camera_in_world_mm - height_mm * normal,
+                .inward = {},
+                .edge = {}};
     for (std::size_t i = 0; i < 3; ++i) {
       const Eigen::Vector3d& from = mesh.vertices_mm[static_cast<std::size_t>(t[i])];
       const Eigen::Vector3d& to = mesh.vertices_mm[static_cast<std::size_t>(t[(i + 1) % 3])];

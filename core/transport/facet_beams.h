@@ -95,7 +95,7 @@ class FacetBeams {
     Lanes cos2_half;
     std::array<int, kChildren> child;  // a node; a facet: -facet - 1
 
-    // Bit k: child k's beams may.
+    // Bit k: whether a beam of child k may contain x at less than within_mm.
     unsigned may_hold(const Eigen::Vector3f& x, float within_mm) const {
       const Lanes vx = x[0] - center[0], vy = x[1] - center[1], vz = x[2] - center[2];
       const Lanes v2 = vx * vx + vy * vy + vz * vz;
@@ -112,7 +112,7 @@ class FacetBeams {
       for (int k = 0; k < kChildren; ++k) out |= static_cast<unsigned>(excess[k] <= 0.0F) << k;
       return out;
     }
-    // With cones wider by an angle below a right one.
+    // The same node with cones that are wider by an angle below a right one.
     Node turned(float sin_turn, float cos_turn) const {
       const Lanes cos_half = cos2_half.sqrt();
       const Lanes cos_wider = cos_half * cos_turn - sin_half * sin_turn;

@@ -33,6 +33,21 @@ ChannelResult searched(const std::string& material, const Estimate& dipole,
   return out;
 }
 
+TEST(TransportStart, KeepsTheDipolesEstimate) {
+  ChannelResult by_dipole;
+  by_dipole.material = "PP";
+  by_dipole.model = "dipole";
+  by_dipole.estimate = estimate(1.0, 0.01);
+  by_dipole.rows.resize(2);
+  const ChannelResult start = start_from_dipole(by_dipole);
+  EXPECT_EQ(start.material, "PP");
+  EXPECT_EQ(start.model, "transport");
+  EXPECT_TRUE(start.rows.empty());
+  ASSERT_TRUE(start.dipole);
+  EXPECT_EQ(start.dipole->sigma_s_prime_per_mm.value, 1.0);
+  EXPECT_EQ(start.estimate.sigma_a_per_mm.value, 0.01);
+}
+
 void expect_at(const Estimate& start, double sigma_s_prime, double sigma_a) {
   EXPECT_NEAR(start.sigma_s_prime_per_mm.value, sigma_s_prime, 1e-12);
   EXPECT_NEAR(start.sigma_a_per_mm.value, sigma_a, 1e-12);

@@ -52,6 +52,15 @@ TEST(VisibleEdges, DoNotDependOnTheTriangles) {
   std::map<int, int> lines;
   for (const EdgePiece& p : fine) ++lines[p.line_idx];
   EXPECT_EQ(lines.size(), 9U);
+  // A line ends in corners of the cube, however finely it is cut.
+  for (const EdgePiece& p : fine) {
+    const auto& [from, to] = p.line_end_mm;
+    EXPECT_NEAR((to - from).norm(), 20, 1e-9);
+    for (const Eigen::Vector3d& end : p.line_end_mm) {
+      EXPECT_NEAR((end - Eigen::Vector3d(0, 0, 10)).cwiseAbs().minCoeff(), 10, 1e-9);
+    }
+    EXPECT_LT((p.center_mm - from).norm() + (to - p.center_mm).norm(), 20 + 1e-9);
+  }
 }
 
 // One box before another, as one mesh: where its outline lies before the other it is a step, and
