@@ -81,7 +81,6 @@ class TransportRound {
   double unexplained() const { return unexplained_; }
   double scatter_within() const { return scatter_within_; }
   double scatter() const { return scatter_; }
-  PathErrors errors() const { return {scatter(), blocks()}; }
   // Of each row: noise and smooth Monte Carlo (smooth_path_variance), times `scatter`.
   Eigen::VectorXd row_variance(const std::vector<double>& area_mm2, double scatter) const;
   // Whether the image contradicts the stated scale.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -17,8 +18,8 @@
 #include "core/estimation/transport_round.h"
 #include "core/estimation/transport_start.h"
 #include "core/estimation/transport_verdict.h"
+#include "core/fit/cell_step.h"
 #include "core/transport/path_budget.h"
-#include "core/view/row_selection.h"
 
 namespace scattermeter {
 namespace {
@@ -36,8 +37,6 @@ constexpr double kFarStep = 0.3;
 // so many is reported.
 constexpr double kEfficient = 0.1;
 constexpr int kMostReports = 4;
-// Rows farther off, in robust deviations, are dust and scratches; Monte Carlo has long tails.
-constexpr double kTransportOutlierStd = 8.0;
 
 class TransportSearch {
  public:
@@ -93,6 +92,7 @@ class TransportSearch {
     std::optional<ChannelResult> found;
     int blocks = kFirstBlocks;  // per light and view; more as the search closes in
     Look last = first_look(at);
+    approach(at, last);
     bool outliers_known = false;
     int reports = 0;
     bool is_owed = false;  // a round without the outliers, with the paths that there are
@@ -111,9 +111,9 @@ class TransportSearch {
                                           last.image.variance, last.errors.of_block()),
                            last.errors.blocks * last.errors.of_block());
       trace(round, blocks, learned, last);
-      const bool is_weighted = fits_weights(round.errors(), last.errors);
+      const bool is_weighted = fits_weights(errors(round), last.errors);
       if (round.step().change > kFarStep) pilots_.forget();
-      last = {round.image(), round.errors()};
+      last = {round.image(), errors(round)};
       pilots_.learn(
           parts_, round.look(),
           {round.of_cells(round.look().by_half[0]), round.of_cells(round.look().by_half[1])},
@@ -140,6 +140,19 @@ class TransportSearch {
     return found;
   }
 
+  // Steps by cells, where there are paths already: a look is cheaper than a round.
+  void approach(ScatteringPoint& at, Look& last) {
+    constexpr double kNear = 0.1;  // of the image
+    for (int i = 0; i < 3 && last.errors.blocks >= kLeastBlocks; ++i) {
+      const ScatteringEquation::Step step =
+          step_by_cells(system_, parts_, scale_, last.image, at, last.errors.scatter);
+      at = step.to;
+      if (step.change < kNear) return;
+      if (step.change > kFarStep) pilots_.forget();
+      last = first_look(at);
+    }
+  }
+
   ScatteringPoint start(const Estimate& dipole) {
     const auto light = [&](int node, double sigma_a_per_mm) -> Eigen::ArrayXd {
       stage_.check();
@@ -163,7 +176,7 @@ class TransportSearch {
   void trace(TransportRound& round, int blocks, bool may_be_last, const Look& by) {
     const ChannelSimulation::Projections projections = round.projections();
     round.take(look(round.at(), blocks, projections));
-    while (may_be_last && fits_weights(round.errors(), by.errors) &&
+    while (may_be_last && fits_weights(errors(round), by.errors) &&
            is_close(round.step(), round.blocks(), round.misfit()) && !round.has_enough_paths()) {
       stage_.check();
       int more = next_blocks(round.at(), round.blocks(), budget_);
@@ -176,18 +189,26 @@ class TransportSearch {
     }
   }
 
-  static double blocks_of(std::int64_t paths) {
-    return static_cast<double>(paths) / ChannelSimulation::kBlockPaths;
+  static double blocks_of(std::int64_t paths) { return paths / ChannelSimulation::kBlockPaths; }
+  std::function<std::int64_t(int blocks)> missing(const ScatteringPoint& at) const {
+    return [this, at](int blocks) { return simulation_.missing_paths(at, blocks); };
   }
   int next_blocks(const ScatteringPoint& at, int now, const PathBudget& budget) const {
-    return budget.next_blocks(now, kLeastBlocks,
-                              [&](int blocks) { return simulation_.missing_paths(at, blocks); });
+    return budget.next_blocks(now, kLeastBlocks, missing(at));
+  }
+  int final_blocks(const ScatteringPoint& at, int now) const {
+    return budget_.final_blocks(now, kLeastBlocks, kFinalPathBlocks, missing(at));
+  }
+  PathErrors errors(const TransportRound& round) const {
+    return {round.scatter(), round.blocks(), final_blocks(round.at(), round.blocks())};
   }
 
-  Look first_look(const ScatteringPoint& at, double scatter = 1.0) {
+  Look first_look(const ScatteringPoint& at, std::optional<double> scatter = {}) {
     ChannelSimulation::Look seen = look(at, kFirstBlocks, {parts_.cells(), parts_.cells()});
     pilots_.learn(parts_, seen, seen.by_half, dipole(at));
-    return {std::move(seen.image), {scatter, seen.blocks}};
+    PathErrors errors = first_errors(seen.blocks, final_blocks(at, seen.blocks));
+    errors.scatter = scatter.value_or(errors.scatter);
+    return {std::move(seen.image), errors};
   }
 
   // Keeps rows of which `state_of(shot, row of its view, row of the system so far)` is kUsed.
@@ -217,11 +238,7 @@ class TransportSearch {
 
   // Whether there were any.
   bool leave_outliers_out(const TransportRound& round) {
-    const Eigen::VectorXd rest = round.equation().without_nuisances(round.residual());
-    const RowSelectionOptions options{.outlier_std = kTransportOutlierStd};
-    const std::vector<Eigen::Index> far =
-        outliers(rest, Eigen::VectorXd::Zero(rest.size()),
-                 round.row_variance(simulation_.area_mm2(), round.scatter()).cwiseSqrt(), options);
+    const std::vector<Eigen::Index> far = outlying_rows(round, simulation_.area_mm2());
     if (far.empty()) return false;
     keep([&](std::size_t, std::size_t, Eigen::Index row) {
       return std::binary_search(far.begin(), far.end(), row) ? RowState::kOutlier : RowState::kUsed;
@@ -234,31 +251,19 @@ class TransportSearch {
   }
 
   void report(const TransportRound& round, ChannelResult& result) const {
-    Estimate& estimate = result.estimate;
-    estimate.reasons.clear();
-    const ScatteringEquation::ScaleTest scale_test = round.scale_test();
-    report_step(widened_by_scale(round.equation(), scale_test, round.step()), estimate);
-    const Eigen::VectorXd rest = round.residual();
-    if (!scale_.is_free()) {
-      const double scale = std::exp(round.equation().settled_log_scale(rest));
-      estimate.scale = normal_quantity(scale, scale * scale_.relative_std);
-    }
-    const Eigen::VectorXd variance = round.row_variance(simulation_.area_mm2(), 1.0);
-    report_residual(system_, rest, round.equation().without_nuisances(rest), variance, estimate);
+    report_fit(round, system_, scale_, simulation_.area_mm2(), result);
     report_rows(channel_, rows_, result);
-    ModelJudgement judgement = round.judgement();
-    add_refusals(round.misfit(), round.unexplained(), std::move(judgement.pulls), scale_test,
-                 round.blocks(), estimate);
-    result.evidence = std::move(judgement.evidence);
-    std::vector<ShotRows> rows = shot_rows(channel_, rows_, system_.l - rest, variance.cwiseSqrt());
+    std::vector<ShotRows> rows =
+        shot_rows(channel_, rows_, system_.l - round.residual(),
+                  round.row_variance(simulation_.area_mm2(), 1.0).cwiseSqrt());
     result.look = residual_look(rows, channel_);
     if (options_.keep_rows) result.rows = std::move(rows);
-    widen_by_mesh_scale(channel_, estimate);
+    widen_by_mesh_scale(channel_, result.estimate);
     report_shots(round, channel_, result);
     result.has_enough_paths =
         round.has_enough_paths() ||
         next_blocks(round.at(), round.blocks(), budget_.with(blocks_of(options_.paths))) == 0;
-    refuse_undetermined(estimate);
+    refuse_undetermined(result.estimate);
   }
 
   const MaterialChannel& channel_;

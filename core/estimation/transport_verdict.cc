@@ -12,6 +12,7 @@
 #include "core/estimation/transport_round.h"
 #include "core/fit/prior_pulls.h"
 #include "core/fit/residual.h"
+#include "core/view/row_selection.h"
 
 namespace scattermeter {
 namespace {
@@ -35,7 +36,31 @@ const Eigen::MatrixXd& covariance_by(const ScatteringEquation::Step& step,
       ->covariance;
 }
 
+// How far the image is off: `rest`, before and after (`settled`) the nuisances take their most
+// probable values, the latter against `variance`; W/mm^2 and its square, of the system's rows.
+void report_residual(const DenseSystem& system, const Eigen::VectorXd& rest,
+                     const Eigen::VectorXd& settled, const Eigen::VectorXd& variance,
+                     Estimate& estimate) {
+  estimate.reduced_chi2 = settled.cwiseAbs2().cwiseQuotient(variance).mean();
+  const Residual whole = residual(system.l, system.l - rest, system.std_l);
+  estimate.rms_relative = whole.rms_relative;
+  estimate.psnr_db = whole.psnr_db;
+  estimate.rows = static_cast<std::size_t>(system.l.size());
+}
+
+// The step, with a larger covariance if the image contradicts the stated scale.
+ScatteringEquation::Step widened_by_scale(const ScatteringEquation& equation,
+                                          const ScatteringEquation::ScaleTest& scale,
+                                          ScatteringEquation::Step step) {
+  if (scale.p_value < kWideningScalePValue) equation.widen_by_scale(scale.offset, step);
+  return step;
+}
+
 }  // namespace
+
+PathErrors first_errors(int blocks, int final_blocks) {
+  return {1.0 + static_cast<double>(blocks) / final_blocks, blocks, final_blocks};
+}
 
 bool fits_weights(const PathErrors& found, const PathErrors& assumed) {
   constexpr double kLike = 1.5;
@@ -48,7 +73,7 @@ bool is_close(const ScatteringEquation::Step& step, int blocks, const LackOfFit&
   constexpr double kOfStd = 0.15;
   const double more = blocks > kLeastBlocks ? 1.7 : 1.0;
   const Eigen::MatrixXd& paths = covariance_by(step, "Monte Carlo");
-  const double saved = 1.0 - std::min(1.0, blocks / kFinalPathBlocks);
+  const double saved = 1.0 - std::min(1.0, static_cast<double>(blocks) / kFinalPathBlocks);
   for (Eigen::Index k = 0; k < step.taken.size(); ++k) {
     const double change = std::abs(step.taken[k]) * step.size[k] / more;
     // Whatever the deviation: it is that of a point too far off.
@@ -122,23 +147,6 @@ void report_shots(const TransportRound& round, const MaterialChannel& channel,
   widen_by_disagreement(result.agreement, result.estimate);
 }
 
-void report_residual(const DenseSystem& system, const Eigen::VectorXd& rest,
-                     const Eigen::VectorXd& settled, const Eigen::VectorXd& variance,
-                     Estimate& estimate) {
-  estimate.reduced_chi2 = settled.cwiseAbs2().cwiseQuotient(variance).mean();
-  const Residual whole = residual(system.l, system.l - rest, system.std_l);
-  estimate.rms_relative = whole.rms_relative;
-  estimate.psnr_db = whole.psnr_db;
-  estimate.rows = static_cast<std::size_t>(system.l.size());
-}
-
-ScatteringEquation::Step widened_by_scale(const ScatteringEquation& equation,
-                                          const ScatteringEquation::ScaleTest& scale,
-                                          ScatteringEquation::Step step) {
-  if (scale.p_value < kWideningScalePValue) equation.widen_by_scale(scale.offset, step);
-  return step;
-}
-
 void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<PriorPull> pulls,
                   const ScatteringEquation::ScaleTest& scale, int blocks, Estimate& estimate) {
   if (blocks < kLeastBlocks) {
@@ -171,6 +179,33 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
         100.0 * std::abs(std::expm1(scale.offset)), 100.0 * scale.std,
         scale.offset > 0.0 ? "larger" : "smaller"));
   }
+}
+
+std::vector<Eigen::Index> outlying_rows(const TransportRound& round,
+                                        const std::vector<double>& area_mm2) {
+  constexpr double kFar = 8.0;  // robust deviations
+  const Eigen::VectorXd rest = round.equation().without_nuisances(round.residual());
+  return outliers(rest, Eigen::VectorXd::Zero(rest.size()),
+                  round.row_variance(area_mm2, round.scatter()).cwiseSqrt(), {.outlier_std = kFar});
+}
+
+void report_fit(const TransportRound& round, const DenseSystem& system, const ScalePrior& scale,
+                const std::vector<double>& area_mm2, ChannelResult& result) {
+  Estimate& estimate = result.estimate;
+  estimate.reasons.clear();
+  const ScatteringEquation::ScaleTest scale_test = round.scale_test();
+  report_step(widened_by_scale(round.equation(), scale_test, round.step()), estimate);
+  const Eigen::VectorXd rest = round.residual();
+  if (!scale.is_free()) {
+    const double settled = std::exp(round.equation().settled_log_scale(rest));
+    estimate.scale = normal_quantity(settled, settled * scale.relative_std);
+  }
+  report_residual(system, rest, round.equation().without_nuisances(rest),
+                  round.row_variance(area_mm2, 1.0), estimate);
+  ModelJudgement judgement = round.judgement();
+  add_refusals(round.misfit(), round.unexplained(), std::move(judgement.pulls), scale_test,
+               round.blocks(), estimate);
+  result.evidence = std::move(judgement.evidence);
 }
 
 }  // namespace scattermeter

@@ -18,16 +18,20 @@ class TransportRound;
 
 // The least number for which the covariances of a shot's parts are usable.
 inline constexpr int kLeastBlocks = 64;
-// The expected final number of blocks of a search; the weights assume its Monte Carlo errors.
-inline constexpr double kFinalPathBlocks = 512.0;
+// The number of blocks with which a search ends that neither time nor paths limit.
+inline constexpr int kFinalPathBlocks = 512;
 
 // Of the light at the end of a search: of a final number of blocks, and scatter as of these.
 struct PathErrors {
   double scatter = 1;  // TransportRound::scatter()
   int blocks = 0;
+  int final_blocks = kFinalPathBlocks;
   // Variance relative to that of one block.
-  double of_block() const { return 1.0 / kFinalPathBlocks + (scatter - 1.0) / blocks; }
+  double of_block() const { return 1.0 / final_blocks + (scatter - 1.0) / blocks; }
 };
+// Before any round: scatter as large as Monte Carlo at the end of the search. Weights for twice its
+// variance are hardly worse where the shots add none, and far better where they do.
+PathErrors first_errors(int blocks, int final_blocks);
 // Whether a round's errors are hardly larger than those that its weights assume. Otherwise they are
 // far from the best: a cube of 1.5 per mm was measured to 28 % where the next round had 8 %.
 bool fits_weights(const PathErrors& found, const PathErrors& assumed);
@@ -62,16 +66,15 @@ bool is_better(const Estimate& one, const Estimate& other);
 void report_shots(const TransportRound& round, const MaterialChannel& channel,
                   ChannelResult& result);
 
-// Writes how far the image is off: rest, before and after (`settled`) the nuisances take their most
-// probable values, the latter against `variance`; W/mm^2 and its square, of the system's rows.
-void report_residual(const DenseSystem& system, const Eigen::VectorXd& rest,
-                     const Eigen::VectorXd& settled, const Eigen::VectorXd& variance,
-                     Estimate& estimate);
+// Rows of dust and scratches: Monte Carlo's tails are long, but end before these. area_mm2: by row.
+std::vector<Eigen::Index> outlying_rows(const TransportRound& round,
+                                        const std::vector<double>& area_mm2);
 
-// The step, with a larger covariance if the image contradicts the stated scale.
-ScatteringEquation::Step widened_by_scale(const ScatteringEquation& equation,
-                                          const ScatteringEquation::ScaleTest& scale,
-                                          ScatteringEquation::Step step);
+// Writes values, residual, pulls and evidence of a round whose rows are the system's, with any
+// reasons for refusal; a contradicted scale widens the deviations. scale: as stated; area_mm2: by
+// row.
+void report_fit(const TransportRound& round, const DenseSystem& system, const ScalePrior& scale,
+                const std::vector<double>& area_mm2, ChannelResult& result);
 
 // Adds the misfit, the pulls and any reasons for refusal to an estimate whose values are already
 // set. unexplained: see TransportRound::unexplained().

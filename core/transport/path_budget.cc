@@ -25,4 +25,14 @@ int PathBudget::next_blocks(int now, int least,
   return 0;
 }
 
+int PathBudget::final_blocks(int now, int least, int most,
+                             const std::function<std::int64_t(int)>& missing_paths) const {
+  int out = now;
+  for (int more = now; more > 0 && out < most;) {
+    more = next_blocks(out, least, missing_paths);
+    out = std::max(out, std::min(more, most));
+  }
+  return out;
+}
+
 }  // namespace scattermeter

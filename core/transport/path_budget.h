@@ -37,6 +37,9 @@ class PathBudget {
   // missing_paths: to be traced for so many.
   int next_blocks(int now, int least,
                   const std::function<std::int64_t(int blocks)>& missing_paths) const;
+  // With how many blocks, up to `most`, a search that has `now` can expect to end at this point.
+  int final_blocks(int now, int least, int most,
+                   const std::function<std::int64_t(int blocks)>& missing_paths) const;
   // Whether so many fit into `limits` times the time limit.
   bool has_time_for(std::int64_t paths, double limits = 1.0) const;
 

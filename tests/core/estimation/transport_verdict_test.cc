@@ -61,6 +61,15 @@ TEST(TransportVerdict, WeightsFitScatterThatGrowsWithThePaths) {
   EXPECT_TRUE(fits_weights({4.0, 300}, assumed));
   EXPECT_FALSE(fits_weights({3.0, 100}, assumed));
   EXPECT_FALSE(fits_weights({2.0, 100}, {1.0, 8}));
+  // Where fewer paths are to be had, their errors are those of these.
+  EXPECT_DOUBLE_EQ((PathErrors{2.0, 100, 128}.of_block()), 1.0 / 128.0 + 0.01);
+  EXPECT_FALSE(fits_weights({1.0, 128, 128}, {1.0, 8, 512}));
+}
+
+// Whatever the first look has, the shots are expected to add what the paths will at the end.
+TEST(TransportVerdict, FirstWeightsAreForTwiceTheFinalPaths) {
+  EXPECT_DOUBLE_EQ(first_errors(8, 512).of_block(), 2.0 / 512.0);
+  EXPECT_DOUBLE_EQ(first_errors(200, 200).of_block(), 2.0 / 200.0);
 }
 
 // Deviations of paths that further blocks will remove do not excuse a long step.

@@ -50,6 +50,19 @@ TEST(PathBudget, AFewMorePathsThanWereFoundAreNotWorthTheTime) {
   EXPECT_EQ(own.next_blocks(100, 64, missing), 125);
 }
 
+// 100, 200, 300 blocks of at most 300, or those for which there is time: 10^5 paths in a second.
+TEST(PathBudget, ForeseesHowASearchEnds) {
+  PathBudget budget(300.0, kHour_s);
+  budget.count(1'000'000, 1.0);
+  EXPECT_EQ(budget.final_blocks(100, 64, 512, thousand_each), 300);
+  EXPECT_EQ(budget.final_blocks(100, 64, 240, thousand_each), 240);
+  EXPECT_EQ(budget.final_blocks(600, 64, 512, thousand_each), 600);
+  PathBudget short_time(1e6, 1.0);
+  short_time.count(1, 1e-5);
+  EXPECT_EQ(short_time.final_blocks(40, 64, 512, thousand_each), 80);
+  EXPECT_EQ(PathBudget(1e6, 0.0).final_blocks(40, 64, 512, thousand_each), 40);
+}
+
 TEST(PathBudget, TellsWhetherPathsFitIntoTimesItsLimit) {
   PathBudget budget(1e6, 100.0);
   budget.count(1'000'000, 1.0);
