@@ -20,6 +20,7 @@
 #include "core/estimation/transport_verdict.h"
 #include "core/fit/cell_step.h"
 #include "core/transport/path_budget.h"
+#include "core/view/row_selection.h"
 
 namespace scattermeter {
 namespace {
