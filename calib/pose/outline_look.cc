@@ -17,6 +17,7 @@ constexpr double kFar = 4.0;       // cells
 constexpr double kLeastFound = 0.85;
 constexpr double kNoises = 8.0;
 constexpr double kLeastStep = 0.003;  // of the brightest cell
+constexpr double kShade = 5.0;        // least steps, from which on light is judged by its ratio
 constexpr std::size_t kCoarsePoints = 150;
 constexpr int kCoarseStep = 2;  // cells
 constexpr double kCoarseBeside = 2.0;
@@ -159,12 +160,15 @@ class OutlineFinder {
       const auto f = static_cast<std::size_t>(first);
       return 0.25 * (profile[f] + profile[f + 1] + profile[f + 2] + profile[f + 3]);
     };
-    // Between the samples 3 to 6 before and after k, 1.5 to 3 cells to each side.
-    const auto step = [&](int k) { return mean(k + 3) - mean(k - 6); };
+    // Between the samples 3 to 6 before and after k, 1.5 to 3 cells to each side. A face in the
+    // shade may become bright within some cells: in proportion to its light, that is less than its
+    // edge.
+    const auto seen = [&](int first) { return std::asinh(mean(first) / (kShade * least_)); };
+    const auto step = [&](int k) { return seen(k + 3) - seen(k - 6); };
     for (int k = 2 * kBeside; k <= kSamples - 1 - 2 * kBeside; ++k) {
-      const double s = step(k);
-      if (s < least_ || s < step(k - 1) || s < step(k + 1)) continue;
-      const double level = 0.5 * (mean(k + 3) + mean(k - 6));
+      const double in = mean(k + 3), out = mean(k - 6);
+      if (in - out < least_ || step(k) < step(k - 1) || step(k) < step(k + 1)) continue;
+      const double level = 0.5 * (in + out);
       for (int i = k - 4; i < k + 4; ++i) {
         const double a = profile[static_cast<std::size_t>(i)];
         const double b = profile[static_cast<std::size_t>(i) + 1];

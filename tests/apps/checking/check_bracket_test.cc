@@ -18,23 +18,26 @@ using CheckedBracket = BracketRig;
 // sees the merged shot, and says which file disagrees.
 TEST_F(CheckedBracket, FindsATimeThatIsOff) {
   list("[short.dng, long.dng]", "[0.02, 0.25]");
-  const auto item_of = [&](const std::string& what) {
+  const auto report = [&] {
     const Answer r = run({"check", rig_.shots(), "--rig", rig_.rig(), "--out", rig_.out()});
     EXPECT_LE(r.status, 1) << r.err;
-    const Json report = Json::parse(slurp(rig_.out() + "/check.json"));
-    for (const Json& item : report["checks"]) {
-      if (item["check"] == what) return item;
+    return Json::parse(slurp(rig_.out() + "/check.json"));
+  };
+  const auto item = [](const Json& of_report, const std::string& what) {
+    for (const Json& one : of_report["checks"]) {
+      if (one["check"] == what) return one;
     }
-    ADD_FAILURE() << "no line " << what << " in\n" << r.out;
+    ADD_FAILURE() << "no line " << what << " in\n" << of_report;
     return Json();
   };
   rig_.simulate();
-  EXPECT_EQ(item_of("bracket")["verdict"], "pass");
-  EXPECT_EQ(item_of("clipped")["worst"], 0.0);
+  const Json good = report();
+  EXPECT_EQ(item(good, "bracket")["verdict"], "pass");
+  EXPECT_EQ(item(good, "clipped")["worst"], 0.0);
   rig_.write(replaced(rig_.text(), "truth:\n",
                       "truth:\n  sensor: {exposures: [{stated_s: 0.25, true_s: 0.265}]}\n"));
   rig_.simulate();
-  const Json off = item_of("bracket");
+  const Json off = item(report(), "bracket");
   EXPECT_EQ(off["verdict"], "fail");
   EXPECT_NEAR(std::abs(off["worst"].get<double>()), 6.0, 0.5);
 }

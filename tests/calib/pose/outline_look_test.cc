@@ -1,6 +1,8 @@
 #include "calib/pose/outline_look.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -51,6 +53,30 @@ TEST_F(OutlineLookTest, Displaced) {
     EXPECT_LT(std::sqrt(squares / static_cast<double>(found.offsets.size())), 1.0) << mm;
     EXPECT_EQ(found.shift_px.isZero(0), mm < 1.0);
   }
+}
+
+// A face in the shade that becomes bright inwards: its edge is where its light begins, not where
+// that grows most, 11 cells farther in. Half of the light inside is reached up to 1.5 cells late.
+TEST_F(OutlineLookTest, EdgeInTheShade) {
+  capture::RawFrame frame = painted_body(scene_, lens_, pose_, Eigen::Vector3d::Zero(), 800);
+  for (int x = 0; x < frame.width_px; ++x) {
+    const double black = frame.black_counts[0];
+    int lowest_px = 0;
+    for (int y = frame.height_px - 1; y >= 0; --y) {
+      std::uint16_t& sample = frame.samples[static_cast<std::size_t>(y * frame.width_px + x)];
+      if (lowest_px == 0 && sample > black + 400) lowest_px = y;
+      const double lit = std::min(1.0, 0.04 * std::exp((lowest_px - y) / 8.0));
+      if (lowest_px > 0) sample = static_cast<std::uint16_t>(black + lit * (sample - black));
+    }
+  }
+  const OutlineLook found = look_at_outline(contour_, frame, noise_);
+  int below = 0;
+  for (const OutlineOffset& o : found.offsets) {
+    if (contour_[o.point_idx].outward.y() < 0.9) continue;
+    EXPECT_LT(std::abs(o.px), 1.5 * found.cell_px);
+    ++below;
+  }
+  EXPECT_GT(below, 10);
 }
 
 TEST_F(OutlineLookTest, NothingThere) {
