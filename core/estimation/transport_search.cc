@@ -143,12 +143,12 @@ class TransportSearch {
 
   // Steps by cells, where there are paths already: a look is cheaper than a round.
   void approach(ScatteringPoint& at, Look& last) {
-    constexpr double kNear = 0.1;  // of the image
     for (int i = 0; i < 3 && last.errors.blocks >= kLeastBlocks; ++i) {
       const ScatteringEquation::Step step =
           step_by_cells(system_, parts_, scale_, last.image, at, last.errors.scatter);
+      if (!std::isfinite(step.change)) return;  // one cell does not tell two unknowns
       at = step.to;
-      if (step.change < kNear) return;
+      if (step.change < 0.1) return;  // of the image
       if (step.change > kFarStep) pilots_.forget();
       last = first_look(at);
     }
