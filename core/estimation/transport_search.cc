@@ -112,9 +112,9 @@ class TransportSearch {
                                           last.image.variance, last.errors.of_block()),
                            last.errors.blocks * last.errors.of_block());
       trace(round, blocks, learned, last);
-      const bool is_weighted = fits_weights(errors(round), last.errors);
+      const PathErrors assumed = std::exchange(last, {round.image(), errors(round)}).errors;
+      const bool is_weighted = fits_weights(last.errors, assumed);
       if (round.step().change > kFarStep) pilots_.forget();
-      last = {round.image(), errors(round)};
       pilots_.learn(
           parts_, round.look(),
           {round.of_cells(round.look().by_half[0]), round.of_cells(round.look().by_half[1])},
@@ -252,11 +252,11 @@ class TransportSearch {
   }
 
   void report(const TransportRound& round, ChannelResult& result) const {
-    report_fit(round, system_, scale_, simulation_.area_mm2(), result);
+    const Eigen::VectorXd variance = round.row_variance(simulation_.area_mm2(), 1.0);
+    report_fit(round, system_, scale_, variance, result);
     report_rows(channel_, rows_, result);
     std::vector<ShotRows> rows =
-        shot_rows(channel_, rows_, system_.l - round.residual(),
-                  round.row_variance(simulation_.area_mm2(), 1.0).cwiseSqrt());
+        shot_rows(channel_, rows_, system_.l - round.residual(), variance.cwiseSqrt());
     result.look = residual_look(rows, channel_);
     if (options_.keep_rows) result.rows = std::move(rows);
     widen_by_mesh_scale(channel_, result.estimate);

@@ -190,7 +190,7 @@ std::vector<Eigen::Index> outlying_rows(const TransportRound& round,
 }
 
 void report_fit(const TransportRound& round, const DenseSystem& system, const ScalePrior& scale,
-                const std::vector<double>& area_mm2, ChannelResult& result) {
+                const Eigen::VectorXd& variance, ChannelResult& result) {
   Estimate& estimate = result.estimate;
   estimate.reasons.clear();
   const ScatteringEquation::ScaleTest scale_test = round.scale_test();
@@ -200,8 +200,7 @@ void report_fit(const TransportRound& round, const DenseSystem& system, const Sc
     const double settled = std::exp(round.equation().settled_log_scale(rest));
     estimate.scale = normal_quantity(settled, settled * scale.relative_std);
   }
-  report_residual(system, rest, round.equation().without_nuisances(rest),
-                  round.row_variance(area_mm2, 1.0), estimate);
+  report_residual(system, rest, round.equation().without_nuisances(rest), variance, estimate);
   ModelJudgement judgement = round.judgement();
   add_refusals(round.misfit(), round.unexplained(), std::move(judgement.pulls), scale_test,
                round.blocks(), estimate);

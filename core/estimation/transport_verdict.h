@@ -71,10 +71,10 @@ std::vector<Eigen::Index> outlying_rows(const TransportRound& round,
                                         const std::vector<double>& area_mm2);
 
 // Writes values, residual, pulls and evidence of a round whose rows are the system's, with any
-// reasons for refusal; a contradicted scale widens the deviations. scale: as stated; area_mm2: by
-// row.
+// reasons for refusal; a contradicted scale widens the deviations. scale: as stated; variance:
+// round.row_variance() of noise and Monte Carlo alone.
 void report_fit(const TransportRound& round, const DenseSystem& system, const ScalePrior& scale,
-                const std::vector<double>& area_mm2, ChannelResult& result);
+                const Eigen::VectorXd& variance, ChannelResult& result);
 
 // Adds the misfit, the pulls and any reasons for refusal to an estimate whose values are already
 // set. unexplained: see TransportRound::unexplained().

@@ -67,9 +67,10 @@ TEST(CellStep, EndsAtTheTruth) {
 // Without its column, light along y would be taken for absorption.
 TEST(CellStep, LeavesToNuisancesWhatIsTheirs) {
   const ScatteringImage truth = falling_light(2.0, 0.01);
+  const std::vector<Eigen::Vector3d> at = square_mm();
   Eigen::VectorXd tilt(kCellRows);
   for (Eigen::Index j = 0; j < kCellRows; ++j) {
-    tilt[j] = truth.l[j] * (square_mm()[static_cast<std::size_t>(j)].y() - 10.0);
+    tilt[j] = truth.l[j] * (at[static_cast<std::size_t>(j)].y() - 10.0);
   }
   FallingLight light(truth.l + 2e-3 * tilt);
   const double without = light.solved({1.9, 0.012, 1.0}, 3).sigma_a_per_mm;
