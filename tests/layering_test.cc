@@ -157,7 +157,7 @@ TEST(Layering, EachForeignLibraryHasItsDoor) {
       {"embree", {"core/mesh/ray_scene.cc"}},
       {"hwy/",
        {"core/sums/cluster_verdicts.cc", "core/sums/dipole_kernels.cc",
-        "core/sums/moment_kernels.cc", "core/sums/series_kernels.cc"}},
+        "core/sums/moment_kernels.cc", "core/sums/pair_kernels.cc", "core/sums/series_kernels.cc"}},
       {"ceres/",
        {"core/fit/dipole_solver.cc", "calib/pose/edge_fit.cc", "calib/lens/camera_bundle.cc",
         "calib/led/led_solver.cc"}},

@@ -43,7 +43,7 @@ std::vector<Eigen::Array3d> binned_radiosity(const std::vector<Eigen::Vector3d>&
   const double mfp_mm = shortest_mean_free_path_mm(media);
   const double resolution_mm = std::min(0.5 * mfp_mm, 0.1 * max_distance_mm);
   const OctaveBins bins(resolution_mm * resolution_mm, max_distance_mm, 9);
-  Eigen::Array3Xd r(3, bins.size());
+  Eigen::Matrix3Xd r(3, bins.size());
   for (int c = 0; c < 3; ++c) {
     const Dipole dipole(media[static_cast<std::size_t>(c)]);
     for (int i = 0; i < bins.size(); ++i) {
@@ -61,13 +61,15 @@ std::vector<Eigen::Array3d> binned_radiosity(const std::vector<Eigen::Vector3d>&
         for (std::size_t j = range.begin(); j < range.end(); ++j) {
           sites.push_back(exit_point(points_mm[j]));
         }
-        std::vector<float> sums(range.size() * static_cast<std::size_t>(bins.size()));
+        std::vector<float> sums(range.size() * static_cast<std::size_t>(bins.sums()));
         add_pair_sums(sources, sites, bins, options, sums.data());
-        const Eigen::Map<const Eigen::MatrixXf> weights(sums.data(), bins.size(),
-                                                        static_cast<Eigen::Index>(range.size()));
-        for (std::size_t j = range.begin(); j < range.end(); ++j) {
-          const auto at = static_cast<Eigen::Index>(j - range.begin());
-          out[j] = intensity_W_per_sr * (r.matrix() * weights.col(at).cast<double>()).array();
+        const float* of_site = sums.data();
+        for (std::size_t j = range.begin(); j < range.end(); ++j, of_site += bins.sums()) {
+          Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+          for (int i = 0; i < bins.size(); ++i) {
+            sum += static_cast<double>(OctaveBins::of_knot(of_site, i)) * r.col(i);
+          }
+          out[j] = intensity_W_per_sr * sum.array();
         }
       },
       tbb::simple_partitioner());

@@ -1,19 +1,17 @@
 // Bins of squared distances with linear weights.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <vector>
+
+#include "core/sums/pair_kernels.h"
 
 namespace scattermeter {
 
 // Both kinds of bins take pairs (d^2, weight) and share each weight between the two knots around d
-// so that a function that is linear between knots is summed exactly. Sum: the number type of a
-// knot's sum.
-inline constexpr int kPairsAtOnce = 256;  // largest n of add()
+// so that a function that is linear between knots is summed exactly. Sum: the number type of sums,
+// of which there are sums().
 
 // Knots d'_i = i * width: the paper's quantised distances (eq. 17 to 25).
 class UniformBins {
@@ -25,6 +23,7 @@ class UniformBins {
         n_(static_cast<int>(std::ceil(max_distance_mm / width_mm)) + 2) {}
 
   int size() const { return n_; }
+  int sums() const { return n_; }
   double knot_mm(int i) const { return i * width_mm_; }
   void add(float d2_mm2, float weight, double* sums) const {
     const float x = std::sqrt(d2_mm2) * inv_width_;
@@ -54,49 +53,35 @@ class OctaveBins {
  public:
   using Sum = float;
   // s0 is rounded down to a power of two, so that the first knot is at d = 0.
-  OctaveBins(double s0_mm2, double max_distance_mm, int bits)
-      : s0_(static_cast<float>(std::exp2(std::floor(std::log2(s0_mm2))))),
-        shift_(23 - bits),
-        fraction_(1.0F / static_cast<float>(1U << (23 - bits))) {
-    first_ = std::bit_cast<std::uint32_t>(s0_) >> shift_;
-    const float top = static_cast<float>(max_distance_mm * max_distance_mm * 1.0001) + s0_;
-    n_ = static_cast<int>((std::bit_cast<std::uint32_t>(top) >> shift_) - first_) + 2;
+  OctaveBins(double s0_mm2, double max_distance_mm, int bits) {
+    scale_.s0 = static_cast<float>(std::exp2(std::floor(std::log2(s0_mm2))));
+    scale_.shift = 23 - bits;
+    scale_.fraction = 1.0F / static_cast<float>(1U << (23 - bits));
+    const auto number = [&](float s) { return std::bit_cast<std::int32_t>(s) >> scale_.shift; };
+    scale_.first = number(scale_.s0);
+    const float top = static_cast<float>(max_distance_mm * max_distance_mm * 1.0001) + scale_.s0;
+    n_ = number(top) - scale_.first + 2;
+    scale_.last_bin = n_ - 2;
   }
 
   int size() const { return n_; }
-  double s0_mm2() const { return static_cast<double>(s0_); }
+  double s0_mm2() const { return static_cast<double>(scale_.s0); }
   // s at knot i, mm^2.
   double knot_s_mm2(int i) const {
-    return static_cast<double>(
-        std::bit_cast<float>((first_ + static_cast<std::uint32_t>(i)) << shift_));
+    return static_cast<double>(std::bit_cast<float>((scale_.first + i) << scale_.shift));
   }
-  void add(float d2_mm2, float weight, float* sums) const { add(&d2_mm2, &weight, 1, sums); }
+  // Two for each knot i: what pairs beyond it share with it, and what they share with the next.
+  int sums() const { return 2 * n_; }
+  static float of_knot(const float* sums, int i) {
+    return i > 0 ? sums[2 * i] + sums[2 * i - 1] : sums[0];
+  }
+  // d2_mm2 and weight are read up to the next multiple of 16 values.
   void add(const float* d2_mm2, const float* weight, int n, float* sums) const {
-    // Bins first, so that this loop is vectorised.
-    std::array<std::int32_t, kPairsAtOnce> at;
-    std::array<float, kPairsAtOnce> to_next;
-    const auto mask = static_cast<std::int32_t>((1U << shift_) - 1U);
-    for (int k = 0; k < n; ++k) {
-      const auto position = std::bit_cast<std::int32_t>(d2_mm2[k] + s0_);
-      // Whatever lies beyond the longest distance, by rounding, counts there.
-      at[static_cast<std::size_t>(k)] =
-          std::min((position >> shift_) - static_cast<std::int32_t>(first_), n_ - 2);
-      to_next[static_cast<std::size_t>(k)] =
-          weight[k] * (static_cast<float>(position & mask) * fraction_);
-    }
-    for (int k = 0; k < n; ++k) {
-      float* sum = sums + at[static_cast<std::size_t>(k)];
-      const float share = to_next[static_cast<std::size_t>(k)];
-      sum[0] += weight[k] - share;
-      sum[1] += share;
-    }
+    add_octave_pairs(scale_, d2_mm2, weight, n, sums);
   }
 
  private:
-  float s0_;
-  int shift_;
-  float fraction_;
-  std::uint32_t first_;
+  OctaveScale scale_;
   int n_;
 };
 

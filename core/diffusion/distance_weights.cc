@@ -98,11 +98,11 @@ DistanceKnots::Shares DistanceKnots::shares(int bin, int first_knot) const {
 
 void DistanceKnots::fold(const float* fine, double* out) const {
   std::fill(out, out + size(), 0.0);
+  int bin = 0;
   for (const Run& run : runs_) {
     Shares sum = Shares::Zero();
     const Shares* of_bin = shares_.data() + run.shares;
-    for (int i = 0; i < run.bins; ++i) sum += of_bin[i] * fine[i];
-    fine += run.bins;
+    for (int i = 0; i < run.bins; ++i, ++bin) sum += of_bin[i] * OctaveBins::of_knot(fine, bin);
     for (int a = 0; a < kStencil; ++a) out[run.first_knot + a] += static_cast<double>(sum[a]);
   }
 }
@@ -113,11 +113,11 @@ namespace {
 template <class Use>
 void for_smooth_rows(const std::vector<ExitSite>& sites, const SourceCloud& sources,
                      const DistanceKnots& knots, const PairSumOptions& options, const Use& use) {
-  const auto bins = static_cast<std::size_t>(knots.fine_bins().size());
+  const auto sums = static_cast<std::size_t>(knots.fine_bins().sums());
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, (sites.size() + kSitesSideBySide - 1) / kSitesSideBySide),
       [&](const tbb::blocked_range<std::size_t>& range) {
-        std::vector<float> fine(kSitesSideBySide * bins);
+        std::vector<float> fine(kSitesSideBySide * sums);
         Eigen::RowVectorXd w(knots.size());
         for (std::size_t block = range.begin(); block < range.end(); ++block) {
           const std::size_t first = block * kSitesSideBySide;
@@ -126,7 +126,7 @@ void for_smooth_rows(const std::vector<ExitSite>& sites, const SourceCloud& sour
           std::fill(fine.begin(), fine.end(), 0.0F);
           add_pair_sums(sources, some, knots.fine_bins(), options, fine.data());
           for (std::size_t j = 0; j < some.size(); ++j) {
-            knots.fold(fine.data() + j * bins, w.data());
+            knots.fold(fine.data() + j * sums, w.data());
             w = w.cast<float>().eval().cast<double>();
             use(static_cast<Eigen::Index>(first + j), w);
           }

@@ -13,8 +13,8 @@
 namespace scattermeter {
 namespace {
 
-// The contributions of the tree to one site. Pairs of distance and power go to the bins many at a
-// time, so that all but the addition itself is done in lanes.
+// The contributions of the tree to one site. Clusters and points wait until there are enough of
+// them for all but the last addition to be done in lanes.
 template <class Bins>
 class SiteSum {
  public:
@@ -25,11 +25,12 @@ class SiteSum {
         sums_(sums),
         near_(moved(site, -cloud.origin_mm())),
         at_(near_.center_mm.cast<float>()),
-        covariance_(site.covariance_mm2.cast<float>()),
         radius_(static_cast<float>(site.radius_mm())),
         near_ratio2_(static_cast<float>(options.near_ratio * options.near_ratio)),
         floor_mm_(static_cast<float>(options.floor_mm)),
         few_points_ratio_(static_cast<float>(options.few_points_ratio)) {
+    const Eigen::Matrix3f c = site.covariance_mm2.cast<float>();
+    covariance_ = {c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)};
     for (std::size_t i = 0; i < static_cast<std::size_t>(near_.n_few); ++i) {
       few_points_[i] = near_.few_mm[i].template cast<float>();
     }
@@ -39,18 +40,18 @@ class SiteSum {
   float radius_mm() const { return radius_; }
 
   void keep_cluster(const SourceCloud::Node& node, float dx, float dy, float dz) {
-    const Eigen::Index i = clusters_++;
-    x_[i] = dx;
-    y_[i] = dy;
-    z_[i] = dz;
-    of_cluster_[i] = node.power;
-    xx_[i] = node.xx;
-    xy_[i] = node.xy;
-    xz_[i] = node.xz;
-    yy_[i] = node.yy;
-    yz_[i] = node.yz;
-    zz_[i] = node.zz;
-    if (clusters_ == kClusters) add_clusters();
+    const int i = n_clusters_++;
+    clusters_.x[i] = dx;
+    clusters_.y[i] = dy;
+    clusters_.z[i] = dz;
+    clusters_.power[i] = node.power;
+    clusters_.xx[i] = node.xx;
+    clusters_.xy[i] = node.xy;
+    clusters_.xz[i] = node.xz;
+    clusters_.yy[i] = node.yy;
+    clusters_.yz[i] = node.yz;
+    clusters_.zz[i] = node.zz;
+    if (n_clusters_ == ClusterBatch::kSize) add_clusters();
   }
 
   void add_near(std::int32_t triangle) {
@@ -59,7 +60,9 @@ class SiteSum {
     if ((rule.center - at_).squaredNorm() >= few * few) {
       const float weight = 1.0F / static_cast<float>(near_.n_few);
       for (std::size_t i = 0; i < static_cast<std::size_t>(near_.n_few); ++i) {
-        add_points<3>(rule.three, rule.center - few_points_[i], 1.0F, weight * rule.three.power);
+        const Eigen::Vector3f v = rule.center - few_points_[i];
+        threes_[n_threes_++] = {&rule.three, v.x(), v.y(), v.z(), 1.0F, weight, 0.0F};
+        if (n_threes_ == threes_.size()) add_threes();
       }
       return;
     }
@@ -67,110 +70,80 @@ class SiteSum {
       const Eigen::Vector3f v = rule.center - near_.points_mm[i].template cast<float>();
       const auto weight = static_cast<float>(near_.weights[i]);
       if (rule.edge * rule.edge * near_ratio2_ <= v.squaredNorm()) {
-        add_points<6>(rule.six, v, 1.0F, weight * rule.six.power);
+        keep_six(rule, v, 1.0F, weight, 0.0F);
       } else {
-        add_parts(cut_of(rule, weight),
-                  (rule.precise_center - near_.points_mm[i]).template cast<float>(), 1.0F,
-                  rule.density);
+        add_parts(rule, weight, (rule.precise_center - near_.points_mm[i]).template cast<float>(),
+                  1.0F, rule.density);
       }
     }
   }
 
   void finish() {
-    if (clusters_ > 0) add_clusters();
-    flush();
+    std::fill(clusters_.power + n_clusters_, clusters_.power + ClusterBatch::kSize, 0.0F);
+    if (n_clusters_ > 0) add_clusters();
+    add_threes();
+    add_sixes();
   }
 
  private:
-  static constexpr int kClusters = 16;
-  using ClusterLanes = Eigen::Array<float, kClusters, 1>;
+  // The most pairs of a kernel's call, and whole lanes beyond.
+  static constexpr int kMostPairs = 96;
+  using PairLanes = std::array<float, kMostPairs + 16>;
+  static constexpr std::size_t kSets = 16;
+  static_assert(kClusterPairs <= kMostPairs && 6 * kSets <= kMostPairs);
 
-  void flush() {
-    bins_.add(d2_.data(), power_.data(), pairs_, sums_);
-    pairs_ = 0;
-  }
-  void make_room(int pairs) {
-    if (pairs_ + pairs > kPairsAtOnce) flush();
-  }
-
-  // The difference of two independent points has the sum of their covariances C = L L^T. The four
-  // points d + L v, v the corners of a cube of even parity, have mean d and covariance C.
   void add_clusters() {
-    // In a plane that is nearly perpendicular to an axis only rounding is left along it, and a
-    // quotient of rounding errors may be of any size: a pivot below 1e-6 of the whole counts as
-    // zero, and so does what is divided by its root.
-    const ClusterLanes c11 = xx_ + covariance_(0, 0);
-    const ClusterLanes c22 = yy_ + covariance_(1, 1);
-    const ClusterLanes c33 = zz_ + covariance_(2, 2);
-    const ClusterLanes least = 1e-6F * (c11 + c22 + c33);
-    const ClusterLanes none = ClusterLanes::Zero();
-    const ClusterLanes l11 = (c11 > least).select(c11.sqrt(), none);
-    const ClusterLanes l21 = (c11 > least).select((xy_ + covariance_(0, 1)) / l11, none);
-    const ClusterLanes l31 = (c11 > least).select((xz_ + covariance_(0, 2)) / l11, none);
-    const ClusterLanes r22 = c22 - l21 * l21;
-    const ClusterLanes l22 = (r22 > least).select(r22.sqrt(), none);
-    const ClusterLanes l32 =
-        (r22 > least).select((yz_ + covariance_(1, 2) - l21 * l31) / l22, none);
-    const ClusterLanes r33 = c33 - l31 * l31 - l32 * l32;
-    const ClusterLanes l33 = (r33 > least).select(r33.sqrt(), none);
-    constexpr float kV1[4] = {1, 1, -1, -1};
-    constexpr float kV2[4] = {1, -1, 1, -1};
-    constexpr float kV3[4] = {1, -1, -1, 1};
-    make_room(4 * kClusters);
-    for (int i = 0; i < 4; ++i) {
-      // Lanes without a cluster write values that are then overwritten.
-      Eigen::Map<ClusterLanes> d2(d2_.data() + pairs_), power(power_.data() + pairs_);
-      d2 = (x_ + l11 * kV1[i]).square() + (y_ + l21 * kV1[i] + l22 * kV2[i]).square() +
-           (z_ + l31 * kV1[i] + l32 * kV2[i] + l33 * kV3[i]).square();
-      power = 0.25F * of_cluster_;
-      pairs_ += clusters_;
-    }
-    clusters_ = 0;
+    alignas(64) PairLanes d2, power;
+    cluster_pairs(clusters_, covariance_.data(), d2.data(), power.data());
+    bins_.add(d2.data(), power.data(), kClusterPairs, sums_);
+    n_clusters_ = 0;
   }
 
-  // n points, `scale` times as far from a centroid at v.
-  template <int n, class Points>
-  void add_points(const Points& points, const Eigen::Vector3f& v, float scale,
-                  const typename Points::Lanes& power) {
-    using Lanes = typename Points::Lanes;
-    make_room(static_cast<int>(power.size()));
-    Eigen::Map<Lanes>(d2_.data() + pairs_) = (v.x() + scale * points.x).square() +
-                                             (v.y() + scale * points.y).square() +
-                                             (v.z() + scale * points.z).square();
-    Eigen::Map<Lanes>(power_.data() + pairs_) = power;
-    pairs_ += n;
+  void add_threes() {
+    alignas(64) PairLanes d2, power;
+    const auto n = static_cast<int>(n_threes_);
+    three_point_pairs(threes_.data(), n, d2.data(), power.data());
+    bins_.add(d2.data(), power.data(), 3 * n, sums_);
+    n_threes_ = 0;
+  }
+
+  void add_sixes() {
+    static const std::array<float, 8> kShares = [] {
+      std::array<float, 8> shares{};
+      for (std::size_t k = 0; k < 6; ++k) shares[k] = static_cast<float>(kCowper[k / 3].weight);
+      return shares;
+    }();
+    alignas(64) PairLanes d2, power;
+    const auto n = static_cast<int>(n_sixes_);
+    six_point_pairs(sixes_.data(), n, kShares.data(), d2.data(), power.data());
+    bins_.add(d2.data(), power.data(), 6 * n, sums_);
+    n_sixes_ = 0;
+  }
+
+  // Six points, `scale` times as far from a centroid at v; even: power that is spread evenly.
+  void keep_six(const SourceCloud::Rule& rule, const Eigen::Vector3f& v, float scale,
+                float of_power, float even) {
+    sixes_[n_sixes_++] = {&rule.six, v.x(), v.y(), v.z(), scale, of_power, even};
+    if (n_sixes_ == sixes_.size()) add_sixes();
   }
 
   // A triangle with a linear density, cut into four until its parts are small for their distance.
   // All parts are the triangle itself, `scale` times as large, turned over where that is negative.
-  struct Cut {
-    const SourceCloud::Rule& rule;
-    SourceCloud::Points<8>::Lanes even,
-        slope;  // power of a density of 1, and of one that rises as the rule's
-  };
-  static Cut cut_of(const SourceCloud::Rule& rule, float weight) {
-    static const SourceCloud::Points<8>::Lanes kShares = [] {
-      SourceCloud::Points<8>::Lanes shares = SourceCloud::Points<8>::Lanes::Zero();
-      for (Eigen::Index k = 0; k < 6; ++k) {
-        shares[k] = static_cast<float>(kCowper[static_cast<std::size_t>(k / 3)].weight);
-      }
-      return shares;
-    }();
-    const SourceCloud::Points<8>::Lanes even = (weight * rule.area) * kShares;
-    return {rule, even, weight * rule.six.power - rule.density * even};
-  }
-  void add_parts(const Cut& cut, const Eigen::Vector3f& v, float scale, float density) {
-    const float edge = std::abs(scale) * cut.rule.edge;
+  void add_parts(const SourceCloud::Rule& rule, float weight, const Eigen::Vector3f& v, float scale,
+                 float density) {
+    const float edge = std::abs(scale) * rule.edge;
     if (edge <= floor_mm_ || edge * edge * near_ratio2_ <= v.squaredNorm()) {
-      add_points<6>(cut.rule.six, v, scale,
-                    (scale * scale) * (density * cut.even + scale * cut.slope));
+      // The density of the part rises `scale` times as much from its centroid as the triangle's.
+      const float of_area = weight * (scale * scale);
+      keep_six(rule, v, scale, scale * of_area,
+               of_area * rule.area * (density - scale * rule.density));
       return;
     }
     const float half = 0.5F * scale;
     for (std::size_t i = 0; i < 3; ++i) {
-      add_parts(cut, v + half * cut.rule.corner[i], half, density + half * cut.rule.rise[i]);
+      add_parts(rule, weight, v + half * rule.corner[i], half, density + half * rule.rise[i]);
     }
-    add_parts(cut, v, -half, density);
+    add_parts(rule, weight, v, -half, density);
   }
 
   const SourceCloud& cloud_;
@@ -178,16 +151,15 @@ class SiteSum {
   typename Bins::Sum* sums_;
   ExitSite near_;  // the site, relative to the cloud's origin
   Eigen::Vector3f at_;
-  Eigen::Matrix3f covariance_;
+  std::array<float, 6> covariance_;
   float radius_, near_ratio2_, floor_mm_, few_points_ratio_;
   std::array<Eigen::Vector3f, 3> few_points_;  // the site as fewer points
-  // Pairs waiting to be binned: more room than pairs, since whole lanes are written.
-  int pairs_ = 0;
-  alignas(16) std::array<float, kPairsAtOnce + kClusters> d2_, power_;
-  // Clusters that wait to be replaced by points.
-  int clusters_ = 0;
-  ClusterLanes x_ = ClusterLanes::Zero(), y_ = x_, z_ = x_, of_cluster_ = x_, xx_ = x_, xy_ = x_,
-               xz_ = x_, yy_ = x_, yz_ = x_, zz_ = x_;
+  // What waits to be replaced by pairs.
+  int n_clusters_ = 0;
+  std::size_t n_threes_ = 0, n_sixes_ = 0;
+  ClusterBatch clusters_;
+  std::array<PlacedPoints<4>, 2 * kSets> threes_;
+  std::array<PlacedPoints<8>, kSets> sixes_;
 };
 
 // Some sites against the tree, in lanes; for each it is decided separately whether a cluster is far
@@ -200,7 +172,7 @@ class SiteGroup {
       : cloud_(cloud), far_ratio_(static_cast<float>(options.far_ratio)) {
     for (std::size_t i = 0; i < sites.size(); ++i) {
       const SiteSum<Bins>& sum = sums_[i].emplace(cloud, sites[i], bins, options,
-                                                  sums + i * static_cast<std::size_t>(bins.size()));
+                                                  sums + i * static_cast<std::size_t>(bins.sums()));
       x_[i] = sum.center_mm().x();
       y_[i] = sum.center_mm().y();
       z_[i] = sum.center_mm().z();
@@ -214,6 +186,7 @@ class SiteGroup {
   // sites: a bit for each that has reached this node.
   void visit(std::int32_t at, int sites) {
     const SourceCloud::Node& node = cloud_.nodes()[static_cast<std::size_t>(at)];
+    constexpr std::array<std::int32_t, kSitesSideBySide> kBits = {1, 2, 4, 8, 16, 32, 64, 128};
     const float far_of_node = far_ratio_ * node.radius;
     std::array<float, kSitesSideBySide> dx, dy, dz;
     int near = 0;
@@ -223,7 +196,7 @@ class SiteGroup {
       dz[i] = node.z - z_[i];
       const float far = far_of_node + far_of_site_[i];
       const float beyond = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i] - far * far;
-      near |= (std::bit_cast<std::int32_t>(beyond) >> 31) & (1 << i);
+      near |= (std::bit_cast<std::int32_t>(beyond) >> 31) & kBits[i];
     }
     near &= sites;
     for (auto far = static_cast<unsigned>(sites & ~near); far != 0; far &= far - 1) {
@@ -255,7 +228,7 @@ void add_pair_sums(const SourceCloud& cloud, std::span<const ExitSite> sites, co
   if (cloud.nodes().empty()) return;
   for (std::size_t i = 0; i < sites.size(); i += kSitesSideBySide) {
     SiteGroup<Bins>(cloud, sites.subspan(i, std::min(kSitesSideBySide, sites.size() - i)), bins,
-                    options, sums + i * static_cast<std::size_t>(bins.size()));
+                    options, sums + i * static_cast<std::size_t>(bins.sums()));
   }
 }
 

@@ -31,8 +31,8 @@ struct PairSumOptions {
 inline constexpr std::size_t kSitesSideBySide = 8;
 
 // Adds, for the mean over each site, the entering power of every source at its distance:
-// afterwards sum over i of sums[i] f(d_i) is the mean over the site of
-// ∫ E(x) f(|x_site - x|) dA, for any f that the bins represent. sums: bins.size() values per site,
+// afterwards the sum over the knots i, of what they hold times f(d_i), is the mean over the site of
+// ∫ E(x) f(|x_site - x|) dA, for any f that the bins represent. sums: bins.sums() values per site,
 // one site after the other, in sr. Sites close together in space are processed faster; the result
 // of each does not depend on the others. Bins: UniformBins or OctaveBins.
 template <class Bins>

@@ -14,7 +14,7 @@ SourceCloud::Rule rule_of(const LitTriangle& t) {
   const double mean = (e[0] + e[1] + e[2]) / 3.0, area = area_mm2(t.corners_mm);
   SourceCloud::Rule rule;
   const auto fill = [&](const auto& orbits, auto& points) {
-    Eigen::Index k = 0;
+    std::size_t k = 0;
     for (const TriangleOrbit& orbit : orbits) {
       for (std::size_t i = 0; i < 3; ++i, ++k) {
         const Eigen::Vector3f from_center =

@@ -10,6 +10,7 @@
 
 #include "core/diffusion/power_moments.h"
 #include "core/light/incident_light.h"
+#include "core/sums/pair_kernels.h"
 
 namespace scattermeter {
 
@@ -28,17 +29,12 @@ class SourceCloud {
     std::int32_t right;
   };
   // A lit triangle as points about its centroid, for sites that are farther away than it is large:
-  // six, or three for sites considerably farther. Unused lanes are zero.
-  template <int kLanes>
-  struct Points {
-    using Lanes = Eigen::Array<float, kLanes, 1>;
-    Lanes x = Lanes::Zero(), y = Lanes::Zero(), z = Lanes::Zero(), power = Lanes::Zero();
-  };
+  // six, or three for sites considerably farther.
   struct Rule {
     Eigen::Vector3f center;
-    float edge;       // the longest
-    Points<4> three;  // kThreePoints
-    Points<8> six;    // kCowper
+    float edge;             // the longest
+    SourcePoints<4> three;  // kThreePoints
+    SourcePoints<8> six;    // kCowper
     // For sites so near that the triangle is subdivided.
     float density, area;                    // the mean density in sr / mm^2; mm^2
     std::array<Eigen::Vector3f, 3> corner;  // from the centroid

@@ -47,7 +47,7 @@ Numbers numbers_of(const std::vector<ExitSite>& sites, const SourceCloud& source
                    const DistanceKnots& knots, const PairSumOptions& options) {
   constexpr std::size_t kOfSite = 70, kOfRule = 16;
   // To be raised when the same inputs give other digits.
-  constexpr int kForm = 1;
+  constexpr int kForm = 2;
   Numbers out;
   out.reserve(kOfSite * sites.size() + kOfRule * sources.size() + 32);
   out.add(kForm);

@@ -1,5 +1,6 @@
 #include "core/diffusion/distance_bins.h"
 
+#include <array>
 #include <random>
 #include <vector>
 
@@ -38,12 +39,14 @@ TEST(DistanceBins, OctaveIsExactForLinearFunctionsOfTheSquare) {
     std::uniform_real_distribution<float> distance(0.0F, 40.0F);
     for (int i = 0; i < 1000; ++i) {
       const float d = i == 0 ? 0.0F : i == 1 ? 40.0F : distance(random);
-      std::vector<float> sums(static_cast<std::size_t>(bins.size()));
-      bins.add(d * d, 3.0F, sums.data());
+      std::vector<float> sums(static_cast<std::size_t>(bins.sums()));
+      const std::array<float, 16> d2 = {d * d}, weight = {3.0F};
+      bins.add(d2.data(), weight.data(), 1, sums.data());
       double total = 0.0, mean = 0.0;
       for (int k = 0; k < bins.size(); ++k) {
-        total += sums[static_cast<std::size_t>(k)];
-        mean += sums[static_cast<std::size_t>(k)] * bins.knot_s_mm2(k);
+        const auto sum = static_cast<double>(OctaveBins::of_knot(sums.data(), k));
+        total += sum;
+        mean += sum * bins.knot_s_mm2(k);
       }
       const double s = static_cast<double>(d) * static_cast<double>(d) + bins.s0_mm2();
       EXPECT_NEAR(total, 3.0, 1e-6);

@@ -1,5 +1,6 @@
 #include "core/diffusion/distance_weights.h"
 
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -20,9 +21,10 @@ TEST(DistanceKnots, InterpolateTheDipole) {
     const DistanceKnots knots(std::min(0.05, dipole.z_r_mm()), 40.0);
     const double at_zero = dipole.reflectance_per_mm2(0.0);
     for (double d = 0.0; d < 39.0; d = d * 1.03 + 0.003) {
-      std::vector<float> fine(static_cast<std::size_t>(knots.fine_bins().size()));
+      std::vector<float> fine(static_cast<std::size_t>(knots.fine_bins().sums()));
       std::vector<double> folded(static_cast<std::size_t>(knots.size()));
-      knots.fine_bins().add(static_cast<float>(d * d), 1.0F, fine.data());
+      const std::array<float, 16> d2 = {static_cast<float>(d * d)}, weight = {1.0F};
+      knots.fine_bins().add(d2.data(), weight.data(), 1, fine.data());
       knots.fold(fine.data(), folded.data());
       double r = 0.0;
       for (int i = 0; i < knots.size(); ++i) {

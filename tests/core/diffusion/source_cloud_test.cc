@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -74,15 +75,18 @@ TEST(SourceCloud, RulesKeepTheMomentsOfTheirTriangles) {
   for (const SourceCloud::Node& leaf : cloud.nodes()) {
     if (leaf.right >= 0) continue;
     const SourceCloud::Rule& rule = cloud.rules()[static_cast<std::size_t>(leaf.triangle)];
-    EXPECT_NEAR(rule.three.power.sum(), leaf.power, 1e-5F * leaf.power);
-    EXPECT_NEAR(rule.six.power.sum(), leaf.power, 1e-5F * leaf.power);
+    const auto lanes = [](const auto& values) {
+      return Eigen::Map<const Eigen::ArrayXf>(values, std::ssize(values));
+    };
+    const auto three = lanes(rule.three.power), six = lanes(rule.six.power);
+    EXPECT_NEAR(three.sum(), leaf.power, 1e-5F * leaf.power);
+    EXPECT_NEAR(six.sum(), leaf.power, 1e-5F * leaf.power);
     EXPECT_NEAR(rule.density * rule.area, leaf.power, 1e-5F * leaf.power);
-    const float mean_x = rule.center.x() + (rule.six.power * rule.six.x).sum() / leaf.power;
-    EXPECT_NEAR(rule.center.x() + (rule.three.power * rule.three.x).sum() / leaf.power, leaf.x,
-                1e-4);
+    const float mean_x = rule.center.x() + (six * lanes(rule.six.x)).sum() / leaf.power;
+    EXPECT_NEAR(rule.center.x() + (three * lanes(rule.three.x)).sum() / leaf.power, leaf.x, 1e-4);
     EXPECT_NEAR(mean_x, leaf.x, 1e-4);
-    const auto from_mean = rule.six.x + rule.center.x() - mean_x;
-    EXPECT_NEAR((rule.six.power * from_mean.square()).sum() / leaf.power, leaf.xx, 1e-4);
+    const Eigen::ArrayXf from_mean = lanes(rule.six.x) + rule.center.x() - mean_x;
+    EXPECT_NEAR((six * from_mean.square()).sum() / leaf.power, leaf.xx, 1e-4);
   }
 }
 
