@@ -65,7 +65,7 @@ std::optional<std::size_t> pile_up(const Histogram& histogram, double nominal,
   for (std::size_t value = kValues - 1;
        static_cast<double>(value) >= kMinFractionOfWhite * white_counts && value > 0; --value) {
     const auto n = static_cast<double>(histogram[value]);
-    if (static_cast<double>(value) < nominal && above <= kMaxOutliersOfPile * n) {
+    if (n > 0.0 && static_cast<double>(value) < nominal && above <= kMaxOutliersOfPile * n) {
       const auto b = static_cast<double>(fullest_beneath(histogram, value));
       if (n - b > kSigmas * std::sqrt(n + b) && above <= kMaxOutliersOfPile * (n - b)) {
         return value;
