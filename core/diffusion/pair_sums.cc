@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "core/mesh/triangle_parts.h"
+#include "core/sums/pair_kernels.h"
 
 namespace scattermeter {
 namespace {
