@@ -93,18 +93,25 @@ class SiteSum {
   static constexpr std::size_t kSets = 16;
   static_assert(kClusterPairs <= kMostPairs && 6 * kSets <= kMostPairs);
 
-  void add_clusters() {
+  // The n pairs that make(d2, power) writes.
+  template <class Make>
+  void add_pairs(int n, const Make& make) {
     alignas(64) PairLanes d2, power;
-    cluster_pairs(clusters_, covariance_.data(), d2.data(), power.data());
-    bins_.add(d2.data(), power.data(), kClusterPairs, sums_);
+    make(d2.data(), power.data());
+    bins_.add(d2.data(), power.data(), n, sums_);
+  }
+
+  void add_clusters() {
+    add_pairs(kClusterPairs, [&](float* d2, float* power) {
+      cluster_pairs(clusters_, covariance_.data(), d2, power);
+    });
     n_clusters_ = 0;
   }
 
   void add_threes() {
-    alignas(64) PairLanes d2, power;
     const auto n = static_cast<int>(n_threes_);
-    three_point_pairs(threes_.data(), n, d2.data(), power.data());
-    bins_.add(d2.data(), power.data(), 3 * n, sums_);
+    add_pairs(3 * n,
+              [&](float* d2, float* power) { three_point_pairs(threes_.data(), n, d2, power); });
     n_threes_ = 0;
   }
 
@@ -114,10 +121,10 @@ class SiteSum {
       for (std::size_t k = 0; k < 6; ++k) shares[k] = static_cast<float>(kCowper[k / 3].weight);
       return shares;
     }();
-    alignas(64) PairLanes d2, power;
     const auto n = static_cast<int>(n_sixes_);
-    six_point_pairs(sixes_.data(), n, kShares.data(), d2.data(), power.data());
-    bins_.add(d2.data(), power.data(), 6 * n, sums_);
+    add_pairs(6 * n, [&](float* d2, float* power) {
+      six_point_pairs(sixes_.data(), n, kShares.data(), d2, power);
+    });
     n_sixes_ = 0;
   }
 
@@ -187,6 +194,7 @@ class SiteGroup {
   // sites: a bit for each that has reached this node.
   void visit(std::int32_t at, int sites) {
     const SourceCloud::Node& node = cloud_.nodes()[static_cast<std::size_t>(at)];
+    // A table, as baseline instructions do not shift each lane by a number of its own.
     constexpr std::array<std::int32_t, kSitesSideBySide> kBits = {1, 2, 4, 8, 16, 32, 64, 128};
     const float far_of_node = far_ratio_ * node.radius;
     std::array<float, kSitesSideBySide> dx, dy, dz;
