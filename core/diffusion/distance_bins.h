@@ -56,22 +56,20 @@ class OctaveBins {
   OctaveBins(double s0_mm2, double max_distance_mm, int bits) {
     scale_.s0 = static_cast<float>(std::exp2(std::floor(std::log2(s0_mm2))));
     scale_.shift = 23 - bits;
-    scale_.fraction = 1.0F / static_cast<float>(1U << (23 - bits));
     const auto number = [&](float s) { return std::bit_cast<std::int32_t>(s) >> scale_.shift; };
     scale_.first = number(scale_.s0);
     const float top = static_cast<float>(max_distance_mm * max_distance_mm * 1.0001) + scale_.s0;
-    n_ = number(top) - scale_.first + 2;
-    scale_.last_bin = n_ - 2;
+    scale_.last_bin = number(top) - scale_.first;
   }
 
-  int size() const { return n_; }
+  int size() const { return scale_.last_bin + 2; }
   double s0_mm2() const { return static_cast<double>(scale_.s0); }
   // s at knot i, mm^2.
   double knot_s_mm2(int i) const {
     return static_cast<double>(std::bit_cast<float>((scale_.first + i) << scale_.shift));
   }
   // Two for each knot i: what pairs beyond it share with it, and what they share with the next.
-  int sums() const { return 2 * n_; }
+  int sums() const { return 2 * size(); }
   static float of_knot(const float* sums, int i) {
     return i > 0 ? sums[2 * i] + sums[2 * i - 1] : sums[0];
   }
@@ -82,7 +80,6 @@ class OctaveBins {
 
  private:
   OctaveScale scale_;
-  int n_;
 };
 
 }  // namespace scattermeter

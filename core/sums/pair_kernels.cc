@@ -105,9 +105,10 @@ void add_octave_pairs_here(const OctaveScale& scale, const float* d2, const floa
   const hn::CappedTag<float, 16> d;
   const hn::RebindToSigned<decltype(d)> di;
   const std::size_t lanes = hn::Lanes(d);
-  const auto s0 = hn::Set(d, scale.s0), fraction = hn::Set(d, scale.fraction);
+  const std::int32_t step = std::int32_t{1} << scale.shift;
+  const auto s0 = hn::Set(d, scale.s0), fraction = hn::Set(d, 1.0F / static_cast<float>(step));
   const auto first = hn::Set(di, scale.first), last = hn::Set(di, scale.last_bin);
-  const auto rest = hn::Set(di, (std::int32_t{1} << scale.shift) - 1);
+  const auto rest = hn::Set(di, step - 1);
   const auto count = static_cast<std::size_t>(n);
   for (std::size_t k = 0; k < count; k += lanes) {
     HWY_ALIGN std::int32_t at[16];

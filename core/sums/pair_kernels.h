@@ -48,7 +48,6 @@ void cluster_pairs(const ClusterBatch& clusters, const float* site, float* d2, f
 struct OctaveScale {
   float s0;               // mm^2
   int shift;              // of the pattern, to the number of a knot
-  float fraction;         // 2^-shift
   std::int32_t first;     // number of the first knot
   std::int32_t last_bin;  // from the first; what lies beyond counts there
 };

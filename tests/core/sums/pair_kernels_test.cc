@@ -135,7 +135,7 @@ TEST_F(PairKernels, ClustersKeepMeanAndCovariance) {
 
 // Whatever the instruction set and however many pairs, each counts once, in the bin of its bits.
 TEST_F(PairKernels, OctavesTakeEveryPairOnce) {
-  const OctaveScale scale{0.25F, 20, 1.0F / static_cast<float>(1U << 20U), 0x3e800000 >> 20, 30};
+  const OctaveScale scale{0.25F, 20, 0x3e800000 >> 20, 30};
   constexpr int kPairs = 37;
   std::vector<float> d2(48), power(48);
   for (std::size_t i = 0; i < 48; ++i) {
