@@ -10,6 +10,7 @@
 
 #include "apps/report/csv.h"
 #include "apps/report/text_table.h"
+#include "core/fit/prior_pulls.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -36,6 +37,7 @@ std::string size_text(const DeviationRun& run) {
 void add_row(TextTable& table, const std::string& kind, const std::string& size, const char* mark,
              const DeviationCount& n) {
   table.add_row({kind, size, mark, std::to_string(n.runs), std::to_string(n.wrong_ok),
+                 n.wrong_ok > 0 ? std::to_string(n.wrong_told) : "-",
                  n.wrong_ok > 0 ? fmt::format("{:.1f}", n.worst_by_std) : "-",
                  percent(n.right + n.wrong_ok, n.runs), percent(n.refused, n.runs),
                  percent(n.named, n.refused), percent(n.in_interval, 2 * (n.right + n.wrong_ok))});
@@ -59,7 +61,8 @@ void DeviationCount::add(const JudgedAnswer& answer) {
   right += answer.verdict == DeviationVerdict::kRight ? 1 : 0;
   wrong_ok += answer.verdict == DeviationVerdict::kWrongOk ? 1 : 0;
   refused += answer.verdict == DeviationVerdict::kRefused ? 1 : 0;
-  named += answer.names_cause ? 1 : 0;
+  named += answer.names_cause && answer.verdict == DeviationVerdict::kRefused ? 1 : 0;
+  wrong_told += answer.names_cause && answer.verdict == DeviationVerdict::kWrongOk ? 1 : 0;
   in_interval += answer.in_interval;
   worst_by_std = std::max(worst_by_std, answer.wrong_by_std);
 }
@@ -70,6 +73,7 @@ void DeviationCount::add(const DeviationCount& other) {
   wrong_ok += other.wrong_ok;
   refused += other.refused;
   named += other.named;
+  wrong_told += other.wrong_told;
   in_interval += other.in_interval;
   worst_by_std = std::max(worst_by_std, other.worst_by_std);
 }
@@ -110,6 +114,15 @@ std::string largest_pulls(std::vector<PriorPull> pulls) {
   return out;
 }
 
+// "scale 12.3, eta 7.1": what the answer rests on, by how many deviations each may shift it unseen.
+std::string untested(const Estimate& e) {
+  std::vector<std::string> out;
+  for (const PriorPull& p : rests_on(e)) {
+    out.push_back(fmt::format("{} {:.1f}", p.group, unseen_in_std(p, e)));
+  }
+  return fmt::format("{}", fmt::join(out, ", "));
+}
+
 std::string deviation_line(const DeviationResult& r) {
   const auto coefficient = [](const char* name, const Quantity& q, const AnswerError& e) {
     return fmt::format("{} {:.4g} +- {:.2g} ({:+.1f} %, {:+.1f} s)", name, q.value, q.std,
@@ -121,11 +134,12 @@ std::string deviation_line(const DeviationResult& r) {
                               "; " + coefficient("sigma_a", e.sigma_a_per_mm, r.judged.sigma_a)
                         : fmt::format("{}", fmt::join(e.reasons, " "));
   return fmt::format(
-      "{}: {} {}, {}, {} LED{}, {}, {}, seed {}: {} (pulls: {}; chi2/n {:.2f}, {:.1f} s)\n",
+      "{}: {} {}, {}, {} LED{}, {}, {}, seed {}: {} (pulls: {}; rests on: {}; chi2/n {:.2f}, "
+      "{:.1f} s)\n",
       verdict_name(r.judged.verdict), r.run.kind->name, size_text(r.run), r.run.body, r.run.leds,
       r.run.leds > 1 ? "s" : "", r.run.volume ? "volume" : "dipole",
-      deviation_media()[r.channel].name, r.run.seed, answer, largest_pulls(e.pulls), e.reduced_chi2,
-      r.seconds);
+      deviation_media()[r.channel].name, r.run.seed, answer, largest_pulls(e.pulls), untested(e),
+      e.reduced_chi2, r.seconds);
 }
 
 std::string deviation_table(const std::vector<DeviationResult>& results) {
@@ -136,6 +150,7 @@ std::string deviation_table(const std::vector<DeviationResult>& results) {
                    {"", Align::kLeft},
                    {"answers"},
                    {"wrong ok"},
+                   {"told"},
                    {"worst [s]"},
                    {"answered"},
                    {"refused"},
@@ -211,6 +226,7 @@ std::string deviation_csv(const std::vector<DeviationResult>& results) {
            "rms_relative",
            "names_cause",
            "largest_pulls",
+           "rests_on",
            "seconds",
            "reasons"});
   for (const DeviationResult& r : results) {
@@ -239,6 +255,7 @@ std::string deviation_csv(const std::vector<DeviationResult>& results) {
          csv_number(e.rms_relative),
          e.reasons.empty() ? "" : (r.judged.names_cause ? "yes" : "no"),
          largest_pulls(e.pulls),
+         untested(e),
          csv_number(r.seconds),
          fmt::format("{}", fmt::join(e.reasons, " "))});
   }

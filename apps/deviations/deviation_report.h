@@ -14,6 +14,7 @@ struct DeviationCount {
   int runs = 0;
   int right = 0, wrong_ok = 0, refused = 0;
   int named = 0;            // of the refused
+  int wrong_told = 0;       // of the wrong, those that say that they rest on a cause of its name
   int in_interval = 0;      // of the 95 % intervals of the answers, two for each
   double worst_by_std = 0;  // of the wrong
   void add(const JudgedAnswer& answer);

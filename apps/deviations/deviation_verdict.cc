@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "core/fit/prior_pulls.h"
+
 namespace scattermeter::apps {
 namespace {
 
@@ -73,6 +75,9 @@ JudgedAnswer judge_answer(const Estimate& estimate, const TrueCoefficients& trut
     out.names_cause = names_one_of(estimate.reasons, words);
     return out;
   }
+  std::vector<std::string> causes;
+  for (const PriorPull& p : rests_on(estimate)) causes.push_back(p.group);
+  out.names_cause = names_one_of(causes, words);
   out.sigma_s_prime = answer_error(estimate.sigma_s_prime_per_mm, truth.sigma_s_prime_per_mm);
   out.sigma_a = answer_error(estimate.sigma_a_per_mm, truth.sigma_a_per_mm);
   const auto holds = [](const Quantity& q, const TrueRange& range) {

@@ -46,7 +46,9 @@ struct JudgedAnswer {
   int in_interval = 0;  // of the two 95 % intervals, those that reach into the true range
   // Error of the wrong coefficient in stated deviations, the larger of two; 0 unless wrong.
   double wrong_by_std = 0;
-  bool names_cause = false;  // if refused: a reason contains one of the words, in any case
+  // A reason of the refusal contains one of the words, in any case; or if answered, one of the
+  // causes that the answer rests on does.
+  bool names_cause = false;
 };
 JudgedAnswer judge_answer(const Estimate& estimate, const TrueCoefficients& truth,
                           const std::vector<std::string>& words);

@@ -5,6 +5,9 @@
 #include <vector>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
+
+#include "core/fit/prior_pulls.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -32,6 +35,26 @@ std::string precision_sentence(const Measurement& m) {
   if (s.empty()) return "";
   return fmt::format("sigma_s' is known to {}{} (one standard deviation).", range_text(s),
                      a.empty() ? "" : ", sigma_a to " + range_text(a));
+}
+
+std::string rests_on_sentence(const Measurement& m) {
+  std::map<std::string, std::vector<std::string>> values;
+  int resting = 0;
+  for (const ChannelResult& r : m.results) {
+    if (r.refused()) continue;
+    const std::vector<PriorPull> on = rests_on(r.estimate);
+    resting += on.empty() ? 0 : 1;
+    for (const PriorPull& p : on) {
+      values[p.group].push_back(fmt::format("{} {}", r.material, r.channel));
+    }
+  }
+  std::vector<std::string> causes;
+  for (const auto& [cause, of] : values) {
+    causes.push_back(fmt::format("{} ({})", cause, fmt::join(of, ", ")));
+  }
+  if (causes.empty()) return "";
+  return fmt::format("{} of {} values rest on what the rig states and these shots cannot test: {}.",
+                     resting, m.results.size(), fmt::join(causes, "; "));
 }
 
 std::string next_sentence(const Measurement& m) {

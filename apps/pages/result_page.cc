@@ -254,7 +254,8 @@ std::string result_page(const Measurement& m, const std::string& command_line) {
       html_text(refused == 0 ? fmt::format("All {} values measured.", m.results.size())
                              : fmt::format("{} of {} values refused.", refused, m.results.size())),
       refused == 0 ? "pass" : "fail");
-  for (const std::string& sentence : {precision_sentence(m), next_sentence(m)}) {
+  for (const std::string& sentence :
+       {precision_sentence(m), rests_on_sentence(m), next_sentence(m)}) {
     if (!sentence.empty()) body += html_element("p", html_text(sentence));
   }
   body += reasons(m);

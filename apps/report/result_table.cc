@@ -119,6 +119,8 @@ std::string result_table(const Measurement& m) {
   for (const MergedBracket& b : m.brackets) out += "bracket " + bracket_text(b) + "\n";
   out += agreement(m);
   for (const ChannelResult& r : m.results) {
+    const std::string on = r.refused() ? "" : rests_on_sentence(r.estimate);
+    if (!on.empty()) out += fmt::format("note: {} {}: {}\n", r.material, r.channel, on);
     for (const std::string& reason : r.estimate.reasons) {
       out += fmt::format("refused: {} {}: {}\n", r.material, r.channel, reason);
     }

@@ -32,8 +32,18 @@ Json pulls_json(const Estimate& e) {
                     {"cause", p.group},
                     {"pull", p.pull},
                     {"offset", p.offset},
-                    {"image_relative", p.image_relative}});
+                    {"image_relative", p.image_relative},
+                    {"least_seen_in_std", number(p.least_seen_in_std)},
+                    {"unseen",
+                     {{"sigma_s_prime_per_mm", number(p.unseen_sigma_s_prime_per_mm)},
+                      {"sigma_a_per_mm", number(p.unseen_sigma_a_per_mm)}}}});
   }
+  return list;
+}
+
+Json rests_on_json(const Estimate& e) {
+  Json list = Json::array();
+  for (const PriorPull& p : rests_on(e)) list.push_back(p.group);
   return list;
 }
 
@@ -140,6 +150,7 @@ Json channel_json(const ChannelResult& r) {
   j["scale"] = quantity(e.scale, known);
   j["budget"] = budget_json(e);
   j["pulls"] = pulls_json(e);
+  j["rests_on"] = rests_on_json(e);
   j["verdict"] = r.refused() ? "refused" : "ok";
   j["reasons"] = e.reasons;
   j["residual"] = {{"rms_relative", known ? number(e.rms_relative) : Json(nullptr)},

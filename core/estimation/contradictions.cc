@@ -135,6 +135,20 @@ void refuse_beside_missed(const std::string& material, std::vector<ChannelResult
   }
 }
 
+// What one channel does not show of the positions and directions that all share, the others may.
+void see_with_all_channels(const JointJudgement& joint, std::vector<ChannelResult>& results) {
+  for (ChannelResult& r : results) {
+    for (PriorPull& own : r.estimate.pulls) {
+      const auto same_name = [&](const auto& other) { return other.name == own.name; };
+      const auto all = std::find_if(joint.pulls.begin(), joint.pulls.end(), same_name);
+      const auto stated =
+          std::find_if(r.evidence.nuisances.begin(), r.evidence.nuisances.end(), same_name);
+      if (all == joint.pulls.end() || stated == r.evidence.nuisances.end()) continue;
+      see_from(kMostPull / std::sqrt(1.0 - std::pow(all->std / stated->std, 2)), own);
+    }
+  }
+}
+
 }  // namespace
 
 JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results) {
@@ -171,7 +185,9 @@ void refuse_contradicted(std::vector<ChannelResult>& results) {
                                            contradiction_sentence(*worst, r.estimate.pulls)));
     }
   }
-  refuse_with_all_channels(joint_pulls_of(results), "", results);
+  const JointJudgement joint = joint_pulls_of(results);
+  see_with_all_channels(joint, results);
+  refuse_with_all_channels(joint, "", results);
   std::set<std::string> materials;
   for (const ChannelResult& r : results) materials.insert(r.material);
   for (const std::string& material : materials) {

@@ -277,6 +277,7 @@ ModelJudgement TransportRound::judgement() const {
   WhitenedModel model;
   model.residual = whitened(residual());
   model.free = whitened(ScatteringEquation::jacobian(pilot_, at_, is_free));
+  model.free.col(0) /= at_.sigma_s_per_mm;
   model.columns.resize(light.rows(), n + (is_free ? 0 : 1));
   if (n > 0) model.columns.leftCols(n) = whitened(shots_.system.nuisance_columns);
   model.nuisances = shots_.system.nuisances;

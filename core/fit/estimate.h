@@ -50,6 +50,13 @@ struct PriorPull {
   // residual that the offset explains, relative to the image.
   double explained_relative = 1;
   double std = 0;  // of the offset, by prior and images; joint pulls only
+  // The smallest error of the stated value that the image shows, in the deviations of its prior:
+  // that whose pull is kMostPull in the mean (Baarda 1968: the minimal detectable bias; at most
+  // 4e6, where the image tells nothing). And by how much it shifts the estimate, to first order
+  // (external reliability). 0 for joint pulls and for what is stated as exact.
+  double least_seen_in_std = 0;
+  double unseen_sigma_s_prime_per_mm = 0;
+  double unseen_sigma_a_per_mm = 0;
 };
 
 struct Estimate {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "core/base/chi_square.h"
 #include "core/base/dense_solve.h"
@@ -31,8 +32,12 @@ Eigen::MatrixXd side_by_side(const Eigen::MatrixXd& columns, const std::vector<E
   return out;
 }
 
+double over(double value, double size) {
+  return size > 0.0 && std::isfinite(value) ? value / size : 0.0;
+}
+
 double over_root(double value, double variance) {
-  return variance > 0.0 && std::isfinite(value) ? value / std::sqrt(variance) : 0.0;
+  return over(value, std::sqrt(std::max(0.0, variance)));
 }
 
 // The next step for a contradiction, by the group of the quantity.
@@ -113,9 +118,9 @@ ModelJudgement judge(const WhitenedModel& model) {
   for (std::size_t k = 0; k < unbound.size(); ++k) {
     free.col(model.free.cols() + static_cast<Eigen::Index>(k)) = model.columns.col(unbound[k]);
   }
+  const Eigen::VectorXd per_unit = free.colwise().norm().transpose();
   for (Eigen::Index k = 0; k < free.cols(); ++k) {
-    const double length = free.col(k).norm();
-    if (length > 0.0) free.col(k) /= length;
+    if (per_unit[k] > 0.0) free.col(k) /= per_unit[k];
   }
   // Eigen does not decompose matrices without columns.
   if (free.cols() == 0) free = Eigen::MatrixXd::Zero(rows, 1);
@@ -128,8 +133,8 @@ ModelJudgement judge(const WhitenedModel& model) {
     if (columns.cols() == 0) return Eigen::MatrixXd(left, 0);
     return qr.rotate_columns(columns).bottomRows(left);
   };
-  const Projected rest{qr.rotate(model.residual).tail(left),
-                       projected(side_by_side(model.columns, moving, std)),
+  const Eigen::MatrixXd by_std = side_by_side(model.columns, moving, std);
+  const Projected rest{qr.rotate(model.residual).tail(left), projected(by_std),
                        projected(side_by_side(model.columns, exact, ones))};
   const Eigen::MatrixXd& b = rest.moving;
   const Eigen::MatrixXd information = b.transpose() * b;
@@ -143,6 +148,8 @@ ModelJudgement judge(const WhitenedModel& model) {
   out.p_value = chi_square_tail(out.chi2, out.dof);
   const Eigen::MatrixXd told = information * posterior;
   constexpr double kRounding = 1e-12;
+  // Of the unknowns, by one deviation of each: as far as it is not taken for what it is.
+  const Eigen::MatrixXd shifts = qr.solve_columns(by_std * posterior);
   std::vector<PriorPull> pulls(model.nuisances.size());
   std::vector<bool> has_pull(model.nuisances.size());
   const double length = std::max(model.data_length, 1e-300);
@@ -170,6 +177,12 @@ ModelJudgement judge(const WhitenedModel& model) {
     if (!model.nuisances[static_cast<std::size_t>(moving[k])].fitted) continue;
     const double variance = told(at, at) > kRounding ? told(at, at) : 0.0;
     report(moving[k], std[k] * v[at], over_root(v[at], variance));
+    PriorPull& pull = pulls[static_cast<std::size_t>(moving[k])];
+    const double unseen = kMostPull / std::sqrt(std::max(told(at, at), kRounding));
+    pull.least_seen_in_std = unseen;
+    if (model.free.cols() < 2) continue;
+    pull.unseen_sigma_s_prime_per_mm = unseen * over(shifts(0, at), per_unit[0]);
+    pull.unseen_sigma_a_per_mm = unseen * over(shifts(1, at), per_unit[1]);
   }
   for (std::size_t k = 0; k < exact.size(); ++k) {
     const Eigen::VectorXd e = rest.exact.col(static_cast<Eigen::Index>(k));
@@ -195,6 +208,45 @@ const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_
     if (worst == nullptr || std::abs(p.pull) > std::abs(worst->pull)) worst = &p;
   }
   return worst;
+}
+
+void see_from(double least_seen_in_std, PriorPull& pull) {
+  if (!(least_seen_in_std < pull.least_seen_in_std)) return;
+  const double share = least_seen_in_std / pull.least_seen_in_std;
+  pull.least_seen_in_std = least_seen_in_std;
+  pull.unseen_sigma_s_prime_per_mm *= share;
+  pull.unseen_sigma_a_per_mm *= share;
+}
+
+double unseen_in_std(const PriorPull& pull, const Estimate& e) {
+  return std::max(std::abs(over(pull.unseen_sigma_s_prime_per_mm, e.sigma_s_prime_per_mm.std)),
+                  std::abs(over(pull.unseen_sigma_a_per_mm, e.sigma_a_per_mm.std)));
+}
+
+std::vector<PriorPull> rests_on(const Estimate& estimate) {
+  std::vector<PriorPull> out = estimate.pulls;
+  std::erase_if(out,
+                [&](const PriorPull& p) { return !(unseen_in_std(p, estimate) > kMostUnseen); });
+  std::stable_sort(out.begin(), out.end(), [&](const PriorPull& a, const PriorPull& b) {
+    return unseen_in_std(a, estimate) > unseen_in_std(b, estimate);
+  });
+  std::set<std::string> groups;
+  std::erase_if(out, [&](const PriorPull& p) { return !groups.insert(p.group).second; });
+  return out;
+}
+
+std::string rests_on_sentence(const Estimate& estimate) {
+  const std::vector<PriorPull> on = rests_on(estimate);
+  if (on.empty()) return "";
+  std::vector<std::string> groups;
+  for (const PriorPull& p : on) groups.push_back(p.group);
+  const PriorPull& worst = on.front();
+  return fmt::format(
+      "rests on the stated {}: an error of {} of up to {:.2g} stated deviations would not show, "
+      "and "
+      "would shift sigma_s' by {:.2g} and sigma_a by {:.2g} /mm",
+      fmt::join(groups, ", "), named(worst), worst.least_seen_in_std,
+      std::abs(worst.unseen_sigma_s_prime_per_mm), std::abs(worst.unseen_sigma_a_per_mm));
 }
 
 std::string contradiction_sentence(const PriorPull& worst, const std::vector<PriorPull>& pulls) {

@@ -15,8 +15,9 @@ namespace scattermeter {
 // unknowns x free, v standard normal and the noise of unit variance.
 struct WhitenedModel {
   Eigen::VectorXd residual;  // data minus the model with all nuisances at their nominal values
-  Eigen::MatrixXd free;      // rows x unknowns
-  Eigen::MatrixXd columns;   // rows x nuisances, per unit of each
+  // Rows x unknowns; the first two, if any, per 1/mm of sigma_s' and sigma_a.
+  Eigen::MatrixXd free;
+  Eigen::MatrixXd columns;          // rows x nuisances, per unit of each
   std::vector<Nuisance> nuisances;  // infinite std: free; 0: stated as exact, to be tested
   double data_length = 0;           // |data|, to which changes of the image are compared
 };
@@ -69,5 +70,20 @@ const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_
 // A sentence for the user that names the quantity, the size of the contradiction and the next step,
 // and at most two other groups among the pulls that would explain the image nearly as well.
 std::string contradiction_sentence(const PriorPull& worst, const std::vector<PriorPull>& pulls);
+
+// Where other images see an error of the quantity already from so many of its deviations on, what
+// is unseen is less: does nothing unless that is less than pull.least_seen_in_std.
+void see_from(double least_seen_in_std, PriorPull& pull);
+// By how many of its stated deviations (of sigma_s' or sigma_a, whichever is more) an error of the
+// quantity that these shots just do not contradict shifts the estimate.
+double unseen_in_std(const PriorPull& pull, const Estimate& estimate);
+// An estimate rests on a quantity for which that is more than this: nothing but the rig's word
+// stands for it.
+inline constexpr double kMostUnseen = 6.0;
+// The quantities that it rests on, of each group the worst, the worst first.
+std::vector<PriorPull> rests_on(const Estimate& estimate);
+// "rests on the stated scale, LED power: an error of scale of up to 15 stated deviations would not
+// show, and would shift sigma_s' by 0.66 and sigma_a by 0.02 /mm"; "" if there are none.
+std::string rests_on_sentence(const Estimate& estimate);
 
 }  // namespace scattermeter

@@ -25,7 +25,9 @@ ModelJudgement judgement_of(const RigPriors& priors, const RecoveredReflectance&
   WhitenedModel model;
   model.residual = per_noise * recovered.whitened - nominal;
   model.free.resize(nominal.size(), is_free ? 3 : 2);
-  model.free.leftCols(2) << kernel * (s * curve.d_u), kernel * (s * curve.d_q);
+  const double per_sigma_t = 1.0 / optimum.sigma_t_prime_per_mm();
+  model.free.leftCols(2) << kernel * (s * per_sigma_t * (curve.d_u - optimum.q * curve.d_q)),
+      kernel * (s * per_sigma_t * (curve.d_u + (1.0 - optimum.q) * curve.d_q));
   model.columns.resize(nominal.size(), n + (is_free ? 0 : 1));
   model.columns.leftCols(n) = per_noise * recovered.sqrt_information.rightCols(n);
   (is_free ? model.free : model.columns).rightCols(1) = nominal;

@@ -1,4 +1,5 @@
 // Shots of light that knows the shape, measured by a model that does.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -9,6 +10,23 @@
 
 namespace scattermeter::apps {
 namespace {
+
+const nlohmann::json& entry(const nlohmann::json& list, const char* key, const char* value) {
+  return *std::find_if(list.begin(), list.end(),
+                       [&](const nlohmann::json& e) { return e.at(key) == value; });
+}
+
+// One deviation of the scale shifts sigma_s' by its line in the budget. The pull is from the light
+// of the parts, the budget from all rows with other weights.
+void expect_scale_as_in_the_budget(const nlohmann::json& result) {
+  const nlohmann::json& pull = entry(result.at("pulls"), "quantity", "scale");
+  const double least_seen = pull.at("least_seen_in_std").get<double>();
+  EXPECT_GE(least_seen, 4.0);
+  const double shift = pull.at("unseen").at("sigma_s_prime_per_mm").get<double>() / least_seen;
+  const double line =
+      entry(result.at("budget"), "cause", "scale").at("sigma_s_prime_per_mm").get<double>();
+  EXPECT_NEAR(std::abs(shift) / line, 1.0, 0.25);
+}
 
 // Volume-rendered shots of a cube under two LEDs, a scale known to 2 %. The dipole, whose
 // half-space the cube is not, answers far off or refuses: --model auto says so and takes transport,
@@ -46,6 +64,7 @@ void expect_the_truth(const std::string& channels) {
     bool monte_carlo = false;
     for (const auto& line : r.at("budget")) monte_carlo |= line.at("cause") == "Monte Carlo";
     EXPECT_TRUE(monte_carlo);
+    expect_scale_as_in_the_budget(r);
   }
 }
 

@@ -55,6 +55,15 @@ TEST(DeviationReport, Counts) {
   EXPECT_EQ(s.kinds[1].by_size[0].refused, 1);
 }
 
+TEST(DeviationReport, WrongOnesThatSayWhatTheyRestOn) {
+  std::vector<DeviationResult> results = made_up();
+  for (const std::size_t i : {0U, 2U}) results[i].judged.names_cause = true;
+  const DeviationSummary s = summarise(results);
+  EXPECT_EQ(s.total.wrong_told, 1);
+  EXPECT_EQ(s.total.named, 2);
+  EXPECT_EQ(s.kinds[1].by_size[2].wrong_told, 1);
+}
+
 TEST(DeviationReport, IntervalsThatHold) {
   const DeviationSummary s = summarise(made_up());
   // 1.0 +- 0.01 holds both coefficients, 1.1 and 1.2 +- 0.01 only sigma_a.

@@ -58,6 +58,18 @@ TEST(DeviationVerdict, RefusalsByName) {
   EXPECT_EQ(judge_answer(e, kTruth, {"mesh"}).wrong_by_std, 0.0);
 }
 
+// A wrong answer that says that it rests on what is off.
+TEST(DeviationVerdict, WrongButTold) {
+  Estimate e = answered(0.95, 0.01, 0.01, 1e-4);
+  e.pulls = {{"scale", "scale"}};
+  e.pulls[0].unseen_sigma_s_prime_per_mm = 0.2;
+  EXPECT_EQ(judge_answer(e, kTruth, {"scale"}).verdict, DeviationVerdict::kWrongOk);
+  EXPECT_TRUE(judge_answer(e, kTruth, {"scale"}).names_cause);
+  EXPECT_FALSE(judge_answer(e, kTruth, {"eta"}).names_cause);
+  e.pulls[0].unseen_sigma_s_prime_per_mm = 0.02;
+  EXPECT_FALSE(judge_answer(e, kTruth, {"scale"}).names_cause);
+}
+
 TEST(DeviationVerdict, RangeOfTruths) {
   const TrueCoefficients truth = true_coefficients({{1.5, 0.01, 1.0}, {1.0, 0.02, 1.0}});
   EXPECT_EQ(answer_error(normal_quantity(1.2, 0.1), truth.sigma_s_prime_per_mm).in_std, 0.0);

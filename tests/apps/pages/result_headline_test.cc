@@ -30,6 +30,22 @@ TEST(ResultHeadline, RangesAndTheLargestCause) {
             "better would help most.");
 }
 
+TEST(ResultHeadline, WhatTheValuesRestOn) {
+  Measurement m = two_channels();
+  EXPECT_EQ(rests_on_sentence(m), "");
+  PriorPull scale{"scale", "scale"}, eta{"eta", "eta"};
+  scale.unseen_sigma_s_prime_per_mm = 0.2;
+  eta.unseen_sigma_a_per_mm = 0.001;
+  m.results[0].estimate.pulls = {scale, eta};
+  m.results[1].estimate.pulls = {scale};
+  m.results.push_back(m.results[0]);
+  m.results[2].channel = 'B';
+  m.results[2].estimate.pulls = {scale};
+  EXPECT_EQ(rests_on_sentence(m),
+            "2 of 3 values rest on what the rig states and these shots cannot test: eta (POM R); "
+            "scale (POM R, POM B).");
+}
+
 TEST(ResultHeadline, NothingMeasured) {
   Measurement m = two_channels();
   m.results.erase(m.results.begin());

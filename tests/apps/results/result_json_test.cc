@@ -36,6 +36,7 @@ TEST(ResultJson, EveryNumberOfAChannel) {
   r.model = "transport";
   r.estimate.correlation = -0.25;
   r.estimate.budget = {{"noise", 0.01, 0.00002}};
+  r.estimate.pulls = {{"led1.power", "LED power", 1.5, 0.03, 0.02, 0.01, 0, 9.0, -0.2, 0.0004}};
   r.estimate.scale = {1.01, 0.02, 0.97, 1.05};
   r.estimate.reduced_chi2 = 1.5;
   r.estimate.rows = 77;
@@ -56,6 +57,12 @@ TEST(ResultJson, EveryNumberOfAChannel) {
   const nlohmann::json& c = j["results"][0];
   EXPECT_EQ(c["correlation"], -0.25);
   EXPECT_EQ(c["budget"][0]["sigma_a_per_mm"], 0.00002);
+  EXPECT_EQ(c["pulls"][0]["quantity"], "led1.power");
+  EXPECT_EQ(c["pulls"][0]["pull"], 1.5);
+  EXPECT_EQ(c["pulls"][0]["least_seen_in_std"], 9.0);
+  EXPECT_EQ(c["pulls"][0]["unseen"]["sigma_s_prime_per_mm"], -0.2);
+  EXPECT_EQ(c["pulls"][0]["unseen"]["sigma_a_per_mm"], 0.0004);
+  EXPECT_EQ(c["rests_on"][0], "LED power");
   EXPECT_EQ(c["scale"]["interval95"][0], 0.97);
   EXPECT_EQ(c["residual"]["reduced_chi2"], 1.5);
   EXPECT_EQ(c["residual"]["rms_relative"], 0.0123);

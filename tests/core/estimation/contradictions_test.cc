@@ -50,6 +50,29 @@ TEST(Contradictions, RefusesTheChannelThatNeedsAnotherPosition) {
               HasSubstr("beside the other channels: the shots contradict the LED power"));
 }
 
+// What one channel shows of the LED's position from 40 deviations on, all together show from
+// 4 / sqrt(99 / 100) on; its power is its own.
+TEST(Contradictions, OtherChannelsSeeWhatOneDoesNot) {
+  std::vector<ChannelResult> results = three_channels_and_one();
+  results.resize(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    results[i].evidence = {{kDoubtedPosition, kDoubtedPower},
+                           Eigen::Vector2d(i == 0 ? 0.01 : 98.99, 0.01).asDiagonal(),
+                           Eigen::Vector2d::Zero(),
+                           Eigen::Vector2d(0.05, 0.005)};
+    for (const Nuisance& n : results[i].evidence.nuisances) {
+      PriorPull& pull = results[i].estimate.pulls.emplace_back(PriorPull{n.name, n.group});
+      pull.least_seen_in_std = 40.0;
+      pull.unseen_sigma_s_prime_per_mm = 1.0;
+    }
+  }
+  refuse_contradicted(results);
+  const std::vector<PriorPull>& pulls = results[0].estimate.pulls;
+  EXPECT_NEAR(pulls[0].least_seen_in_std, 4.0 / std::sqrt(0.99), 1e-9);
+  EXPECT_NEAR(pulls[0].unseen_sigma_s_prime_per_mm, 0.1 / std::sqrt(0.99), 1e-9);
+  EXPECT_EQ(pulls[1].least_seen_in_std, 40.0);
+}
+
 // A channel whose model misses its image says nothing beside one whose model explains it, and what
 // is most probable without.
 TEST(Contradictions, MostProbableWhereNothingIsExplained) {

@@ -1,9 +1,13 @@
 #include "core/fit/prior_pulls.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
+#include <Eigen/Dense>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -83,6 +87,104 @@ TEST(PriorPulls, FreeAndHeldOnesHaveNone) {
   ASSERT_EQ(j.pulls.size(), 1U);
   EXPECT_EQ(j.pulls[0].name, "eta");
   EXPECT_NEAR(j.pulls[0].pull, 2.0 / std::sqrt(2.0), 1e-12);
+}
+
+// The image of a quantity that is off by as much as just shows has a pull of kMostPull, and shifts
+// the least-squares solution of rows and priors together by what is stated.
+TEST(PriorPulls, LeastErrorThatShowsAndItsShift) {
+  constexpr Eigen::Index kRows = 12, kNuisances = 3;
+  std::srand(3);
+  WhitenedModel model;
+  model.free = Eigen::MatrixXd::Random(kRows, 2);
+  model.columns = Eigen::MatrixXd::Random(kRows, kNuisances);
+  model.columns.col(1) = 2.0 * model.free.col(0) - model.free.col(1) + 0.03 * model.columns.col(1);
+  model.nuisances = {{"a", 0.5, true, "a"}, {"b", 2.0, true, "b"}, {"c", 40.0, true, "c"}};
+  model.data_length = 1.0;
+  model.residual = Eigen::VectorXd::Zero(kRows);
+  const std::vector<PriorPull> stated = judge(model).pulls;
+  ASSERT_EQ(stated.size(), 3U);
+  for (std::size_t i = 0; i < stated.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    SCOPED_TRACE(stated[i].name);
+    model.residual = model.columns.col(at) * stated[i].least_seen_in_std * model.nuisances[i].std;
+    EXPECT_NEAR(judge(model).pulls[i].pull, kMostPull, 1e-9);
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(kRows + kNuisances, 2 + kNuisances);
+    all.topRows(kRows) << model.free, model.columns;
+    for (Eigen::Index k = 0; k < kNuisances; ++k) {
+      all(kRows + k, 2 + k) = 1.0 / model.nuisances[static_cast<std::size_t>(k)].std;
+    }
+    Eigen::VectorXd data = Eigen::VectorXd::Zero(kRows + kNuisances);
+    data.head(kRows) = model.residual;
+    const Eigen::VectorXd solved = (all.transpose() * all).ldlt().solve(all.transpose() * data);
+    EXPECT_NEAR(stated[i].unseen_sigma_s_prime_per_mm, solved[0], 1e-9 * std::abs(solved[0]));
+    EXPECT_NEAR(stated[i].unseen_sigma_a_per_mm, solved[1], 1e-9 * std::abs(solved[1]));
+  }
+  // Nearly a change by the unknowns, b shows last and shifts them most.
+  EXPECT_GT(stated[1].least_seen_in_std, 3.0 * stated[0].least_seen_in_std);
+  EXPECT_GT(stated[1].unseen_sigma_s_prime_per_mm, 100.0);
+}
+
+// What the image does not show at all has a limit, too; what is exact has none.
+TEST(PriorPulls, LeastErrorThatShowsIsFinite) {
+  WhitenedModel model;
+  model.residual = Eigen::Vector3d(1.0, 2.0, 4.0);
+  model.free = Eigen::MatrixXd::Identity(3, 2);
+  model.columns = Eigen::MatrixXd::Zero(3, 3);
+  model.columns.col(1) = model.free.col(0);
+  model.columns.col(2) = Eigen::Vector3d::Ones();
+  model.nuisances = {
+      {"none", 1.0, true, "none"}, {"scale", 0.5, true, "scale"}, {"eta", 0.0, true, "eta"}};
+  model.data_length = 1.0;
+  const std::vector<PriorPull> pulls = judge(model).pulls;
+  EXPECT_NEAR(pulls[0].least_seen_in_std, 4e6, 1.0);
+  EXPECT_EQ(pulls[0].unseen_sigma_s_prime_per_mm, 0.0);
+  EXPECT_NEAR(pulls[1].least_seen_in_std, 4e6, 1.0);
+  EXPECT_NEAR(pulls[1].unseen_sigma_s_prime_per_mm, 2e6, 1.0);
+  EXPECT_EQ(pulls[2].least_seen_in_std, 0.0);
+}
+
+Estimate resting_on(std::vector<PriorPull> pulls) {
+  Estimate e;
+  e.sigma_s_prime_per_mm = normal_quantity(2.0, 0.01);
+  e.sigma_a_per_mm = normal_quantity(0.1, 0.001);
+  e.pulls = std::move(pulls);
+  return e;
+}
+
+PriorPull unseen(const char* name, const char* group, double s, double a) {
+  PriorPull p{name, group};
+  p.least_seen_in_std = 20.0;
+  p.unseen_sigma_s_prime_per_mm = s;
+  p.unseen_sigma_a_per_mm = a;
+  return p;
+}
+
+// Of each group the worst, by either coefficient.
+TEST(PriorPulls, WhatAnEstimateRestsOn) {
+  const Estimate e = resting_on(
+      {unseen("eta", "eta", 0.05, 0.0), unseen("led1.power", "LED power", -0.07, 0.0),
+       unseen("led2.power", "LED power", 0.0, -0.012), unseen("scale", "scale", -0.08, 0.0)});
+  const std::vector<PriorPull> on = rests_on(e);
+  ASSERT_EQ(on.size(), 2U);
+  EXPECT_EQ(on[0].name, "led2.power");
+  EXPECT_EQ(on[1].name, "scale");
+  EXPECT_NEAR(unseen_in_std(on[0], e), 12.0, 1e-9);
+  EXPECT_EQ(rests_on_sentence(e),
+            "rests on the stated LED power, scale: an error of LED power (led2.power) of up to 20 "
+            "stated deviations would not show, and would shift sigma_s' by 0 and sigma_a by 0.012 "
+            "/mm");
+  EXPECT_EQ(rests_on_sentence(resting_on({unseen("eta", "eta", 0.05, 0.0)})), "");
+}
+
+// Other images that see more of it leave less unseen; those that see less change nothing.
+TEST(PriorPulls, OtherImagesSeeAsWell) {
+  PriorPull p = unseen("pose0", "pose", -0.08, 0.002);
+  see_from(40.0, p);
+  EXPECT_EQ(p.least_seen_in_std, 20.0);
+  see_from(5.0, p);
+  EXPECT_EQ(p.least_seen_in_std, 5.0);
+  EXPECT_NEAR(p.unseen_sigma_s_prime_per_mm, -0.02, 1e-12);
+  EXPECT_NEAR(p.unseen_sigma_a_per_mm, 0.0005, 1e-12);
 }
 
 // Where all statements hold, pulls are standard normal and the chi-square has its degrees of

@@ -1,5 +1,6 @@
 #include "core/fit/rig_priors.h"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -59,6 +60,32 @@ TEST(RigPriors, PullsFindWhatIsOff) {
   EXPECT_NEAR(e.pulls[0].pull, 4.0, 1.0);
   EXPECT_EQ(e.pulls[1].name, "scale");
   EXPECT_NEAR(e.sigma_s_prime_per_mm.value, 1.2, 3.0 * e.sigma_s_prime_per_mm.std + 0.0024);
+}
+
+// A scale that is off by a little shifts the coefficients by its share of what is unseen.
+TEST(RigPriors, UnseenErrorsShiftTheFit) {
+  const Medium truth{1.2, 0.01, 1.3};
+  const test_support::HalfLitPlate plate(1.0);
+  const DistanceKnots knots = plate.knots();
+  const WeightMatrix w = plate.weights(knots);
+  DipoleFitOptions options;
+  options.eta_int_over_ext = truth.eta_int_over_ext;
+  options.scale.relative_std = 0.02;
+  const auto fitted = [&](double scale) {
+    DenseSystem system = test_support::noisy_system(w, scale * plate.image(Dipole(truth)), 0.0, 1);
+    system.std_l = 0.02 * system.l;
+    return fit_dipole(system, knots, options).estimate;
+  };
+  const Estimate right = fitted(1.0);
+  ASSERT_EQ(right.pulls.size(), 1U);
+  const PriorPull& scale = right.pulls[0];
+  constexpr double kOff = 0.002;
+  const Estimate more = fitted(1.0 + kOff), less = fitted(1.0 - kOff);
+  const double share = 2.0 * kOff / (scale.least_seen_in_std * options.scale.relative_std);
+  const double s = more.sigma_s_prime_per_mm.value - less.sigma_s_prime_per_mm.value;
+  const double a = more.sigma_a_per_mm.value - less.sigma_a_per_mm.value;
+  EXPECT_NEAR(s, share * scale.unseen_sigma_s_prime_per_mm, 0.02 * std::abs(s));
+  EXPECT_NEAR(a, share * scale.unseen_sigma_a_per_mm, 0.02 * std::abs(a));
 }
 
 // A scale stated 20 % too small, ten deviations, by an image that tells it: the optimum has moved
