@@ -53,8 +53,9 @@ std::string rests_on_sentence(const Measurement& m) {
     causes.push_back(fmt::format("{} ({})", cause, fmt::join(of, ", ")));
   }
   if (causes.empty()) return "";
-  return fmt::format("{} of {} values rest on what the rig states and these shots cannot test: {}.",
-                     resting, m.results.size(), fmt::join(causes, "; "));
+  return fmt::format("{} of {} values {} on what the rig states and these shots cannot test: {}.",
+                     resting, m.results.size(), resting == 1 ? "rests" : "rest",
+                     fmt::join(causes, "; "));
 }
 
 std::string next_sentence(const Measurement& m) {
