@@ -108,6 +108,33 @@ void report_rows(const MaterialChannel& channel, const ChannelRows& rows, Channe
   }
 }
 
+ChannelRows every_nth(std::size_t n, ChannelRows rows) {
+  std::size_t seen = 0;
+  for (ChannelObservation& o : rows) {
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (o.state[j] == RowState::kUsed && seen++ % n != 0) leave_out(o, j, RowState::kOutlier);
+    }
+  }
+  return rows;
+}
+
+bool leave_outliers_out(const ComparedImage& image, ChannelRows& rows) {
+  const std::vector<Eigen::Index> far = outliers(image.l, image.predicted, image.std_l);
+  auto next = far.begin();
+  Eigen::Index at = 0;
+  for (ChannelObservation& o : rows) {
+    for (std::size_t j = 0; j < o.l.size(); ++j) {
+      if (o.state[j] != RowState::kUsed) continue;
+      if (next != far.end() && *next == at) {
+        leave_out(o, j, RowState::kOutlier);
+        ++next;
+      }
+      ++at;
+    }
+  }
+  return !far.empty();
+}
+
 std::vector<ShotRows> shot_rows(const MaterialChannel& channel, const ChannelRows& rows,
                                 const Eigen::VectorXd& predicted, const Eigen::VectorXd& std) {
   std::vector<ShotRows> out;

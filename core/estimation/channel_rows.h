@@ -10,6 +10,7 @@
 #include "core/estimation/channel_result.h"
 #include "core/estimation/channel_weights.h"
 #include "core/estimation/material_channel.h"
+#include "core/fit/compared_image.h"
 #include "core/fit/linear_shot.h"
 
 namespace scattermeter {
@@ -35,6 +36,13 @@ DenseSystem channel_system(const Scene& scene, const MaterialChannel& channel,
 
 // Counts the rows by state.
 void report_rows(const MaterialChannel& channel, const ChannelRows& rows, ChannelResult& result);
+
+// With every n-th of the used rows in use, evenly among all; the others count as outliers.
+ChannelRows every_nth(std::size_t n, ChannelRows rows);
+
+// Leaves out those used rows that are far from what the model predicts of them (outliers()), and
+// returns whether there were any. image: of the used rows, shot by shot.
+bool leave_outliers_out(const ComparedImage& image, ChannelRows& rows);
 
 // The shots' rows with the model's predictions for those used. predicted, std: of the used rows of
 // `rows`, shot by shot.

@@ -7,12 +7,12 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/agreement/shot_agreement.h"
-#include "core/base/side_by_side.h"
 #include "core/estimation/channel_image.h"
 #include "core/estimation/contradictions.h"
 #include "core/estimation/edge_width.h"
 #include "core/estimation/estimation.h"
 #include "core/estimation/material_channel.h"
+#include "core/estimation/model_choice.h"
 #include "core/estimation/nuisances.h"
 #include "core/estimation/residual_look.h"
 #include "core/estimation/sensitivities.h"
@@ -29,24 +29,21 @@ namespace {
 struct Work {
   ChannelRows rows;
   bool estimated = false;                              // there is a first estimate
+  bool far_off = false;                                // which misses the image by per cents
   bool settled = false;                                // another round would not change it
   JointPulls joint_pulls;                              // known from other channels
   std::shared_ptr<const Sensitivities> sensitivities;  // of the latest final fit
 };
 
-bool settled(const Estimate& before, const Estimate& after) {
-  constexpr double kOfStd = 0.02;
-  const auto close = [](const Quantity& a, const Quantity& b) {
-    return std::abs(a.value - b.value) <= kOfStd * b.std;
-  };
-  return close(before.sigma_s_prime_per_mm, after.sigma_s_prime_per_mm) &&
-         close(before.sigma_a_per_mm, after.sigma_a_per_mm);
-}
-
 class DipoleEstimator {
  public:
-  DipoleEstimator(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems)
-      : e_(e), systems_(systems), knots_(smooth_knots(e.lit)), work_(e.channels.size()) {
+  DipoleEstimator(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems,
+                  bool transport_follows)
+      : e_(e),
+        systems_(systems),
+        transport_follows_(transport_follows),
+        knots_(smooth_knots(e.lit)),
+        work_(e.channels.size()) {
     fit_.scale = scale_prior(e.scene);
     fit_.without_noise = e.options.without_noise;
   }
@@ -94,7 +91,9 @@ class DipoleEstimator {
       work_[i].sensitivities = of_lights;
       const Estimate before = e_.results[i].estimate;
       final_fit(i);
-      work_[i].settled = !has_ambient(e_.channels[i]) || settled(before, e_.results[i].estimate);
+      constexpr double kOfStd = 0.02;
+      work_[i].settled = !has_fitted_light(e_.scene, e_.channels[i]) ||
+                         is_near(before, e_.results[i].estimate, kOfStd);
     });
     e_.watch.lap("fit");
   }
@@ -150,6 +149,8 @@ class DipoleEstimator {
     report_rows(channel, work.rows, e_.results[i]);
     work.estimated = fit.estimate.converged;
     if (!work.estimated) return;
+    constexpr double kFarOff = 0.01;
+    work.far_off = misses_image(fit.estimate) && fit.estimate.misfit_relative > kFarOff;
     e_.results[i].look =
         residual_look(shot_rows(channel, work.rows, fit.image.predicted, fit.image.std_l), channel);
     Eigen::Index at = 0;
@@ -180,32 +181,6 @@ class DipoleEstimator {
                       knots_, options);
   }
 
-  bool has_ambient(const MaterialChannel& channel) const {
-    for (const ObservedShot* shot : channel.shots) {
-      for (const std::string& name : shot->stated->lights) {
-        if (e_.scene.light(name)->is_fitted()) return true;
-      }
-    }
-    return false;
-  }
-
-  bool leave_outliers_out(const ComparedImage& image, ChannelRows& rows) const {
-    const std::vector<Eigen::Index> far = outliers(image.l, image.predicted, image.std_l);
-    auto next = far.begin();
-    Eigen::Index at = 0;
-    for (ChannelObservation& o : rows) {
-      for (std::size_t j = 0; j < o.l.size(); ++j) {
-        if (o.state[j] != RowState::kUsed) continue;
-        if (next != far.end() && *next == at) {
-          leave_out(o, j, RowState::kOutlier);
-          ++next;
-        }
-        ++at;
-      }
-    }
-    return !far.empty();
-  }
-
   void remember(std::size_t i, const LitMedium& first) {
     const auto rows = std::make_shared<const ChannelRows>(work_[i].rows);
     const auto of_lights = work_[i].sensitivities;
@@ -222,51 +197,71 @@ class DipoleEstimator {
   void final_fit(std::size_t i) {
     const MaterialChannel& channel = e_.channels[i];
     ChannelResult& result = e_.results[i];
-    const Estimate first = result.estimate;
-    const DipoleFitOptions options = options_of(i);
+    const Estimate& first = result.estimate;
     const LitMedium medium{{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
                            first.scale.value};
+    if (systems_ != nullptr) remember(i, medium);
+    if (transport_follows_ && work_[i].far_off && some_rows_refuse(i, medium)) return;
     const ChannelImage image(e_.scene, channel, work_[i].rows, e_.kept.weights, knots_, medium,
                              work_[i].sensitivities->of_channel[i]);
-    result.nuisances_negligible = image.negligible_nuisances();
+    std::optional<KeptRows> kept;
     std::vector<ShotInformation> shots;
     ImageInformation joint;
     const auto fitted = [&] {
-      shots = information_by_shot(image);
+      kept.emplace(image);
+      shots = information_by_shot(*kept);
       joint = joint_information(shots, image.nuisances().size());
-      return fit_dipole(image, joint, knots_, options);
+      return fit_dipole(*kept, joint, knots_, options_of(i));
     };
     DipoleFit fit = fitted();
-    if (systems_ != nullptr) remember(i, medium);
     if (leave_outliers_out(fit.image, work_[i].rows)) fit = fitted();
     report_rows(channel, work_[i].rows, result);
-    result.estimate = fit.estimate;
-    result.evidence = fit.evidence;
-    result.more_rows = fit.more_rows;
-    result.image_in_std = std::sqrt(joint.l2);
+    report(i, image, joint, fit);
     if (!fit.estimate.converged) return;
     if (e_.options.keep_rows) {
       result.rows = shot_rows(channel, work_[i].rows, fit.image.predicted + image.light_by_plane(),
                               fit.image.std_l);
     }
-    const DipoleSolver::Point& p = fit.optimum;
-    const Medium fitted_medium{p.sigma_s_prime_per_mm(), p.sigma_a_per_mm(),
-                               channel.eta_int_over_ext};
-    const auto recover = [&] {
-      result.recovered =
-          smooth_reflectance(fit.recovered, image.nuisances(), knots_, {.scale = options.scale});
-      result.misfit = dipole_misfit(fit.recovered, image.nuisances(), knots_, fitted_medium,
-                                    std::exp(p.log_s), {.scale = options.scale});
-    };
-    side_by_side(recover, [&] {
-      widen_by_mesh_scale(channel, result.estimate);
-      if (channel.shots.size() > 1) compare_shots(i, image, shots, fit, result);
-    });
+    if (channel.shots.size() > 1) compare_shots(i, *kept, shots, fit, result);
     refuse_undetermined(result.estimate);
   }
 
+  // Whether a quarter of the rows, nuisances fitted, refuse the dipole; then that is the result.
+  bool some_rows_refuse(std::size_t i, const LitMedium& medium) {
+    constexpr std::size_t kStep = 4;
+    const ChannelRows some = every_nth(kStep, work_[i].rows);
+    const ChannelImage image(e_.scene, e_.channels[i], some, e_.kept.weights, knots_, medium,
+                             work_[i].sensitivities->of_channel[i]);
+    const KeptRows kept(image);
+    const ImageInformation joint =
+        joint_information(information_by_shot(kept), image.nuisances().size());
+    const DipoleFit fit = fit_dipole(kept, joint, knots_, options_of(i));
+    if (!misses_image(fit.estimate) || fit.estimate.reasons.empty()) return false;
+    report(i, image, joint, fit);
+    return true;
+  }
+
+  void report(std::size_t i, const ChannelImage& image, const ImageInformation& joint,
+              const DipoleFit& fit) {
+    ChannelResult& result = e_.results[i];
+    result.nuisances_negligible = image.negligible_nuisances();
+    result.estimate = fit.estimate;
+    result.evidence = fit.evidence;
+    result.more_rows = fit.more_rows;
+    result.image_in_std = std::sqrt(joint.l2);
+    if (!fit.estimate.converged) return;
+    const DipoleSolver::Point& p = fit.optimum;
+    const Medium medium{p.sigma_s_prime_per_mm(), p.sigma_a_per_mm(),
+                        e_.channels[i].eta_int_over_ext};
+    result.recovered =
+        smooth_reflectance(fit.recovered, image.nuisances(), knots_, {.scale = fit_.scale});
+    result.misfit = dipole_misfit(fit.recovered, image.nuisances(), knots_, medium,
+                                  std::exp(p.log_s), {.scale = fit_.scale});
+    widen_by_mesh_scale(e_.channels[i], result.estimate);
+  }
+
   // Fits each shot by itself and widens the joint estimate by what they disagree.
-  void compare_shots(std::size_t i, const ChannelImage& image,
+  void compare_shots(std::size_t i, const ImageRows& image,
                      const std::vector<ShotInformation>& shots, const DipoleFit& fit,
                      ChannelResult& result) const {
     const DipoleFitOptions options = options_of(i);
@@ -284,6 +279,7 @@ class DipoleEstimator {
 
   Estimation& e_;
   std::vector<std::optional<DipoleSystem>>* systems_;
+  bool transport_follows_;
   DistanceKnots knots_;
   DipoleFitOptions fit_;
   std::vector<Work> work_;
@@ -292,8 +288,9 @@ class DipoleEstimator {
 
 }  // namespace
 
-void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems) {
-  DipoleEstimator(e, systems).run();
+void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems,
+                     bool transport_follows) {
+  DipoleEstimator(e, systems, transport_follows).run();
   e.refuse_rough_surfaces();
 }
 

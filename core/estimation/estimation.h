@@ -82,7 +82,9 @@ struct DipoleSystem {
 
 // The estimators fill in the results' estimates. systems: if given, receives those of the channels
 // that were fitted.
-void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems = nullptr);
+// transport_follows: channels that a quarter of their rows refuse clearly are left at that.
+void estimate_dipole(Estimation& e, std::vector<std::optional<DipoleSystem>>* systems = nullptr,
+                     bool transport_follows = false);
 void estimate_auto(Estimation& e);
 void estimate_transport(Estimation& e);
 void estimate_paper(Estimation& e);

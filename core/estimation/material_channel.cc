@@ -82,6 +82,14 @@ void widen_by_mesh_scale(const MaterialChannel& channel, Estimate& estimate) {
   widen({"mesh scale", by_s, by_a}, by_s * by_a, estimate);
 }
 
+bool has_fitted_light(const Scene& scene, const MaterialChannel& channel) {
+  return std::any_of(channel.shots.begin(), channel.shots.end(), [&](const ObservedShot* shot) {
+    const std::vector<std::string>& names = shot->stated->lights;
+    return std::any_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return scene.light(name)->is_fitted(); });
+  });
+}
+
 double patch_size_mm(const MaterialChannel& channel) {
   double size_mm = 0.0;
   for (const ObservedShot* shot : channel.shots) {

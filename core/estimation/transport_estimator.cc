@@ -64,7 +64,7 @@ void search_all(Estimation& e, const Systems& systems, std::vector<std::size_t> 
 template <class Wants>
 void estimate_from_dipole(Estimation& e, const char* otherwise, const Wants& wants_transport) {
   std::vector<std::optional<DipoleSystem>> systems(e.channels.size());
-  estimate_dipole(e, &systems);
+  estimate_dipole(e, &systems, true);
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
     if (!systems[i]) continue;

@@ -13,6 +13,14 @@ void add_once(std::string reason, std::vector<std::string>& reasons) {
 
 }  // namespace
 
+bool is_near(const Estimate& estimate, const Estimate& to, double of_std) {
+  const auto close = [&](const Quantity& a, const Quantity& b) {
+    return std::abs(a.value - b.value) <= of_std * b.std;
+  };
+  return close(estimate.sigma_s_prime_per_mm, to.sigma_s_prime_per_mm) &&
+         close(estimate.sigma_a_per_mm, to.sigma_a_per_mm);
+}
+
 void widen(const BudgetLine& by, double covariance, Estimate& estimate) {
   Quantity& s = estimate.sigma_s_prime_per_mm;
   Quantity& a = estimate.sigma_a_per_mm;

@@ -79,6 +79,9 @@ struct Estimate {
   std::vector<std::string> reasons;
 };
 
+// Whether both coefficients differ from those of `to` by at most this share of its deviations.
+bool is_near(const Estimate& estimate, const Estimate& to, double of_std);
+
 // Adds an independent error in both coefficients to deviations, intervals, correlation and budget.
 // by: its standard deviations, 1/mm; covariance: of the two, 1/mm^2.
 void widen(const BudgetLine& by, double covariance, Estimate& estimate);

@@ -24,6 +24,23 @@ ShotSystem SystemRows::shot(std::size_t shot) const {
           nuisances_of_shot(system_, shot)};
 }
 
+ShotSystem KeptRows::shot(std::size_t shot) const {
+  {
+    const std::lock_guard lock(mutex_);
+    if (kept_[shot]) return *kept_[shot];
+  }
+  ShotSystem out = image_.shot(shot);
+  const DenseSystem& system = *out.system;
+  const auto numbers = system.weights.size() + system.nuisance_columns.size() + 2 * system.l.size();
+  const std::size_t bytes = static_cast<std::size_t>(numbers) * sizeof(double);
+  const std::lock_guard lock(mutex_);
+  if (!kept_[shot] && bytes_ + bytes <= most_bytes_) {
+    bytes_ += bytes;
+    kept_[shot] = out;
+  }
+  return out;
+}
+
 void for_each_shot(const ImageRows& image,
                    const std::function<void(std::size_t, const ShotSystem&)>& visit) {
   tbb::this_task_arena::isolate([&] {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -44,6 +46,25 @@ class SystemRows final : public ImageRows {
 
  private:
   const DenseSystem& system_;
+};
+
+// Those of another image, which outlives this and does not change, each computed once as long as
+// all that are kept take no more than `most_bytes`.
+class KeptRows final : public ImageRows {
+ public:
+  // By default 150,000 rows of an image with 50 nuisances on 60 knots.
+  explicit KeptRows(const ImageRows& image, std::size_t most_bytes = std::size_t{1} << 27)
+      : image_(image), most_bytes_(most_bytes), kept_(image.shots()) {}
+  std::size_t shots() const override { return image_.shots(); }
+  const std::vector<Nuisance>& nuisances() const override { return image_.nuisances(); }
+  ShotSystem shot(std::size_t shot) const override;
+
+ private:
+  const ImageRows& image_;
+  std::size_t most_bytes_;
+  mutable std::mutex mutex_;
+  mutable std::size_t bytes_ = 0;
+  mutable std::vector<std::optional<ShotSystem>> kept_;
 };
 
 // Calls visit(s, rows of shot s), several in parallel; a waiting thread does not start unrelated

@@ -105,6 +105,41 @@ TEST_F(TwoShots, SystemHoldsTheUsedRowsShotByShot) {
 }
 
 // A mean free path a fifth of the patch's width: 16 (the limit) times 1e-4 of l.
+// The count goes on from shot to shot; what is not in use stays as it is.
+TEST_F(TwoShots, EveryThirdOfTheUsedRows) {
+  const ChannelRows some = every_nth(3, rows_);
+  std::size_t seen = 0;
+  for (std::size_t s = 0; s < 2; ++s) {
+    std::size_t used = 0;
+    for (std::size_t j = 0; j < rows_[s].l.size(); ++j) {
+      const bool is_used = rows_[s].state[j] == RowState::kUsed;
+      const RowState expected = is_used && seen++ % 3 != 0 ? RowState::kOutlier : rows_[s].state[j];
+      EXPECT_EQ(some[s].state[j], expected);
+      used += expected == RowState::kUsed ? 1 : 0;
+    }
+    EXPECT_EQ(some[s].rows_used, used);
+  }
+  EXPECT_GT(seen, 30U);
+}
+
+TEST_F(TwoShots, LeavesOutWhatIsFarFromItsPrediction) {
+  const auto n = static_cast<Eigen::Index>(rows_[0].rows_used + rows_[1].rows_used);
+  ComparedImage image;
+  image.l = image.predicted = Eigen::VectorXd::Ones(n);
+  image.std_l = Eigen::VectorXd::Constant(n, 0.01);
+  for (Eigen::Index k = 0; k < n; ++k) image.l[k] += k % 2 == 0 ? 0.01 : -0.01;
+  ChannelRows rows = rows_;
+  EXPECT_FALSE(leave_outliers_out(image, rows));
+  // The first used row of the second shot.
+  image.l[static_cast<Eigen::Index>(rows_[0].rows_used)] = 0.5;
+  EXPECT_TRUE(leave_outliers_out(image, rows));
+  EXPECT_EQ(rows[0].rows_used, rows_[0].rows_used);
+  EXPECT_EQ(rows[1].rows_used, rows_[1].rows_used - 1);
+  std::size_t first = 0;
+  while (rows_[1].state[first] != RowState::kUsed) ++first;
+  EXPECT_EQ(rows[1].state[first], RowState::kOutlier);
+}
+
 TEST_F(TwoShots, CoarsePatchesWidenTheRows) {
   const DenseSystem system = channel_system(cube_.scene, channel_, 0, rows_[0], cube_.weights, 0.5);
   EXPECT_NEAR(system.std_l[0], std::hypot(0.01, 1.6e-3) * system.l[0], 1e-12 * system.l[0]);

@@ -119,6 +119,35 @@ TEST(DipoleEstimator, LeavesOutliersOut) {
   EXPECT_TRUE(std::isnan(result.rows[0].predicted[speck]));
 }
 
+// Light of two media at once, of which no dipole is the sum. With
+// transport to follow, a quarter of the rows refuses the dipole; a dipole that holds is fitted to
+// all rows.
+TEST(DipoleEstimator, PartOfTheRowsRefusesWhatIsFarOff) {
+  DipoleCube cube(1, 1.5);
+  cube.show(kCubeMedium, 0.002, 5);
+  const auto fitted = [&](bool transport_follows) {
+    CubeEstimation run(cube, "R");
+    std::vector<std::optional<DipoleSystem>> systems(1);
+    estimate_dipole(run.estimation, &systems, transport_follows);
+    EXPECT_TRUE(systems[0].has_value());
+    return run.estimation.results[0];
+  };
+  const ChannelResult good = fitted(true);
+  EXPECT_FALSE(good.refused());
+  EXPECT_EQ(good.estimate.rows, fitted(false).estimate.rows);
+  const std::vector<double> near = cube.shots[0].observation.channel[0].l;
+  cube.show({0.1, 0.001, 1.3}, 0.002, 6);
+  std::vector<double>& l = cube.shots[0].observation.channel[0].l;
+  for (std::size_t j = 0; j < l.size(); ++j) l[j] += near[j];
+  const ChannelResult all = fitted(false), part = fitted(true);
+  EXPECT_TRUE(all.refused());
+  EXPECT_TRUE(part.refused());
+  EXPECT_TRUE(part.recovered.has_value());
+  EXPECT_GT(part.estimate.rows, 50U);
+  EXPECT_NEAR(static_cast<double>(all.estimate.rows) / static_cast<double>(part.estimate.rows), 4.0,
+              0.2);
+}
+
 // What transport starts from: of the channels that were fitted, with all their rows.
 TEST(DipoleEstimator, HandsOverTheSystemsOfOpenChannels) {
   DipoleCube cube;

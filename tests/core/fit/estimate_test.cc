@@ -69,5 +69,16 @@ TEST(FitEstimate, AReasonIsGivenOnce) {
   EXPECT_EQ(e.reasons.size(), 2U);
 }
 
+TEST(Estimate, IsNearByTheOthersDeviations) {
+  Estimate a, b;
+  a.sigma_s_prime_per_mm = normal_quantity(1.00, 1.0);
+  b.sigma_s_prime_per_mm = normal_quantity(1.01, 0.2);
+  a.sigma_a_per_mm = b.sigma_a_per_mm = normal_quantity(0.1, 0.0);
+  EXPECT_TRUE(is_near(a, b, 0.051));
+  EXPECT_FALSE(is_near(a, b, 0.049));
+  a.sigma_a_per_mm.value = 0.11;
+  EXPECT_FALSE(is_near(a, b, 0.051));
+}
+
 }  // namespace
 }  // namespace scattermeter

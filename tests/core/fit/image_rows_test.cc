@@ -1,6 +1,9 @@
 #include "core/fit/image_rows.h"
 
+#include <cstddef>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -56,6 +59,46 @@ TEST(ImageRows, OneShot) {
   EXPECT_EQ(rows.shots(), 1U);
   EXPECT_EQ(rows.shot(0).system.get(), &s);
   EXPECT_EQ(rows.shot(0).nuisances, (std::vector<Eigen::Index>{0, 1, 2}));
+}
+
+class CountedRows final : public ImageRows {
+ public:
+  explicit CountedRows(const DenseSystem& system) : rows_(system), calls(system.shot_rows.size()) {}
+  std::size_t shots() const override { return rows_.shots(); }
+  const std::vector<Nuisance>& nuisances() const override { return rows_.nuisances(); }
+  ShotSystem shot(std::size_t shot) const override {
+    ++calls[shot];
+    return rows_.shot(shot);
+  }
+
+ private:
+  SystemRows rows_;
+
+ public:
+  mutable std::vector<int> calls;
+};
+
+// Two rows of two weights, two nuisances, value and deviation take 96 bytes; three rows 144 (the
+// shot of no rows none).
+TEST(ImageRows, AreKeptWhereTheyFit) {
+  const DenseSystem s = small();
+  const CountedRows counted(s);
+  for (const auto& [most_bytes, calls] :
+       {std::pair{std::size_t{240}, std::vector{1, 1, 1}}, {239, {1, 1, 3}}, {95, {3, 1, 3}}}) {
+    counted.calls.assign(3, 0);
+    const KeptRows kept(counted, most_bytes);
+    EXPECT_EQ(kept.shots(), 3U);
+    EXPECT_EQ(kept.nuisances().size(), 3U);
+    for (int i = 0; i < 3; ++i) {
+      for (std::size_t shot = 0; shot < 3; ++shot) {
+        const ShotSystem own = kept.shot(shot);
+        EXPECT_EQ(own.nuisances, counted.shot(shot).nuisances);
+        --counted.calls[shot];
+        EXPECT_EQ(own.system->l, SystemRows(s).shot(shot).system->l);
+      }
+    }
+    EXPECT_EQ(counted.calls, calls) << most_bytes;
+  }
 }
 
 }  // namespace
