@@ -71,11 +71,10 @@ void add_deviations_bench(CLI::App& bench, CommandContext& context,
       "Shots of rigs that deviate in one thing from what their file says: displaced meshes, stray "
       "light, LEDs elsewhere, ...\n"
       "Prints for each kind and size how many answers are wrong and yet given as ok (off by more "
-      "than three stated deviations and by 1 % in sigma_s' or 5 % in sigma_a) and how many of "
-      "these "
+      "than three stated deviations and by 1 % in sigma_s' or 5 % in sigma_a), how many of these "
       "say that they rest on the cause (rests_on in result.json), how many are given, how many "
-      "refusals name the cause, and how many 95 % intervals hold the truth; and, for rigs "
-      "within what is stated, what widens the stated deviations. The kind \"rig drawn as stated\" "
+      "refusals name the cause, and how many 95 % intervals hold the truth; and, for rigs within "
+      "what is stated, what widens the stated deviations. The kind \"rig drawn as stated\" "
       "deviates in everything at once, by draws from the stated deviations.");
   declare(*command, *a);
   run_if_named(*command, context, [a, common, &context] {

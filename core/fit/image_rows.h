@@ -52,7 +52,7 @@ class SystemRows final : public ImageRows {
 // all that are kept take no more than `most_bytes`.
 class KeptRows final : public ImageRows {
  public:
-  // By default 150,000 rows of an image with 50 nuisances on 60 knots.
+  // By default, 150,000 rows with 50 nuisances on 60 knots fit.
   explicit KeptRows(const ImageRows& image, std::size_t most_bytes = std::size_t{1} << 27)
       : image_(image), most_bytes_(most_bytes), kept_(image.shots()) {}
   std::size_t shots() const override { return image_.shots(); }
