@@ -243,8 +243,7 @@ std::string rests_on_sentence(const Estimate& estimate) {
   const PriorPull& worst = on.front();
   return fmt::format(
       "rests on the stated {}: an error of {} of up to {:.2g} stated deviations would not show, "
-      "and "
-      "would shift sigma_s' by {:.2g} and sigma_a by {:.2g} /mm",
+      "and would shift sigma_s' by {:.2g} and sigma_a by {:.2g} /mm",
       fmt::join(groups, ", "), named(worst), worst.least_seen_in_std,
       std::abs(worst.unseen_sigma_s_prime_per_mm), std::abs(worst.unseen_sigma_a_per_mm));
 }

@@ -119,9 +119,8 @@ TEST(DipoleEstimator, LeavesOutliersOut) {
   EXPECT_TRUE(std::isnan(result.rows[0].predicted[speck]));
 }
 
-// Light of two media at once, of which no dipole is the sum. With
-// transport to follow, a quarter of the rows refuses the dipole; a dipole that holds is fitted to
-// all rows.
+// Light of two media at once, of which no dipole is the sum. With transport to follow, a quarter of
+// the rows refuses the dipole; a dipole that holds is fitted to all rows.
 TEST(DipoleEstimator, PartOfTheRowsRefusesWhatIsFarOff) {
   DipoleCube cube(1, 1.5);
   cube.show(kCubeMedium, 0.002, 5);
