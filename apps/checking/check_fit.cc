@@ -24,8 +24,8 @@
 #include "core/estimation/model_choice.h"
 #include "core/estimation/transport_search.h"
 #include "core/estimation/transport_start.h"
-#include "core/estimation/view_shift.h"
 #include "core/fit/prior_pulls.h"
+#include "core/nuisances/view_shift.h"
 #include "core/view/row_selection.h"
 
 namespace scattermeter::apps {

@@ -10,7 +10,7 @@
 #include "core/base/chi_square.h"
 #include "core/estimation/contradictions.h"
 #include "core/estimation/model_choice.h"
-#include "core/estimation/view_shift.h"
+#include "core/nuisances/view_shift.h"
 
 namespace scattermeter::apps {
 namespace {

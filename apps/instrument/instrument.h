@@ -41,7 +41,7 @@ class Instrument {
   // any fit, outlines and light of the shots are looked at (outline_watch.h, light_look.h):
   // channels whose shots contradict the rig are refused at once. Where the outlines, and then the
   // fit of all channels, show that the objects stand elsewhere within the rig's uncertainty, the
-  // shots are opened again and fitted from there (core/estimation/view_shift.h). Fills in results,
+  // shots are opened again and fitted from there (core/nuisances/view_shift.h). Fills in results,
   // patch sizes, timing and the notes of these looks; inputs are left to the caller. Throws
   // InputError as measure() does. Must not be called from several threads at once (it uses all of
   // them).

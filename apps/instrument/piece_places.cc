@@ -24,7 +24,7 @@
 #include "core/base/dense_solve.h"
 #include "core/base/input_error.h"
 #include "core/base/symmetric_eigen.h"
-#include "core/estimation/view_shift.h"
+#include "core/nuisances/view_shift.h"
 
 namespace scattermeter::apps {
 namespace {

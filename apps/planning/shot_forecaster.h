@@ -14,9 +14,9 @@
 #include "core/camera/sensor_noise.h"
 #include "core/diffusion/distance_weights.h"
 #include "core/estimation/estimation.h"
-#include "core/estimation/nuisances.h"
 #include "core/material/medium.h"
 #include "core/mesh/ray_scene.h"
+#include "core/nuisances/nuisances.h"
 #include "core/view/observation.h"
 
 namespace scattermeter::apps {

@@ -9,13 +9,13 @@
 
 #include "core/diffusion/distance_weights.h"
 #include "core/estimation/channel_rows.h"
-#include "core/estimation/nuisances.h"
 #include "core/fit/image_rows.h"
+#include "core/nuisances/nuisances.h"
 
 namespace scattermeter {
 
 // The used rows of the channel under all their lights, with the setup's uncertain quantities
-// (core/estimation/nuisances.h) and the errors of the method (core/fit/method_errors.h) as
+// (core/nuisances/nuisances.h) and the errors of the method (core/fit/method_errors.h) as
 // nuisances. All arguments must outlive it; rows excluded from `rows` later are also excluded from
 // the image. Nuisances of the setup that together cannot change any result by more than a hundredth
 // of its deviation by noise alone are left out: the length of the image's change by one deviation

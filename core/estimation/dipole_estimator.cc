@@ -13,13 +13,13 @@
 #include "core/estimation/estimation.h"
 #include "core/estimation/material_channel.h"
 #include "core/estimation/model_choice.h"
-#include "core/estimation/nuisances.h"
 #include "core/estimation/residual_look.h"
 #include "core/estimation/sensitivities.h"
 #include "core/fit/dipole_fit.h"
 #include "core/fit/dipole_misfit.h"
 #include "core/fit/image_information.h"
 #include "core/fit/smooth_reflectance.h"
+#include "core/nuisances/nuisances.h"
 #include "core/view/row_selection.h"
 
 namespace scattermeter {

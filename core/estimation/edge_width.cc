@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/median.h"
-#include "core/estimation/edge_light.h"
 #include "core/estimation/model_choice.h"
+#include "core/nuisances/edge_light.h"
 
 namespace scattermeter {
 namespace {

@@ -18,8 +18,8 @@
 #include "core/estimation/channel_weights.h"
 #include "core/estimation/estimate.h"
 #include "core/estimation/material_channel.h"
-#include "core/estimation/nuisances.h"
 #include "core/fit/dipole_fit.h"
+#include "core/nuisances/nuisances.h"
 
 namespace scattermeter {
 

@@ -5,9 +5,9 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "core/base/progress.h"
-#include "core/estimation/edge_light.h"
-#include "core/estimation/even_light.h"
-#include "core/estimation/surroundings_nuisance.h"
+#include "core/nuisances/edge_light.h"
+#include "core/nuisances/even_light.h"
+#include "core/nuisances/surroundings_nuisance.h"
 #include "core/scene/surroundings.h"
 
 namespace scattermeter {

@@ -8,8 +8,8 @@
 #include "core/diffusion/distance_weights.h"
 #include "core/estimation/edge_width.h"
 #include "core/estimation/estimation.h"
-#include "core/estimation/light_sensitivity.h"
-#include "core/estimation/nuisances.h"
+#include "core/nuisances/light_sensitivity.h"
+#include "core/nuisances/nuisances.h"
 
 namespace scattermeter {
 

@@ -13,9 +13,9 @@
 #include "apps/instrument/open_objects.h"
 #include "apps/simulation/virtual_shots.h"
 #include "calib/pose/shot_pose.h"
-#include "core/estimation/view_shift.h"
 #include "core/mesh/bodies.h"
 #include "core/mesh/round_bodies.h"
+#include "core/nuisances/view_shift.h"
 #include "core/scene/default_uncertainty.h"
 #include "tests/fixtures/apps/body_rig.h"
 

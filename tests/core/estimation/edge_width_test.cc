@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/estimation/edge_light.h"
+#include "core/nuisances/edge_light.h"
 
 namespace scattermeter {
 namespace {

@@ -15,9 +15,9 @@
 #include "core/camera/lens.h"
 #include "core/camera/lens_parameters.h"
 #include "core/camera/pose_shift.h"
-#include "core/estimation/nuisance_columns.h"
-#include "core/estimation/nuisances.h"
 #include "core/material/fresnel.h"
+#include "core/nuisances/nuisance_columns.h"
+#include "core/nuisances/nuisances.h"
 #include "core/view/row_blur.h"
 
 namespace scattermeter {

@@ -1,12 +1,12 @@
-#include "core/estimation/nuisances.h"
+#include "core/nuisances/nuisances.h"
 
 #include <numbers>
 #include <utility>
 
 #include <fmt/core.h>
 
-#include "core/estimation/even_light.h"
-#include "core/estimation/nuisance_columns.h"
+#include "core/nuisances/even_light.h"
+#include "core/nuisances/nuisance_columns.h"
 #include "core/scene/rough_surfaces.h"
 #include "core/scene/surroundings.h"
 

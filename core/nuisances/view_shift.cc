@@ -1,4 +1,4 @@
-#include "core/estimation/view_shift.h"
+#include "core/nuisances/view_shift.h"
 
 #include <algorithm>
 #include <cmath>

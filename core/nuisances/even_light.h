@@ -8,8 +8,8 @@
 #include <Eigen/Core>
 
 #include "core/diffusion/distance_weights.h"
-#include "core/estimation/light_sensitivity.h"
-#include "core/estimation/nuisances.h"
+#include "core/nuisances/light_sensitivity.h"
+#include "core/nuisances/nuisances.h"
 #include "core/scene/lit_objects.h"
 #include "core/scene/observed_shot.h"
 

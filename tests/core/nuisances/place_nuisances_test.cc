@@ -13,9 +13,9 @@
 #include "core/camera/lens.h"
 #include "core/camera/lens_parameters.h"
 #include "core/camera/pose_shift.h"
-#include "core/estimation/nuisances.h"
 #include "core/light/incident_light.h"
 #include "core/material/fresnel.h"
+#include "core/nuisances/nuisances.h"
 #include "tests/fixtures/apps/calibrated_nuisances.h"
 
 namespace scattermeter::apps {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "core/estimation/nuisances.h"
+#include "core/nuisances/nuisances.h"
 
 namespace scattermeter {
 

@@ -1,4 +1,4 @@
-#include "core/estimation/even_light.h"
+#include "core/nuisances/even_light.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "core/estimation/light_sensitivity.h"
+#include "core/nuisances/light_sensitivity.h"
 
 #include <cmath>
 #include <utility>

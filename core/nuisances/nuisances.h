@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
-#include "core/estimation/light_sensitivity.h"
 #include "core/fit/linear_shot.h"
+#include "core/nuisances/light_sensitivity.h"
 #include "core/scene/observed_shot.h"
 
 namespace scattermeter {

@@ -1,4 +1,4 @@
-#include "core/estimation/surroundings_nuisance.h"
+#include "core/nuisances/surroundings_nuisance.h"
 
 #include <algorithm>
 #include <array>

@@ -7,9 +7,9 @@
 #include <Eigen/Core>
 
 #include "core/diffusion/distance_weights.h"
-#include "core/estimation/light_sensitivity.h"
 #include "core/light/led.h"
 #include "core/mesh/creases.h"
+#include "core/nuisances/light_sensitivity.h"
 #include "core/scene/observed_shot.h"
 
 namespace scattermeter {

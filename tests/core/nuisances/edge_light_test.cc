@@ -1,4 +1,4 @@
-#include "core/estimation/edge_light.h"
+#include "core/nuisances/edge_light.h"
 
 #include <gtest/gtest.h>
 

@@ -6,9 +6,9 @@
 #include <Eigen/Core>
 
 #include "core/diffusion/distance_weights.h"
-#include "core/estimation/light_sensitivity.h"
 #include "core/light/incident_light.h"
 #include "core/light/led.h"
+#include "core/nuisances/light_sensitivity.h"
 #include "core/scene/scene.h"
 #include "core/scene/seen_object.h"
 

@@ -1,4 +1,4 @@
-#include "core/estimation/nuisances.h"
+#include "core/nuisances/nuisances.h"
 
 #include <cstdio>
 
