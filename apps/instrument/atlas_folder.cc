@@ -65,9 +65,9 @@ std::optional<Eigen::Vector3d> center_of(std::string_view name) {
   return at == end ? std::optional(out) : std::nullopt;
 }
 
-// The file: six counts, the sums, and of each tilt the steps' sizes and the batches in steps. Bytes
-// as in memory.
-constexpr std::int64_t kFormat = 2;
+// The file: six counts, the sums, their changes by eta, and of each kept tilt the steps' sizes and
+// the batches in steps. Bytes as in memory.
+constexpr std::int64_t kFormat = 3;
 using Counts = std::array<std::int64_t, 6>;
 
 template <class T>
@@ -86,6 +86,7 @@ std::string packed(const WhiteSums& sums) {
   std::string out;
   append(out, counts.data(), static_cast<Eigen::Index>(counts.size()));
   append(out, sums.sum.data(), sums.sum.size());
+  append(out, sums.per_eta.data(), sums.per_eta.size());
   for (std::size_t t = 0; t < batches.steps.size(); ++t) {
     append(out, batches.step_of[t].data(), batches.step_of[t].size());
     append(out, batches.steps[t].data(), batches.steps[t].size());
@@ -106,7 +107,7 @@ std::optional<WhiteSums> unpacked(std::string_view bytes) {
   const auto n_rows = static_cast<double>(rows);
   const double expected =
       sizeof counts + 8.0 * static_cast<double>(tilts) * n_rows +
-      (4.0 + static_cast<double>(batch_rows)) * static_cast<double>(batches) * n_rows;
+      (8.0 + static_cast<double>(batch_rows)) * static_cast<double>(batches) * n_rows;
   if (static_cast<double>(bytes.size()) != expected) return std::nullopt;
   WhiteSums out;
   out.levels = static_cast<int>(levels);
@@ -118,6 +119,8 @@ std::optional<WhiteSums> unpacked(std::string_view bytes) {
   };
   out.sum.resize(tilts, rows);
   fill(out.sum);
+  out.per_eta.resize(batches, rows);
+  fill(out.per_eta);
   out.batches = PackedBatches(static_cast<std::size_t>(batches), batch_rows, rows);
   for (std::size_t t = 0; t < out.batches.steps.size(); ++t) {
     fill(out.batches.step_of[t]);

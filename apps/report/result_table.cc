@@ -51,7 +51,7 @@ std::string bracket_text(const MergedBracket& bracket) {
 namespace {
 
 std::string with_deviation(const Quantity& q, bool known) {
-  return known ? value_with_deviation(q) : "-";
+  return known && std::isfinite(q.std) ? value_with_deviation(q) : "-";
 }
 
 // Why patches were excluded, summed over shots and channels: "3 clipped, 12 mirror a light".
@@ -113,7 +113,7 @@ std::string result_table(const Measurement& m) {
     add("", "", *r.dipole, "(dipole)",
         far ? fmt::format("{:+.2g} %, {:+.1g} /mm", 100.0 * far->sigma_s_prime_relative,
                           far->sigma_a_per_mm)
-            : "refused");
+            : "undetermined");
   }
   std::string out = table.text() + left_out(m);
   for (const MergedBracket& b : m.brackets) out += "bracket " + bracket_text(b) + "\n";

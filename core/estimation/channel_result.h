@@ -80,7 +80,7 @@ struct DipoleDistance {
   double sigma_s_prime_relative = 0;
   double sigma_a_per_mm = 0;
 };
-// Empty unless there are both estimates.
+// Empty unless there are both estimates and the dipole determines sigma_s' (is_undetermined()).
 std::optional<DipoleDistance> dipole_distance(const ChannelResult& result);
 
 }  // namespace scattermeter

@@ -89,13 +89,15 @@ struct OfLight {
     image.l = image.per_log_sigma_s = image.per_sigma_a = image.variance =
         Eigen::VectorXd::Zero(static_cast<Eigen::Index>(n_rows));
     off = {image.l, image.l, image.l, {}};
+    per_eta = image.l;
   }
   void add(const RowPairs& rows, double power, const WhiteRows& node, const Share& share,
            const Carried& to_here, double sigma_a_per_mm,
            const ChannelSimulation::Projections& projections) {
     constexpr Eigen::Index kHalf = WhiteRows::kBatches / 2;
     const WhiteRows::Departures departures = node.departures(sigma_a_per_mm);
-    add_carried(node.light(sigma_a_per_mm), power, share, to_here, rows, image);
+    const WhiteRows::Light light = node.light(sigma_a_per_mm);
+    add_carried(light, power, share, to_here, rows, image);
     add_carried(departures.second_half, power, share, to_here, rows, off);
     for (std::size_t half = 0; half < 2; ++half) {
       projected[half] = Eigen::MatrixXd::Zero(kHalf, projections[half].rows());
@@ -103,6 +105,7 @@ struct OfLight {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto [row, at_view] = rows[k];
       const double factor = share.weight * to_here.factor[row] * power;
+      per_eta[static_cast<Eigen::Index>(k)] += factor * light.per_eta[at_view];
       const auto batches = departures.of_batch.col(at_view);
       image.variance[static_cast<Eigen::Index>(k)] += factor * factor * batches.squaredNorm();
       for (std::size_t half = 0; half < 2; ++half) {
@@ -119,6 +122,7 @@ struct OfLight {
   }
 
   ScatteringImage image, off;  // off: of the second half of the batches
+  Eigen::VectorXd per_eta;
   // Of the share that came last: departures of either half's batches.
   std::array<Eigen::MatrixXd, 2> projected;
   // 1 / blocks, and the sum of the nodes' squares of it.
@@ -227,6 +231,7 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
   image.l = image.per_log_sigma_s = image.per_sigma_a = image.variance =
       Eigen::VectorXd::Zero(n_rows());
   ScatteringImage off{image.l, image.l, image.l, {}};  // of the second half
+  out.per_eta = image.l;
   for (Eigen::MatrixXd& c : out.by_half) {
     c = Eigen::MatrixXd::Zero(projections[0].rows(), projections[0].rows());
   }
@@ -257,6 +262,9 @@ ChannelSimulation::Look ChannelSimulation::look(const ScatteringPoint& at, int b
     lit_[i].held = std::move(held[i]);
     add_rows(of_light[i].image, lit_[i].rows, image);
     add_rows(of_light[i].off, lit_[i].rows, off);
+    for (std::size_t k = 0; k < lit_[i].rows.size(); ++k) {
+      out.per_eta[lit_[i].rows[k].first] += of_light[i].per_eta[static_cast<Eigen::Index>(k)];
+    }
   }
   image.l += surfaces_.gloss();
   out.covariance = 0.5 * (out.by_half[0] + out.by_half[1]);

@@ -58,7 +58,8 @@ class ChannelSimulation {
     // as the half alone shows it.
     Eigen::MatrixXd covariance;
     std::array<Eigen::MatrixXd, 2> by_half;
-    int blocks = 0;  // of the light and view that has fewest; at least those asked for
+    Eigen::VectorXd per_eta;  // d image.l / d eta at the same sigma_s' and sigma_a
+    int blocks = 0;           // of the light and view that has fewest; at least those asked for
     // Degrees of freedom of the covariance (Welch 1947, Satterthwaite 1946), of the same.
     double freedom = 0;
   };

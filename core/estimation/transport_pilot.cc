@@ -24,6 +24,11 @@ ScatteringImage dipole_pilot(const WeightMatrix& weights, const DistanceKnots& k
   return out;
 }
 
+ScatteringImage mean_of(const ScatteringImage& a, const ScatteringImage& b) {
+  return {0.5 * (a.l + b.l), 0.5 * (a.per_log_sigma_s + b.per_log_sigma_s),
+          0.5 * (a.per_sigma_a + b.per_sigma_a), 0.5 * (a.variance + b.variance)};
+}
+
 Eigen::VectorXd smooth_path_variance(const Eigen::VectorXd& l, const std::vector<double>& area_mm2,
                                      const Eigen::VectorXd& noisy_variance) {
   const Eigen::Map<const Eigen::VectorXd> area(area_mm2.data(), l.size());

@@ -22,6 +22,9 @@ namespace scattermeter {
 ScatteringImage dipole_pilot(const WeightMatrix& weights, const DistanceKnots& knots,
                              const ScatteringPoint& at, double eta_int_over_ext);
 
+// Of all quantities.
+ScatteringImage mean_of(const ScatteringImage& a, const ScatteringImage& b);
+
 // Monte Carlo variances proportional to light over area, with the sum of `noisy_variance`: weights
 // must not depend on the noise of paths. l (negative counts as 0) and area_mm2: of the rows.
 // Precondition: some l is positive.

@@ -21,11 +21,6 @@ ScatteringImage part_of(const ScatteringImage& m, Eigen::Index first, Eigen::Ind
           m.variance.size() > 0 ? m.variance.segment(first, n) : Eigen::VectorXd()};
 }
 
-ScatteringImage mean_of(const ScatteringImage& a, const ScatteringImage& b) {
-  return {0.5 * (a.l + b.l), 0.5 * (a.per_log_sigma_s + b.per_log_sigma_s),
-          0.5 * (a.per_sigma_a + b.per_sigma_a), 0.5 * (a.variance + b.variance)};
-}
-
 // Of `n` rows from the `first` on.
 std::vector<EquationPilot> pilots_of(const ShotParts& parts, const ScatteringPoint& at,
                                      bool is_free,
@@ -286,7 +281,14 @@ ModelJudgement TransportRound::judgement() const {
     model.nuisances.push_back({"scale", scale_.relative_std, true, "scale"});
   }
   model.data_length = whitened(shots_.system.l).norm();
-  return judge(model);
+  ModelJudgement out = judge(model);
+  for (PriorPull& pull : out.pulls) {
+    const auto of = std::find_if(model.nuisances.begin(), model.nuisances.end(),
+                                 [&](const Nuisance& v) { return v.name == pull.name; });
+    if (of->as_medium.isZero(0.0)) continue;
+    shift_unseen(pull.least_seen_in_std * of->std * of->as_medium, at_.sigma_s_per_mm, pull);
+  }
+  return out;
 }
 
 bool TransportRound::has_enough_paths() const {

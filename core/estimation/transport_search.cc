@@ -12,7 +12,7 @@
 
 #include "core/estimation/channel_simulation.h"
 #include "core/estimation/material_channel.h"
-#include "core/estimation/phase_nuisance.h"
+#include "core/estimation/medium_nuisances.h"
 #include "core/estimation/residual_look.h"
 #include "core/estimation/transport_pilot.h"
 #include "core/estimation/transport_round.h"
@@ -52,7 +52,7 @@ class TransportSearch {
         options_(options),
         stage_(stage),
         simulation_(scene, channel, atlas, may_trace),
-        phase_(scene, channel, knots_),
+        medium_(scene, channel, knots_, system_),
         budget_(blocks_of(std::min(options.paths, options.looking_paths.value_or(options.paths))),
                 options.time_limit_s) {
     // The image is that of whole patches.
@@ -85,6 +85,7 @@ class TransportSearch {
  private:
   struct Look {  // the errors to be expected, by an earlier look
     ScatteringImage image;
+    Eigen::VectorXd per_eta;  // of it
     PathErrors errors;
   };
 
@@ -99,20 +100,18 @@ class TransportSearch {
     bool is_owed = false;  // a round without the outliers, with the paths that there are
     for (int i = 0; i < kMaxRounds && (budget_.left_s() > 0.0 || is_owed); ++i) {
       stage_.check();
-      system_.nuisance_columns.col(0) = phase_.change(system_.weights, at);
-      if (channel_.surface_alpha_std > 0.0) {
-        system_.nuisance_columns.col(1) = roughness_change(simulation_.surfaces(), system_.weights,
-                                                           knots_, at, channel_.eta_int_over_ext);
-      }
       const bool learned = pilots_.have_learned();
+      const std::array<TransportRound::Pilot, 2> pilots = pilots_.pilots(
+          parts_, dipole(at), simulation_.area_mm2(), last.image.variance, last.errors.of_block());
+      medium_.set_columns(at, scale_.is_free(), simulation_.surfaces(), parts_,
+                          mean_of(pilots[0].image, pilots[1].image), last.image.l, last.per_eta,
+                          system_);
       // During the search, a scale with a prior is taken as exact: that is more stable.
       TransportRound round({system_, parts_}, learned || scale_.is_free() ? scale_ : ScalePrior{},
-                           at,
-                           pilots_.pilots(parts_, dipole(at), simulation_.area_mm2(),
-                                          last.image.variance, last.errors.of_block()),
-                           last.errors.blocks * last.errors.of_block());
+                           at, pilots, last.errors.blocks * last.errors.of_block());
       trace(round, blocks, learned, last);
-      const PathErrors assumed = std::exchange(last, {round.image(), errors(round)}).errors;
+      const PathErrors assumed =
+          std::exchange(last, {round.image(), round.look().per_eta, errors(round)}).errors;
       const bool is_weighted = fits_weights(last.errors, assumed);
       if (round.step().change > kFarStep) pilots_.forget();
       pilots_.learn(
@@ -209,7 +208,7 @@ class TransportSearch {
     pilots_.learn(parts_, seen, seen.by_half, dipole(at));
     PathErrors errors = first_errors(seen.blocks, final_blocks(at, seen.blocks));
     errors.scatter = scatter.value_or(errors.scatter);
-    return {std::move(seen.image), errors};
+    return {std::move(seen.image), std::move(seen.per_eta), errors};
   }
 
   // Keeps rows of which `state_of(shot, row of its view, row of the system so far)` is kUsed.
@@ -231,7 +230,7 @@ class TransportSearch {
     }
     system_ = selected(system_, kept);
     simulation_.set_rows(rows_);
-    phase_.set_rows(rows_);
+    medium_.set_rows(rows_, kept);
     parts_ =
         ShotParts(system_.shot_rows, simulation_.center_mm(), simulation_.area_mm2(), system_.l);
     pilots_.forget();
@@ -275,7 +274,7 @@ class TransportSearch {
   const EstimateOptions& options_;
   const ProgressStage& stage_;
   ChannelSimulation simulation_;
-  PhaseNuisance phase_;
+  MediumNuisances medium_;
   ShotParts parts_;
   PathPilots pilots_;
   PathBudget budget_;

@@ -32,6 +32,10 @@ struct Nuisance {
   // to be fitted).
   bool fitted = true;
   std::string name = {};  // unique ("led1.position0"); may be empty
+  // By transport: a unit of it changes the image by its column and as these changes of log sigma_s,
+  // sigma_a and a free log scale do. The column alone counts in the weights of the rows and the
+  // pulls: what looks like a change of the medium cannot be told from it, and widens the estimate.
+  Eigen::Vector3d as_medium = Eigen::Vector3d::Zero();
 };
 
 // The used rows as a dense system: weights (W), l (W/mm^2) and standard deviation of l.

@@ -218,6 +218,11 @@ void see_from(double least_seen_in_std, PriorPull& pull) {
   pull.unseen_sigma_a_per_mm *= share;
 }
 
+void shift_unseen(const Eigen::Vector3d& by, double sigma_s_per_mm, PriorPull& pull) {
+  pull.unseen_sigma_s_prime_per_mm += sigma_s_per_mm * by[0];
+  pull.unseen_sigma_a_per_mm += by[1];
+}
+
 double unseen_in_std(const PriorPull& pull, const Estimate& e) {
   return std::max(std::abs(over(pull.unseen_sigma_s_prime_per_mm, e.sigma_s_prime_per_mm.std)),
                   std::abs(over(pull.unseen_sigma_a_per_mm, e.sigma_a_per_mm.std)));

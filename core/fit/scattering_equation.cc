@@ -206,6 +206,13 @@ ScatteringEquation::Step ScatteringEquation::step(const PathHalves& m,
       out.promised * mean([&](const Weights& w, std::size_t half) -> Eigen::MatrixXd {
         return mix[half] * w.of_nuisances;
       });
+  for (std::size_t k = 0; k < system_.nuisances.size(); ++k) {
+    const Nuisance& v = system_.nuisances[k];
+    if (!(v.std > 0.0) || v.as_medium.isZero(0.0)) continue;
+    const Eigen::VectorXd moved = v.std * v.as_medium.head(n);
+    out.common_causes.col(static_cast<Eigen::Index>(k)) += moved;
+    out.promised += moved * moved.transpose();
+  }
   std::map<std::string, Eigen::MatrixXd> groups;
   for (Eigen::Index i = 0; i < out.common_causes.cols(); ++i) {
     groups.try_emplace(causes_[static_cast<std::size_t>(i)], Eigen::MatrixXd::Zero(n, n))

@@ -9,14 +9,9 @@
 #include "core/base/tangents.h"
 #include "core/light/incident_light.h"
 #include "core/material/dipole.h"
-#include "core/material/fresnel.h"
+#include "core/material/eta_change.h"
 
 namespace scattermeter {
-namespace {
-
-constexpr double kEtaStep = 0.01;
-
-}  // namespace
 
 DistanceKnots coarse_knots(const DistanceKnots& knots) {
   constexpr int kPerOctave = 3, kFineBits = 5;
@@ -195,17 +190,8 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
   out.per_eta = of_light(images.other_eta, kEtaStep);
   if (out.per_eta.size() == 0) return out;
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
-    const Eigen::Vector3d normal =
-        seen.patches->normal_at(seen.map.patch_of_row[j], seen.sites[j].center_mm);
-    // The observed l = pi L / Ft(eta) falls as Ft grows.
-    const Eigen::Vector3d to_camera =
-        (seen.camera_center_mm - seen.sites[j].center_mm).normalized();
-    const double cos_theta = normal.dot(to_camera);
-    const double growth =
-        fresnel_transmittance(eta, cos_theta) / fresnel_transmittance(eta + kEtaStep, cos_theta) -
-        1.0;
     const auto row = static_cast<Eigen::Index>(j);
-    out.per_eta.row(row) -= out.l.row(row) * (growth / kEtaStep);
+    out.per_eta.row(row) -= out.l.row(row) * observed_growth(eta, seen.cos_to_camera(j));
   }
   return out;
 }

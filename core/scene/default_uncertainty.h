@@ -5,8 +5,9 @@
 
 namespace scattermeter::default_uncertainty {
 
-// Handbook values of plastics differ by as much between grades and wavelengths.
-inline constexpr double kEta = 0.01;
+// Handbook values of one plastic differ by 0.01 to 0.02 between grades and wavelengths, those of
+// food and tissue by more; by transport, the image hardly tells eta from sigma_s'.
+inline constexpr double kEta = 0.03;
 // Of gamma, about isotropic scattering: as large as the root mean square of g, for any g from 0 to
 // 0.95 by the function of Henyey and Greenstein.
 inline constexpr double kGamma = 0.55;

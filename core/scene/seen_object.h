@@ -33,6 +33,12 @@ struct SeenObject {
   // else null.
   const RayScene* shadows = nullptr;
   const RayScene& shadowing() const { return shadows != nullptr ? *shadows : *object->rays; }
+  // At the centre of the row's patch, to the surface's normal.
+  double cos_to_camera(std::size_t row) const {
+    const Eigen::Vector3d& at_mm = sites[row].center_mm;
+    return patches->normal_at(map.patch_of_row[row], at_mm)
+        .dot((camera_center_mm - at_mm).normalized());
+  }
 };
 
 // Seen from `pose`, shifted by `shift`. maps: of views of other programs; may be null.

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/material/eta_change.h"
 #include "core/material/fresnel.h"
 #include "core/transport/path_plane.h"
 
@@ -35,7 +36,10 @@ CameraConnection::CameraConnection(const PathBoundary& boundary,
   medium.check();
   const std::vector<BodyPlane>& planes = boundary.body().planes;
   cone_ = std::make_shared<EscapeCone>(eta_, medium.surface_alpha);
-  if (medium.surface_alpha > 0.0) rough_.emplace(medium.surface_alpha, eta_);
+  if (medium.surface_alpha > 0.0) {
+    rough_.emplace(medium.surface_alpha, eta_);
+    of_more_eta_.emplace(medium.surface_alpha, eta_ + kEtaStep);
+  }
   if (planes.empty() || rough_) {
     beams_ = std::make_shared<FacetBeams>(boundary.scene().mesh(), camera_mm_, eta_);
   }
@@ -151,7 +155,7 @@ void CameraConnection::through(const Window& window, const Image& image, const V
   // Back from the passage, wall by wall, to the scattering itself.
   Eigen::Vector3d from = passage;
   Eigen::Vector3d toward = image.x;
-  double reflectance = 1.0;
+  Way walls{1.0, depth_growth(eta_, ray.cos_inside, sigma_t_ * ray.length_mm), image.n_walls == 0};
   for (int i = image.n_walls - 1; i >= 0; --i) {
     const BodyPlane& wall = planes[static_cast<std::size_t>(image.walls[i])];
     const double before_mm = wall.depth_mm(from);
@@ -160,7 +164,9 @@ void CameraConnection::through(const Window& window, const Image& image, const V
     const Eigen::Vector3d way = toward - from;
     const Eigen::Vector3d point = from + before_mm / (before_mm + behind_mm) * way;
     if (convex ? !on_body(point) : !boundary_.reaches_plane(from, point, image.walls[i])) return;
-    reflectance *= 1.0 - fresnel_transmittance(1.0 / eta_, way.dot(wall.normal) / way.norm());
+    const double cosine = way.dot(wall.normal) / way.norm();
+    walls.share *= 1.0 - fresnel_transmittance(1.0 / eta_, cosine);
+    walls.per_eta += fresnel_growth(eta_, false, cosine, false);
     toward = i > 0 ? image.before_last : vertex.x;
     from = point;
   }
@@ -173,7 +179,7 @@ void CameraConnection::through(const Window& window, const Image& image, const V
     facet = boundary_.facet_seen(camera_mm_, passage, window.plane_idx);
     if (facet < 0) return;
   }
-  push(vertex, passage, ray, facet, outgoing, reflectance, image.n_walls == 0, bound_mm, scores);
+  push(vertex, passage, ray, facet, outgoing, walls, bound_mm, scores);
 }
 
 void CameraConnection::through_facets(const Vertex& vertex, double deepest_mm,
@@ -189,8 +195,9 @@ void CameraConnection::through_facets(const Vertex& vertex, double deepest_mm,
         passage_to(vertex.x, depth_mm, facet.normal, facet.foot, facet.height_mm, eta_);
     if (!(ray.length_mm < deepest_mm)) return;
     if (!may_be_seen(vertex, facet, passage)) return;
-    push(vertex, passage, ray, facet.facet_idx, (passage - vertex.x).normalized(), 1.0, true,
-         ray.length_mm, scores);
+    push(vertex, passage, ray, facet.facet_idx, (passage - vertex.x).normalized(),
+         {1.0, depth_growth(eta_, ray.cos_inside, sigma_t_ * ray.length_mm)}, ray.length_mm,
+         scores);
   });
 }
 
@@ -204,6 +211,9 @@ void CameraConnection::through_rough_facets(const Vertex& vertex, double deepest
   const Eigen::Vector3d to_camera = way / distance_mm;
   // The facets' beams were made for the camera's rays to them, this one is to the point.
   const double turn_rad = std::atan(tilted.tan_tilt) + deepest_mm / distance_mm;
+  const auto share = [&](const RoughBoundary& rough, const RoughBoundary::Passage& through) {
+    return rough.share(to_camera, tilted, through) / rough.smooth_transmittance(through.cos_viewer);
+  };
   beams_->for_turned_candidates(
       vertex.x, deepest_mm, turn_rad, [&](const FacetBeams::Facet& facet) {
         const double depth_mm = facet.normal.dot(facet.foot - vertex.x);
@@ -214,15 +224,21 @@ void CameraConnection::through_rough_facets(const Vertex& vertex, double deepest
         if (!(length_mm < deepest_mm)) return;
         const Eigen::Vector3d passage = vertex.x - length_mm * through->direction;
         if (!may_be_seen(vertex, facet, passage)) return;
+        const auto density = [&](const RoughBoundary& rough, const RoughBoundary::Passage& p) {
+          return share(rough, p) * std::exp(-sigma_t_ * depth_mm / p.cos_inside) / p.cos_inside;
+        };
+        const auto changed = of_more_eta_->pass(to_camera, facet.normal, tilted);
+        const double before = density(*rough_, *through);
+        const double per_eta = changed && before > 0.0
+                                   ? (density(*of_more_eta_, *changed) / before - 1.0) / kEtaStep
+                                   : 0.0;
         // Trace of d (direction) / dx, with d (ray) / dx = (1 - ray ray^T) / distance.
         const double cos_ray = to_camera.dot(through->facet_normal);
         const double trace_per_mm =
             (2.0 - through->stretch * (1.0 - cos_ray * cos_ray)) / (eta_ * distance_mm);
         push(vertex, passage, {0.0, length_mm, through->cos_inside, 1.0 + length_mm * trace_per_mm},
-             facet.facet_idx, -through->direction,
-             rough_->share(to_camera, tilted, *through) /
-                 rough_->smooth_transmittance(through->cos_viewer),
-             true, length_mm, scores);
+             facet.facet_idx, -through->direction, {share(*rough_, *through), per_eta}, length_mm,
+             scores);
       });
 }
 
@@ -251,25 +267,25 @@ std::optional<PathScore> CameraConnection::not_connected(const PathScore& escape
   PathScore score = escape;
   score.direction = to_camera;
   const double axis = rough_ ? std::max(RoughBoundary::kLeastCosine, cosine) : cosine;
+  score.per_eta -= 2.0 / eta_;
   score.weight =
       std::numbers::pi * escape.weight /
       (escape.by_several ? cone_->transmitting_by_several_sr(axis) : cone_->transmitting_sr(axis));
   return score;
 }
 
-// `share`: of the light inside that passes, over Ft and but for what walls reflect; `bound_mm`: the
-// lower bound of the path's length that decided whether it was made.
+// `bound_mm`: the lower bound of the path's length that decided whether it was made.
 void CameraConnection::push(const Vertex& vertex, const Eigen::Vector3d& passage,
                             const RefractedRay& ray, int facet, const Eigen::Vector3d& outgoing,
-                            double share, bool straight, double bound_mm,
-                            std::vector<PathScore>& scores) const {
+                            const Way& way, double bound_mm, std::vector<PathScore>& scores) const {
   const double probability = std::min(1.0, std::exp(kSureDepth - sigma_t_ * bound_mm));
   scores.push_back({passage, (camera_mm_ - passage).normalized(), facet,
-                    std::numbers::pi / (eta_ * eta_) * vertex.weight * share *
+                    std::numbers::pi / (eta_ * eta_) * vertex.weight * way.share *
                         phase_.per_sr(vertex.before.dot(outgoing)) *
                         std::exp(-sigma_t_ * ray.length_mm) /
                         (ray.cos_inside * ray.spread * probability),
-                    vertex.scatterings, vertex.length_mm + ray.length_mm, straight});
+                    vertex.scatterings, vertex.length_mm + ray.length_mm,
+                    vertex.per_eta + way.per_eta - 2.0 / eta_, way.straight});
 }
 
 }  // namespace scattermeter

@@ -85,6 +85,7 @@ class CameraConnection {
     double weight;
     int scatterings;
     double length_mm;
+    double per_eta = 0;  // as in PathScore
   };
   // Replaces `scores` by those of the vertex.
   void connect(const Vertex& vertex, RandomStream& random, std::vector<PathScore>& scores) const;
@@ -118,9 +119,15 @@ class CameraConnection {
   bool may_be_seen(const Vertex& vertex, const FacetBeams::Facet& facet,
                    const Eigen::Vector3d& passage) const;
 
+  // What becomes of a connection on its way.
+  struct Way {
+    double share = 1;    // of the light inside that passes, over Ft
+    double per_eta = 0;  // relative change of the connection but for pi / eta^2
+    bool straight = true;
+  };
   void push(const Vertex& vertex, const Eigen::Vector3d& passage, const RefractedRay& ray,
-            int facet, const Eigen::Vector3d& outgoing, double share, bool straight,
-            double bound_mm, std::vector<PathScore>& scores) const;
+            int facet, const Eigen::Vector3d& outgoing, const Way& way, double bound_mm,
+            std::vector<PathScore>& scores) const;
 
   const PathBoundary& boundary_;
   Eigen::Vector3d camera_mm_;
@@ -131,6 +138,7 @@ class CameraConnection {
   std::vector<Window> windows_;
   int no_mirror_ = -1;  // plane that does not reflect inside
   std::optional<RoughBoundary> rough_;
+  std::optional<RoughBoundary> of_more_eta_;  // by kEtaStep
   // For a body of many planes or with a rough boundary.
   std::shared_ptr<const FacetBeams> beams_;
   std::shared_ptr<const EscapeCone> cone_;

@@ -17,6 +17,9 @@ struct PathScore {
   double weight = 0;
   int scatterings = 0;   // before it
   double length_mm = 0;  // inside the body
+  // Change by eta of the weight that such paths have, relative and per unit of eta (core/material/
+  // eta_change.h), but for the share that passes as they leave here.
+  double per_eta = 0;
   // Since its last scattering it has neither been reflected nor left the body and entered again,
   // and of a rough boundary it met a single facet.
   bool straight = false;

@@ -5,17 +5,20 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/base/random_stream.h"
 #include "core/light/entry_source.h"
+#include "core/material/eta_change.h"
 #include "core/material/fresnel.h"
 #include "core/material/phase_function.h"
 #include "core/material/rough_boundary.h"
 #include "core/material/smooth_boundary.h"
 #include "core/transport/deep_scattering.h"
+#include "core/transport/light_path.h"
 #include "core/transport/path_plane.h"
 #include "core/transport/path_score.h"
 #include "core/transport/path_world.h"
@@ -72,7 +75,7 @@ class PathTracer {
 
  private:
   void trace(const Entry& entry, RandomStream& random) {
-    Path path{entry.position_mm, entry.direction, entry.power / options_.paths_per_block};
+    LightPath path{entry.position_mm, entry.direction, entry.power / options_.paths_per_block};
     audit_.entered += path.weight;
     const double roulette_below = options_.roulette_weight * path.weight;
     double clearance_mm = 0.0;
@@ -83,6 +86,10 @@ class PathTracer {
         return;
       }
       double step_mm = -std::log(random.uniform()) * mean_free_path_mm_;
+      if (path.length_mm == 0.0) {
+        path.per_eta =
+            entry_growth(eta_, -entry.direction.dot(entry.normal), step_mm / mean_free_path_mm_);
+      }
       path.length_mm += step_mm;
       while (step_mm > 0.0) {
         const PathBoundary::Flight flight =
@@ -92,6 +99,7 @@ class PathTracer {
         if (leaves(crossing, random, path)) {
           path.length_mm -= step_mm;
           if (!enters_again(crossing, random, path)) return;
+          path.per_eta += std::exchange(path.per_eta_outside, 0.0);
           clearance_mm = 0.0;
           path.length_mm += step_mm;
         }
@@ -99,8 +107,8 @@ class PathTracer {
       if (!scatters(albedo_, path)) return;
       if (world_.camera != nullptr) {
         world_.camera->connect(
-            {path.x, path.direction, path.weight, path.scatterings, path.length_mm}, random,
-            scores_);
+            {path.x, path.direction, path.weight, path.scatterings, path.length_mm, path.per_eta},
+            random, scores_);
         audit_.connections += static_cast<std::int64_t>(scores_.size());
         for (const PathScore& score : scores_) sink_.camera(score);
       }
@@ -108,19 +116,9 @@ class PathTracer {
     }
   }
 
-  struct Path {
-    Eigen::Vector3d x;
-    Eigen::Vector3d direction;
-    double weight;
-    int scatterings = 0;
-    double length_mm = 0.0;  // up to the end of the current step
-    bool straight = false;   // as in PathScore
-    bool by_plane = false;
-    bool by_several = false;  // as it last met the surface
-  };
-
   // Until it comes near the surface (true) or its power is gone.
-  bool walks_deep(double roulette_below, RandomStream& random, Path& path, double& clearance_mm) {
+  bool walks_deep(double roulette_below, RandomStream& random, LightPath& path,
+                  double& clearance_mm) {
     for (;;) {
       clearance_mm = world_.boundary.clearance_mm(path.x);
       if (clearance_mm < deep_->enters_mm) return true;
@@ -136,7 +134,7 @@ class PathTracer {
   }
 
   // Counts a scattering and its absorption; false: one too many.
-  bool scatters(double albedo, Path& path) {
+  bool scatters(double albedo, LightPath& path) {
     if (++path.scatterings > options_.max_scatterings) {
       lose(path);
       return false;
@@ -148,7 +146,8 @@ class PathTracer {
   }
 
   // Takes a new direction; false: ended by roulette.
-  bool turns(const PhaseFunction& phase, double roulette_below, RandomStream& random, Path& path) {
+  bool turns(const PhaseFunction& phase, double roulette_below, RandomStream& random,
+             LightPath& path) {
     path.direction = phase.sample(path.direction, random);
     path.straight = true;
     path.by_plane = false;
@@ -164,11 +163,13 @@ class PathTracer {
   }
 
   // At the surface from inside: reflects (false) or refracts out (true).
-  bool leaves(const Crossing& at, RandomStream& random, Path& path) const {
+  bool leaves(const Crossing& at, RandomStream& random, LightPath& path) const {
     if (plane_ && plane_->without_gap(at)) return true;
     if (rough_) return passes_rough(at, random, path);
     const double cosine = path.direction.dot(at.normal);
-    if (random.uniform() < fresnel_transmittance(1.0 / eta_, cosine)) {
+    const bool passes = random.uniform() < fresnel_transmittance(1.0 / eta_, cosine);
+    (passes ? path.per_eta_outside : path.per_eta) += fresnel_growth(eta_, false, cosine, passes);
+    if (passes) {
       path.direction = refracted(path.direction, -at.normal, 1.0 / eta_);
       return true;
     }
@@ -178,7 +179,7 @@ class PathTracer {
   }
 
   // At the surface from outside: refracts in (true) or reflects.
-  bool enters(const Crossing& at, RandomStream& random, Path& path) const {
+  bool enters(const Crossing& at, RandomStream& random, LightPath& path) const {
     path.straight = false;
     if (rough_) {
       const bool in = passes_rough(at, random, path);
@@ -186,7 +187,9 @@ class PathTracer {
       return in;
     }
     const double cosine = -path.direction.dot(at.normal);
-    if (random.uniform() < fresnel_transmittance(eta_, cosine)) {
+    const bool passes = random.uniform() < fresnel_transmittance(eta_, cosine);
+    path.per_eta_outside += fresnel_growth(eta_, true, cosine, passes);
+    if (passes) {
       path.direction = refracted(path.direction, at.normal, eta_);
       path.x = at.point_mm;
       return true;
@@ -196,9 +199,12 @@ class PathTracer {
   }
 
   // From either side.
-  bool passes_rough(const Crossing& at, RandomStream& random, Path& path) const {
+  bool passes_rough(const Crossing& at, RandomStream& random, LightPath& path) const {
+    const double cosine = path.direction.dot(at.normal);
     const RoughBoundary::Meeting met = rough_->meet(path.direction, at.normal, random);
     path.direction = met.direction;
+    (cosine > 0.0 && !met.passed ? path.per_eta : path.per_eta_outside) +=
+        rough_growth(eta_, -cosine, met.passed);
     path.by_several = met.facets > 1;
     path.straight = path.straight && met.passed && !path.by_several;
     return met.passed;
@@ -206,7 +212,7 @@ class PathTracer {
 
   // Outside, where it left the body: continues, with any number of reflections by the body and the
   // plane, until it enters the body (true) or its power is gone.
-  bool enters_again(const Crossing& left, RandomStream& random, Path& path) {
+  bool enters_again(const Crossing& left, RandomStream& random, LightPath& path) {
     if (plane_ && plane_->touches(left)) return returns_at_contact(left, random, path);
     const Eigen::Vector3d left_at = path.x;
     Eigen::Vector3d x = path.x;
@@ -225,13 +231,13 @@ class PathTracer {
       if (!by_plane) {
         facet = world_.boundary.facet_at(left, left_at);
         if (world_.camera != nullptr) {
-          const auto seen = world_.camera->not_connected(score_of(path, left_at, facet));
+          const auto seen = world_.camera->not_connected(path.score_at(left_at, facet));
           if (seen) sink_.camera(*seen);
         }
       }
       if (!plane_ || !plane_->below(path.direction)) {
         audit_.escaped += path.weight;
-        sink_.escape(by_plane ? score_of(path, x, -1) : score_of(path, left_at, facet));
+        sink_.escape(by_plane ? path.score_at(x, -1) : path.score_at(left_at, facet));
         return false;
       }
       x = plane_->point_from(x, path.direction);
@@ -241,7 +247,7 @@ class PathTracer {
   }
 
   // In the gap between a face and the plane, which is too thin to move sideways.
-  bool returns_at_contact(const Crossing& left, RandomStream& random, Path& path) {
+  bool returns_at_contact(const Crossing& left, RandomStream& random, LightPath& path) {
     const Crossing here{0.0, path.x, left.normal, left.plane_idx, left.facet_idx};
     if (world_.plane->contact == PlaneContact::kBlack) {
       audit_.in_plane += path.weight;
@@ -254,7 +260,7 @@ class PathTracer {
   }
 
   // On the plane: takes a new direction upwards (true), or all power is absorbed.
-  bool reflects(RandomStream& random, Path& path) {
+  bool reflects(RandomStream& random, LightPath& path) {
     const double albedo = world_.plane->albedo;
     audit_.in_plane += (1.0 - albedo) * path.weight;
     path.weight *= albedo;
@@ -265,19 +271,7 @@ class PathTracer {
     return true;
   }
 
-  PathScore score_of(const Path& path, const Eigen::Vector3d& x, int facet) const {
-    return {x,
-            path.direction,
-            facet,
-            path.weight,
-            path.scatterings,
-            path.length_mm,
-            path.straight,
-            path.by_plane,
-            path.by_several};
-  }
-
-  void lose(const Path& path) {
+  void lose(const LightPath& path) {
     audit_.lost += path.weight;
     ++audit_.lost_paths;
   }

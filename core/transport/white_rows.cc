@@ -15,12 +15,15 @@ class TiltTally {
       : view_(&view),
         mesh_(&mesh),
         tilts_(&tilts),
-        sum(Eigen::MatrixXd::Zero(tilts.count(), view.n_rows)) {}
+        sum(Eigen::MatrixXd::Zero(tilts.count(), view.n_rows)),
+        per_eta(sum) {}
 
   void escape(const PathScore&) {}
   void camera(const PathScore& score) {
     const std::int32_t row = row_of(*view_, *mesh_, score);
-    if (row >= 0) tilts_->add(score.weight, score.length_mm, sum.col(row).data());
+    if (row < 0) return;
+    tilts_->add(score.weight, score.length_mm, sum.col(row).data());
+    tilts_->add(score.weight * score.per_eta, score.length_mm, per_eta.col(row).data());
   }
 
  private:
@@ -29,7 +32,7 @@ class TiltTally {
   const AbsorptionTilts* tilts_;
 
  public:
-  Eigen::MatrixXd sum;
+  Eigen::MatrixXd sum, per_eta;
 };
 
 }  // namespace
@@ -51,6 +54,7 @@ WhiteRows::WhiteRows(const ScatteringView& view, double sigma_s_per_mm, double s
       sigma_s_per_mm_(sigma_s_per_mm),
       tilts_(sigma_s_per_mm, size_mm),
       sums_{0, Eigen::MatrixXd::Zero(tilts_.count(), view.n_rows),
+            Eigen::MatrixXf::Zero(static_cast<Eigen::Index>(kept_tilts()), view.n_rows),
             PackedBatches(kept_tilts(), kBatches, view.n_rows)} {}
 
 bool WhiteRows::take(WhiteSums sums) {
@@ -61,6 +65,7 @@ bool WhiteRows::take(WhiteSums sums) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), has_shape_of);
   };
   const bool fits = sums.levels > levels() && has_shape_of(sums.sum, sums_.sum) &&
+                    has_shape_of(sums.per_eta, sums_.per_eta) &&
                     have_shapes_of(sums.batches.steps, sums_.batches.steps) &&
                     have_shapes_of(sums.batches.step_of, sums_.batches.step_of);
   if (fits) sums_ = std::move(sums);
@@ -84,6 +89,8 @@ void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
       [&](const TiltTally& block, const PathAudit&) {
         // A block estimates the whole from its own paths.
         sums_.sum += options.paths_per_block * block.sum;
+        sums_.per_eta +=
+            (options.paths_per_block * block.per_eta(kept(), Eigen::all)).cast<float>();
         for (std::size_t j = 0; j < further.size(); ++j) {
           further[j].row(batch) =
               (options.paths_per_block * block.sum.row(static_cast<Eigen::Index>(j) * kBatchStep))
@@ -98,26 +105,28 @@ void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
 WhiteRows::Light WhiteRows::light(double sigma_a_per_mm) const {
   const AbsorptionTilts::Combination c = tilts_.at(sigma_a_per_mm);
   const Eigen::VectorXd per_area = (static_cast<double>(paths()) * view_.area_mm2).cwiseInverse();
+  const Eigen::VectorXf coarse = tilts_.at(sigma_a_per_mm, kBatchStep).l(kept()).cast<float>();
   return {(sums_.sum.transpose() * c.l).cwiseProduct(per_area),
-          (sums_.sum.transpose() * c.per_sigma_a).cwiseProduct(per_area)};
+          (sums_.sum.transpose() * c.per_sigma_a).cwiseProduct(per_area),
+          (sums_.per_eta.transpose() * coarse).cast<double>().cwiseProduct(per_area)};
 }
 
 WhiteRows::Departures WhiteRows::departures(double sigma_a_per_mm) const {
   constexpr Eigen::Index kHalf = kBatches / 2;
   const AbsorptionTilts::Combination c = tilts_.at(sigma_a_per_mm, kBatchStep);
-  const auto kept = Eigen::seqN(0, static_cast<Eigen::Index>(kept_tilts()), kBatchStep);
-  const Eigen::MatrixXf per_batch = sums_.batches.combined(c.per_sigma_a(kept));
+  const Eigen::MatrixXf per_batch = sums_.batches.combined(c.per_sigma_a(kept()));
   const Eigen::RowVectorXf per_sigma_a =
       per_batch.bottomRows(kHalf).colwise().sum() - per_batch.topRows(kHalf).colwise().sum();
   const Eigen::VectorXd per_area = (static_cast<double>(paths()) * view_.area_mm2).cwiseInverse();
-  Departures out{sums_.batches.combined(c.l(kept)).cast<double>(), {}};
+  Departures out{sums_.batches.combined(c.l(kept())).cast<double>(), {}};
   auto first = out.of_batch.topRows(kHalf), second = out.of_batch.bottomRows(kHalf);
   const Eigen::RowVectorXd first_mean = first.colwise().mean(),
                            second_mean = second.colwise().mean();
   first.rowwise() -= first_mean;
   second.rowwise() -= second_mean;
   out.second_half = {(kHalf * (second_mean - first_mean)).transpose().cwiseProduct(per_area),
-                     per_sigma_a.cast<double>().transpose().cwiseProduct(per_area)};
+                     per_sigma_a.cast<double>().transpose().cwiseProduct(per_area),
+                     {}};
   out.of_batch *= std::sqrt(kBatches / (kBatches - 2.0)) * per_area.asDiagonal();
   return out;
 }

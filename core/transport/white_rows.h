@@ -15,8 +15,9 @@ namespace scattermeter {
 // Scores of the paths so far.
 struct WhiteSums {
   int levels = 0;
-  Eigen::MatrixXd sum;    // tilts x rows: scores of all paths
-  PackedBatches batches;  // kBatches parts of them, by kept tilt
+  Eigen::MatrixXd sum;      // tilts x rows: scores of all paths
+  Eigen::MatrixXf per_eta;  // kept tilts x rows: of their changes by eta
+  PackedBatches batches;    // kBatches parts of the scores, by kept tilt
 };
 
 // White Monte Carlo (Alerstam, Svensson & Andersson-Engels 2008): paths are traced without
@@ -52,6 +53,7 @@ class WhiteRows {
   struct Light {
     Eigen::VectorXd l;            // of every row, as ScatteringImage::l
     Eigen::VectorXd per_sigma_a;  // dl / d sigma_a, times mm
+    Eigen::VectorXd per_eta;      // dl / d eta at the same sigma_s' and sigma_a
   };
   // Precondition: levels() > 0.
   Light light(double sigma_a_per_mm) const;
@@ -59,17 +61,21 @@ class WhiteRows {
     // D, kBatches x rows: D^T D estimates the covariance of light().l; those of the first half of
     // the batches and those of the second each have a mean of 0.
     Eigen::MatrixXd of_batch;
-    Light second_half;  // light() of the second half of the batches minus that of all
+    // light() of the second half of the batches minus that of all; without its change by eta.
+    Light second_half;
   };
   // Precondition: levels() > 0.
   Departures departures(double sigma_a_per_mm) const;
 
  private:
-  // Every second tilt is kept for each batch: errors need to be known to some per cent only.
+  // Every second tilt is kept for each batch and for the change by eta: these need to be known to
+  // some per cent only.
   static constexpr Eigen::Index kBatchStep = 2;
   std::size_t kept_tilts() const {
     return static_cast<std::size_t>((tilts_.count() - 1) / kBatchStep + 1);
   }
+  // Their indices.
+  auto kept() const { return Eigen::seqN(0, static_cast<Eigen::Index>(kept_tilts()), kBatchStep); }
 
   const ScatteringView& view_;
   double sigma_s_per_mm_;

@@ -20,6 +20,7 @@ WhiteSums sums(int levels) {
   WhiteSums out;
   out.levels = levels;
   out.sum = Eigen::MatrixXd::Random(5, 7);
+  out.per_eta = Eigen::MatrixXf::Random(2, 7);
   out.batches = PackedBatches(2, 4, 7);
   out.batches.add({Eigen::MatrixXf::Random(4, 7), Eigen::MatrixXf::Random(4, 7)});
   return out;
@@ -29,6 +30,7 @@ void expect_equal(const std::optional<WhiteSums>& a, const WhiteSums& b) {
   ASSERT_TRUE(a);
   EXPECT_EQ(a->levels, b.levels);
   EXPECT_EQ(a->sum, b.sum);
+  EXPECT_EQ(a->per_eta, b.per_eta);
   EXPECT_EQ(a->batches.steps, b.batches.steps);
   EXPECT_EQ(a->batches.step_of, b.batches.step_of);
 }

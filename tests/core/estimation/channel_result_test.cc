@@ -1,5 +1,7 @@
 #include "core/estimation/channel_result.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace scattermeter {
@@ -33,6 +35,17 @@ TEST(ChannelResult, DipoleDistanceNeedsTwoEstimates) {
   result.dipole->converged = true;
   result.estimate.converged = false;
   EXPECT_FALSE(dipole_distance(result).has_value());
+}
+
+// From a dipole that determines nothing, nothing is far or near.
+TEST(ChannelResult, DipoleDistanceNeedsADeterminedDipole) {
+  ChannelResult result;
+  result.estimate = converged(2.0, 0.010);
+  for (const double std : {1.0, std::nan("")}) {
+    result.dipole = converged(1.9, 0.004);
+    result.dipole->sigma_s_prime_per_mm.std = std;
+    EXPECT_FALSE(dipole_distance(result).has_value()) << std;
+  }
 }
 
 TEST(ChannelResult, IsRefusedByAnyReason) {

@@ -258,6 +258,33 @@ TEST(ScatteringEquation, NuisancesWiden) {
   EXPECT_LT((sum - wide.covariance).norm(), 1e-12 * sum.norm());
 }
 
+// What a nuisance changes as the medium does moves the estimate by just that, and has no part in
+// the weights.
+TEST(ScatteringEquation, NuisancesThatLookLikeTheMediumWiden) {
+  const ScatteringPoint at{2.0, 0.01, 1.0};
+  const ScatteringImage truth = image_of(2.0, 0.01);
+  DenseSystem system = system_of(truth.l, 1e-3);
+  const Eigen::VectorXd column = 0.1 * truth.l;
+  system.nuisance_columns = column;
+  system.nuisances = {{"eta", 0.02, true, "eta"}};
+  const ScatteringEquation plain(system, {0.0}, truth, at);
+  const Eigen::Index n = plain.projection(0).rows();
+  const ScatteringEquation::Step without =
+      plain.step(twice(truth), Eigen::MatrixXd::Zero(n, n), at);
+  system.nuisances[0].as_medium = {-1.5, 0.03, 7.0};  // the scale is not free
+  const ScatteringEquation equation(system, {0.0}, truth, at);
+  const ScatteringEquation::Step with =
+      equation.step(twice(truth), Eigen::MatrixXd::Zero(n, n), at);
+  EXPECT_EQ(equation.projection(0), plain.projection(0));
+  const Eigen::Vector2d moved = with.common_causes.col(0) - without.common_causes.col(0);
+  EXPECT_NEAR(moved[0], -0.03, 1e-12);
+  EXPECT_NEAR(moved[1], 0.0006, 1e-12);
+  const Eigen::Vector2d all = with.common_causes.col(0), own = without.common_causes.col(0);
+  EXPECT_LT(
+      (with.covariance - without.covariance - all * all.transpose() + own * own.transpose()).norm(),
+      1e-12);
+}
+
 // The residual at the end of a step is that of the image there, and what a nuisance with a wide
 // prior makes of it can be told and taken off.
 TEST(ScatteringEquation, Residual) {

@@ -1,0 +1,61 @@
+#include "core/material/eta_change.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/material/fresnel.h"
+
+namespace scattermeter {
+
+namespace {
+
+// Of share(eta), where there is any.
+template <class Share>
+double growth(const Share& share, double eta) {
+  const double now = share(eta);
+  return now > 0.0 ? (share(eta + kEtaStep) / now - 1.0) / kEtaStep : 0.0;
+}
+
+}  // namespace
+
+double fresnel_growth(double eta_int_over_ext, bool from_outside, double cos_theta, bool passed) {
+  return growth(
+      [&](double eta) {
+        const double t = fresnel_transmittance(from_outside ? eta : 1.0 / eta, cos_theta);
+        return passed ? t : 1.0 - t;
+      },
+      eta_int_over_ext);
+}
+
+double rough_growth(double eta_int_over_ext, double cos_theta, bool passed) {
+  if (cos_theta > 0.0) {
+    constexpr double kLeastCosine = 0.05;  // lower ones meet facets that lean towards them
+    return fresnel_growth(eta_int_over_ext, true, std::max(kLeastCosine, cos_theta), passed);
+  }
+  return growth(
+      [&](double eta) {
+        const double r = diffuse_internal_reflectance(eta);
+        return passed ? 1.0 - r : r;
+      },
+      eta_int_over_ext);
+}
+
+double observed_growth(double eta_int_over_ext, double cos_theta) {
+  return growth([&](double eta) { return 1.0 / fresnel_transmittance(eta, cos_theta); },
+                eta_int_over_ext);
+}
+
+double depth_growth(double eta_int_over_ext, double cos_inside, double optical_length) {
+  const double cos2 = cos_inside * cos_inside;
+  return (1.0 - cos2) / (eta_int_over_ext * cos2) * (optical_length - 1.0);
+}
+
+double entry_growth(double eta_int_over_ext, double cos_inside, double optical_length) {
+  const double sin2 =
+      eta_int_over_ext * eta_int_over_ext * (1.0 - cos_inside * cos_inside);  // outside
+  if (!(cos_inside > 0.0 && sin2 < 1.0)) return 0.0;
+  return fresnel_growth(eta_int_over_ext, true, std::sqrt(1.0 - sin2), true) +
+         depth_growth(eta_int_over_ext, cos_inside, optical_length);
+}
+
+}  // namespace scattermeter
