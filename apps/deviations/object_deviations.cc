@@ -47,7 +47,7 @@ std::vector<Deviation> object_deviations() {
       {.name = "eta off",
        .words = {"eta", "refractive"},
        .unit = "",
-       .sizes = {0.007, 0.04, 0.09},
+       .sizes = {0.02, 0.04, 0.09},
        .within = 1,
        .truth =
            [](TrueSetup& t, const DeviationDraw& d) {

@@ -30,11 +30,11 @@ class EtaNuisance {
   // From now on, changes have these rows. kept: their indices among those so far.
   void set_rows(const ChannelRows& rows, const std::vector<Eigen::Index>& kept);
   struct Change {
-    Eigen::VectorXd column;     // by row, without
-    Eigen::Vector3d as_medium;  // Nuisance::as_medium
+    Eigen::VectorXd column;     // by row: what is left beside as_medium
+    Eigen::Vector3d as_medium;  // Nuisance::as_medium; the third 0 unless the scale is free
   };
-  // smooth: the image without noise, at scale 1 as `paths` and `per_eta`, the light of paths and
-  // its change.
+  // smooth: the image without noise; paths, per_eta: the light of paths and its change by eta. All
+  // by row, at scale 1; `scale` is that of the point.
   Change change(const ShotParts& parts, const ScatteringImage& smooth, double scale,
                 bool scale_is_free, const Eigen::VectorXd& paths,
                 const Eigen::VectorXd& per_eta) const;

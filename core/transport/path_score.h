@@ -17,8 +17,9 @@ struct PathScore {
   double weight = 0;
   int scatterings = 0;   // before it
   double length_mm = 0;  // inside the body
-  // Change by eta of the weight that such paths have, relative and per unit of eta (core/material/
-  // eta_change.h), but for the share that passes as they leave here.
+  // Change by eta of the weight that such paths have, relative and per unit of eta (perturbation
+  // Monte Carlo with core/material/eta_change.h), but for the share that passes as they leave here.
+  // By how much light that is refracted otherwise moves sideways is left out: it counts at edges.
   double per_eta = 0;
   // Since its last scattering it has neither been reflected nor left the body and entered again,
   // and of a rough boundary it met a single facet.
