@@ -96,16 +96,16 @@ struct OfLight {
            const ChannelSimulation::Projections& projections) {
     constexpr Eigen::Index kHalf = WhiteRows::kBatches / 2;
     const WhiteRows::Departures departures = node.departures(sigma_a_per_mm);
-    const WhiteRows::Light light = node.light(sigma_a_per_mm);
-    add_carried(light, power, share, to_here, rows, image);
+    add_carried(node.light(sigma_a_per_mm), power, share, to_here, rows, image);
     add_carried(departures.second_half, power, share, to_here, rows, off);
     for (std::size_t half = 0; half < 2; ++half) {
       projected[half] = Eigen::MatrixXd::Zero(kHalf, projections[half].rows());
     }
+    const Eigen::VectorXd by_eta = node.per_eta(sigma_a_per_mm);
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto [row, at_view] = rows[k];
       const double factor = share.weight * to_here.factor[row] * power;
-      per_eta[static_cast<Eigen::Index>(k)] += factor * light.per_eta[at_view];
+      per_eta[static_cast<Eigen::Index>(k)] += factor * by_eta[at_view];
       const auto batches = departures.of_batch.col(at_view);
       image.variance[static_cast<Eigen::Index>(k)] += factor * factor * batches.squaredNorm();
       for (std::size_t half = 0; half < 2; ++half) {

@@ -105,10 +105,14 @@ void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
 WhiteRows::Light WhiteRows::light(double sigma_a_per_mm) const {
   const AbsorptionTilts::Combination c = tilts_.at(sigma_a_per_mm);
   const Eigen::VectorXd per_area = (static_cast<double>(paths()) * view_.area_mm2).cwiseInverse();
-  const Eigen::VectorXf coarse = tilts_.at(sigma_a_per_mm, kBatchStep).l(kept()).cast<float>();
   return {(sums_.sum.transpose() * c.l).cwiseProduct(per_area),
-          (sums_.sum.transpose() * c.per_sigma_a).cwiseProduct(per_area),
-          (sums_.per_eta.transpose() * coarse).cast<double>().cwiseProduct(per_area)};
+          (sums_.sum.transpose() * c.per_sigma_a).cwiseProduct(per_area)};
+}
+
+Eigen::VectorXd WhiteRows::per_eta(double sigma_a_per_mm) const {
+  const Eigen::VectorXf l = tilts_.at(sigma_a_per_mm, kBatchStep).l(kept()).cast<float>();
+  const Eigen::VectorXd area = static_cast<double>(paths()) * view_.area_mm2;
+  return (sums_.per_eta.transpose() * l).cast<double>().cwiseQuotient(area);
 }
 
 WhiteRows::Departures WhiteRows::departures(double sigma_a_per_mm) const {
@@ -125,8 +129,7 @@ WhiteRows::Departures WhiteRows::departures(double sigma_a_per_mm) const {
   first.rowwise() -= first_mean;
   second.rowwise() -= second_mean;
   out.second_half = {(kHalf * (second_mean - first_mean)).transpose().cwiseProduct(per_area),
-                     per_sigma_a.cast<double>().transpose().cwiseProduct(per_area),
-                     {}};
+                     per_sigma_a.cast<double>().transpose().cwiseProduct(per_area)};
   out.of_batch *= std::sqrt(kBatches / (kBatches - 2.0)) * per_area.asDiagonal();
   return out;
 }

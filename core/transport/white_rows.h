@@ -53,16 +53,16 @@ class WhiteRows {
   struct Light {
     Eigen::VectorXd l;            // of every row, as ScatteringImage::l
     Eigen::VectorXd per_sigma_a;  // dl / d sigma_a, times mm
-    Eigen::VectorXd per_eta;      // dl / d eta at the same sigma_s' and sigma_a
   };
   // Precondition: levels() > 0.
   Light light(double sigma_a_per_mm) const;
+  // dl / d eta of every row, at the same sigma_s' and sigma_a. Precondition: levels() > 0.
+  Eigen::VectorXd per_eta(double sigma_a_per_mm) const;
   struct Departures {
     // D, kBatches x rows: D^T D estimates the covariance of light().l; those of the first half of
     // the batches and those of the second each have a mean of 0.
     Eigen::MatrixXd of_batch;
-    // light() of the second half of the batches minus that of all; without its change by eta.
-    Light second_half;
+    Light second_half;  // light() of the second half of the batches minus that of all
   };
   // Precondition: levels() > 0.
   Departures departures(double sigma_a_per_mm) const;

@@ -112,7 +112,8 @@ TEST(WhiteRows, ChangeByEtaIsThatOfPaths) {
         return s.view.area_mm2.dot(of.light(sigma_a).l);
       };
       const WhiteRows::Light at = nominal.light(sigma_a);
-      const double by_scores = s.view.area_mm2.dot(at.per_eta) / s.view.area_mm2.dot(at.l);
+      const double by_scores =
+          s.view.area_mm2.dot(nominal.per_eta(sigma_a)) / s.view.area_mm2.dot(at.l);
       const double by_paths = (light(more) - light(less)) / (2.0 * kStep * light(nominal));
       EXPECT_NEAR(by_scores, by_paths, 0.15) << alpha << " " << sigma_a;
       EXPECT_LT(by_paths, sigma_a < 1.0 ? 0.1 : -0.7) << alpha;
