@@ -5,8 +5,9 @@
 namespace scattermeter::apps {
 namespace {
 
-// Standard deviations of the scatter itself that chance may cause.
-constexpr double kNoiseStds = 4.0;
+// Standard deviations of the scatter, as the model has it, that chance may cause: of 20 independent
+// samples, once in 10^5 shots.
+constexpr double kNoiseStds = 6.0;
 
 }  // namespace
 
@@ -15,17 +16,17 @@ std::vector<CheckItem> check_noise(const CheckedRig& checked) {
   for (std::size_t i = 0; i < checked.shots.size(); ++i) {
     for (std::size_t c = 0; c < kRgb; ++c) {
       double seen = 0.0;
-      double seen_variance = 0.0;
+      double model_variance = 0.0;  // of the sum, where the noise is the model's
       double model = 0.0;
       for (const capture::NoisePoint& p : checked.frames[i].noise[c]) {
         const auto n = static_cast<double>(p.triples);
         seen += n * p.variance_counts2;
         model += n * p.model_counts2;
-        seen_variance += std::pow(n * p.variance_std_counts2, 2);
+        model_variance += std::pow(n * p.model_counts2 * p.relative_std, 2);
       }
       if (!(model > 0.0)) continue;
       CheckDetail d = checked.of_channel(i, c, 100.0 * (seen / model - 1.0));
-      d.std = 100.0 * std::sqrt(seen_variance) / model;
+      d.std = 100.0 * std::sqrt(model_variance) / model;
       excess.push_back(d);
     }
   }

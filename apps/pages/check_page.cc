@@ -151,7 +151,7 @@ std::vector<PagePlot> noise_plots(const CheckedRig& checked) {
         if (p.triples < kLeastTriples) continue;
         seen.x.push_back(p.mean_counts);
         seen.y.push_back(p.variance_counts2);
-        seen.y_std.push_back(p.variance_std_counts2);
+        seen.y_std.push_back(p.relative_std * p.variance_counts2);
         model.emplace_back(p.mean_counts, p.model_counts2);
       }
     }

@@ -52,7 +52,7 @@ std::array<std::vector<NoisePoint>, kRgb> noise_curve(const CfaSamples& samples,
       p.mean_counts /= n;
       p.variance_counts2 /= n;
       p.model_counts2 /= n;
-      p.variance_std_counts2 = p.variance_counts2 * std::sqrt(2.0 * kOverlap / n);
+      p.relative_std = std::sqrt(2.0 * kOverlap / n);
       out[channel].push_back(p);
     }
   }

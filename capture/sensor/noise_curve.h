@@ -14,8 +14,8 @@ namespace scattermeter::capture {
 struct NoisePoint {
   double mean_counts = 0;  // above black
   double variance_counts2 = 0;
-  double variance_std_counts2 = 0;  // its standard deviation for normal noise
-  double model_counts2 = 0;         // mean of the variances that the samples have
+  double relative_std = 0;   // standard deviation of a variance by so many triples, normal noise
+  double model_counts2 = 0;  // mean of the variances that the samples have
   std::size_t triples = 0;
 };
 

@@ -45,7 +45,7 @@ TEST(NoiseCurve, MeetsTheVarianceWithinItsDeviation) {
       for (const NoisePoint& p : channel) {
         if (p.triples < 50) continue;  // too few for a normal error
         EXPECT_NEAR(p.variance_counts2 / p.model_counts2, factor,
-                    4.5 * p.variance_std_counts2 / p.model_counts2)
+                    4.5 * p.relative_std * p.variance_counts2 / p.model_counts2)
             << p.mean_counts;
         EXPECT_NEAR(p.model_counts2, 1.5 + p.mean_counts / 6.0, 0.05 * p.model_counts2);
         EXPECT_LT(p.mean_counts, 2500.0);
