@@ -45,7 +45,7 @@ std::string comparison_page(const std::vector<MaterialComparison>& materials,
   const std::string title = "Are these the same material?";
   Html body = html_element("h1", html_text(title));
   HtmlTable table;
-  table.header = {"materials",      "",       "sigma_s' [1/mm]", "second", "difference",
+  table.header = {"materials",      "ch",     "sigma_s' [1/mm]", "second", "difference",
                   "sigma_a [1/mm]", "second", "difference",      "p"};
   std::vector<PagePlot> plots;
   for (const MaterialComparison& m : materials) {

@@ -55,7 +55,19 @@ td img.look { width: 3rem; }
 .aside > figure img.look { width: 100%; }
 .aside > .scroll { margin: 0; flex: 1 1 22rem; min-width: 0; }
 @media (max-width: 30rem) { body { padding: 0.6rem; } th, td { padding: 0.25rem 0.4rem; } }
+@media (max-width: 46rem) { .wide, .wide tbody { display: block; }
+  .wide thead { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }
+  .wide tr { display: grid; grid-template-columns: repeat(auto-fill, minmax(10rem, 1fr));
+    padding: 0.3rem 0; border-bottom: 1px solid var(--line); }
+  .wide tr:last-child { border-bottom: 0; }
+  .wide td { border-bottom: 0; }
+  .wide td.number { text-align: left; }
+  .wide td::before { display: block; content: attr(data-label); font: 0.8rem/1.3 system-ui, sans-serif;
+    color: var(--dim); } }
 )css";
+
+// Columns that fit the width of a phone.
+constexpr std::size_t kNarrowColumns = 3;
 
 // The length of the valid UTF-8 sequence that starts here, or 0 (RFC 3629: no overlong forms, no
 // surrogates, nothing above U+10FFFF).
@@ -140,7 +152,12 @@ HtmlTable::Cell text_cell(const std::string& text, const std::string& css_class)
 HtmlTable::Cell number_cell(const std::string& text) { return {html_text(text), true, ""}; }
 
 Html html_table(const HtmlTable& table) {
-  std::string out = "<div class=\"scroll\"><table>\n<thead><tr>";
+  // Roles, since what is laid out otherwise than as a table is none to some screen readers.
+  const bool is_wide = table.header.size() > kNarrowColumns;
+  std::string out = "<div class=\"scroll\">";
+  out += is_wide ? "<table class=\"wide\" role=\"table\">" : "<table>";
+  const std::string row_tag = is_wide ? "<tr role=\"row\">" : "<tr>";
+  out += "\n<thead>" + row_tag;
   for (std::size_t i = 0; i < table.header.size(); ++i) {
     const bool number = !table.rows.empty() && i < table.rows[0].size() && table.rows[0][i].number;
     out += number ? "<th scope=\"col\" class=\"number\">" : "<th scope=\"col\">";
@@ -152,12 +169,15 @@ Html html_table(const HtmlTable& table) {
       throw std::invalid_argument(
           fmt::format("html_table: {} cells under {} headers", row.size(), table.header.size()));
     }
-    out += "<tr>";
-    for (const HtmlTable::Cell& cell : row) {
+    out += row_tag;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const HtmlTable::Cell& cell = row[i];
       std::string css = cell.number ? "number" : "";
       if (!cell.css_class.empty()) css += (css.empty() ? "" : " ") + cell.css_class;
-      out += css.empty() ? "<td>" : "<td class=\"" + html_text(css).markup + "\">";
-      out += cell.content.markup + "</td>";
+      out += "<td";
+      if (!css.empty()) out += " class=\"" + html_text(css).markup + "\"";
+      if (is_wide) out += " role=\"cell\" data-label=\"" + html_text(table.header[i]).markup + "\"";
+      out += ">" + cell.content.markup + "</td>";
     }
     out += "</tr>\n";
   }

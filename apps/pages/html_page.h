@@ -34,8 +34,9 @@ struct HtmlTable {
 HtmlTable::Cell text_cell(const std::string& text, const std::string& css_class = "");
 HtmlTable::Cell number_cell(const std::string& text);
 
-// A table that scrolls within its own box if it is wider than the page. Throws
-// std::invalid_argument unless each row has as many cells as the header.
+// A table that scrolls within its own box if it is wider than the page. On a phone, cells of more
+// than three columns stand below each other, each with its header. Throws std::invalid_argument
+// unless each row has as many cells as the header.
 Html html_table(const HtmlTable& table);
 
 // Lines of text as they stand, in letters of one width; control characters but line ends become

@@ -24,7 +24,7 @@ Html forecast_table(const Plan& plan) {
   const bool ranges = std::any_of(plan.channels.begin(), plan.channels.end(),
                                   [](const PlannedChannel& c) { return !c.corners.empty(); });
   HtmlTable table;
-  table.header = {"material",       "",         "verdict", "sigma_s' [1/mm]", "known to",
+  table.header = {"material",       "ch",       "verdict", "sigma_s' [1/mm]", "known to",
                   "sigma_a [1/mm]", "known to", "patches"};
   if (ranges) {
     table.header.insert(table.header.end(),
@@ -79,7 +79,7 @@ Html refusal_list(const Plan& plan) {
 
 Html exposure_table(const Plan& plan) {
   HtmlTable table;
-  table.header = {"shot",    "",         "exposure [s]",  "brightest", "a tenth below",
+  table.header = {"shot",    "ch",       "exposure [s]",  "brightest", "a tenth below",
                   "clipped", "in noise", "suggested [s]", "advice"};
   const auto times = [](const std::vector<double>& list) {
     std::string out;

@@ -60,9 +60,9 @@ std::vector<MaterialPart> parts_of(const Measurement& m) {
 
 Html overview(const std::vector<MaterialPart>& parts) {
   HtmlTable table;
-  table.header = {
-      "material",     "",         "verdict", "sigma_s' [1/mm]", "sigma_a [1/mm]", "sigma_s' 95 %",
-      "sigma_a 95 %", "residual", "chi2/n",  "model",           "shots",          "shots agree"};
+  table.header = {"material",      "ch",           "verdict",  "sigma_s' [1/mm]", "sigma_a [1/mm]",
+                  "sigma_s' 95 %", "sigma_a 95 %", "residual", "chi2/n",          "model",
+                  "shots",         "shots agree"};
   const auto add = [&](const ChannelResult& r, const Html& picture) {
     const Estimate& e = r.estimate;
     const bool known = e.converged;

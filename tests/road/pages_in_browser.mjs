@@ -52,8 +52,8 @@ async function lookAtAll(name) {
       // Pictures follow the width in the browser's own time. Whatever has no scroll bar of its own stays within
       // the page.
       const beyond = asList => {
-        const cut = [...document.querySelectorAll('figure, canvas, svg, select, h1, h2, p')]
-          .filter(e => !e.closest('.scroll, details:not([open])') && e.getBoundingClientRect().right > innerWidth + 1)
+        const cut = [...document.querySelectorAll('figure, canvas, svg, select, h1, h2, p, td')]
+          .filter(e => !e.closest('pre.scroll, details:not([open])') && e.getBoundingClientRect().right > innerWidth + 1)
           .map(e => e.outerHTML.slice(0, 80))
           .concat(document.documentElement.scrollWidth > innerWidth ? ['the page'] : []);
         return asList ? cut : cut.length === 0;

@@ -63,6 +63,19 @@ TEST(HtmlPage, TheCheckerItselfSeesProblems) {
             "");
 }
 
+// On a phone, a cell of a wide table stands beside its header.
+TEST(HtmlPage, CellsOfAWideTableHaveTheirHeaders) {
+  HtmlTable table;
+  table.header = {"a", "b", "c", "\"d\""};
+  table.rows = {{text_cell("1"), text_cell("2"), text_cell("3"), number_cell("4")}};
+  const std::string wide = html_table(table).markup;
+  EXPECT_THAT(wide, HasSubstr("<td class=\"number\" role=\"cell\" data-label=\"&quot;d&quot;\">4"));
+  EXPECT_EQ(html_problem(html_document("t", {wide})), "");
+  table.header.pop_back();
+  table.rows[0].pop_back();
+  EXPECT_THAT(html_table(table).markup, Not(HasSubstr("data-label")));
+}
+
 TEST(HtmlPage, RefusesRowsOfAnotherLength) {
   HtmlTable table;
   table.header = {"a", "b"};
