@@ -36,6 +36,9 @@ void expect_as_in_the_budget(const nlohmann::json& result, const char* quantity)
 void expect_the_truth(const std::string& channels) {
   SmallRig rig;
   rig.keep_shots("PP_cube");
+  if (channels == "G") {  // the others would take as long to render: now their paths are short
+    rig.write(replaced(rig.text(), "[0.003, 0.002, 0.004]", "[0.3, 0.002, 0.3]"));
+  }
   rig.simulate({"--transport", "volume", "--paths", "1000000", "--noise", "off", "--seed", "5"});
   const Answer answer =
       rig.measure({"--paths", "800000", "--time-limit", "500", "--channels", channels});
