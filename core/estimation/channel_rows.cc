@@ -97,6 +97,24 @@ DenseSystem channel_system(const Scene& scene, const MaterialChannel& channel,
   return stack(shots);
 }
 
+std::vector<Eigen::Index> keep_rows(ChannelRows& rows, const StateOfRow& state_of) {
+  std::vector<Eigen::Index> kept;
+  Eigen::Index at = 0;
+  for (std::size_t s = 0; s < rows.size(); ++s) {
+    for (std::size_t j = 0; j < rows[s].state.size(); ++j) {
+      if (rows[s].state[j] != RowState::kUsed) continue;
+      const RowState state = state_of(s, j, at);
+      if (state == RowState::kUsed) {
+        kept.push_back(at);
+      } else {
+        leave_out(rows[s], j, state);
+      }
+      ++at;
+    }
+  }
+  return kept;
+}
+
 void report_rows(const MaterialChannel& channel, const ChannelRows& rows, ChannelResult& result) {
   result.patches_by_state.fill(0);
   result.patches_partly_seen = 0;

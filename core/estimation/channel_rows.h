@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -33,6 +34,12 @@ DenseSystem channel_system(const Scene& scene, const MaterialChannel& channel, s
 DenseSystem channel_system(const Scene& scene, const MaterialChannel& channel,
                            const ChannelRows& rows, const Weights& weights,
                            double mean_free_path_mm);
+
+// Of a used row: shot, row of its map, row among those used so far.
+using StateOfRow = std::function<RowState(std::size_t, std::size_t, Eigen::Index)>;
+// Gives the used rows these states. Returns those that stay in use, by their number among those
+// used so far.
+std::vector<Eigen::Index> keep_rows(ChannelRows& rows, const StateOfRow& state_of);
 
 // Counts the rows by state.
 void report_rows(const MaterialChannel& channel, const ChannelRows& rows, ChannelResult& result);

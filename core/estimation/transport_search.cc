@@ -14,13 +14,13 @@
 #include "core/estimation/material_channel.h"
 #include "core/estimation/medium_nuisances.h"
 #include "core/estimation/residual_look.h"
+#include "core/estimation/total_reflection.h"
 #include "core/estimation/transport_pilot.h"
 #include "core/estimation/transport_round.h"
 #include "core/estimation/transport_start.h"
 #include "core/estimation/transport_verdict.h"
 #include "core/fit/cell_step.h"
 #include "core/transport/path_budget.h"
-#include "core/view/row_selection.h"
 
 namespace scattermeter {
 namespace {
@@ -44,7 +44,8 @@ class TransportSearch {
   TransportSearch(const Scene& scene, const MaterialChannel& channel, const DipoleSystem& dipole,
                   TransportAtlas& atlas, bool may_trace, const EstimateOptions& options,
                   const ProgressStage& stage)
-      : channel_(channel),
+      : scene_(scene),
+        channel_(channel),
         knots_(dipole.knots),
         system_(system_of_paths(dipole, channel.gamma_std, channel.surface_alpha_std > 0.0)),
         rows_(*dipole.rows),
@@ -69,13 +70,11 @@ class TransportSearch {
     result.evidence = {};
     result.look.reset();
     estimate.converged = false;
-    estimate.rows = static_cast<std::size_t>(system_.l.size());
-    if (system_.l.size() < TransportRound::kLeastRows) {
-      estimate.reasons = {fmt::format("only {} whole patches can be used, at least {} are needed",
-                                      estimate.rows, TransportRound::kLeastRows)};
-      return;
-    }
-    if (std::optional<ChannelResult> found = search(start(estimate), result)) {
+    if (!has_enough_rows(estimate)) return;
+    const ScatteringPoint at = start(estimate);
+    leave_total_reflection_out(at);
+    if (!has_enough_rows(estimate)) return;
+    if (std::optional<ChannelResult> found = search(at, result)) {
       result = std::move(*found);
     } else {
       estimate.reasons = {"transport did not converge in time: check the rig, or allow more time"};
@@ -88,6 +87,14 @@ class TransportSearch {
     Eigen::VectorXd per_eta;  // of it
     PathErrors errors;
   };
+
+  bool has_enough_rows(Estimate& estimate) const {
+    estimate.rows = static_cast<std::size_t>(system_.l.size());
+    if (system_.l.size() >= TransportRound::kLeastRows) return true;
+    estimate.reasons = {fmt::format("only {} whole patches can be used, at least {} are needed",
+                                    estimate.rows, TransportRound::kLeastRows)};
+    return false;
+  }
 
   // A report on `before` where the search ends; empty if it does not.
   std::optional<ChannelResult> search(ScatteringPoint at, const ChannelResult& before) {
@@ -211,29 +218,22 @@ class TransportSearch {
     return {std::move(seen.image), std::move(seen.per_eta), errors};
   }
 
-  // Keeps rows of which `state_of(shot, row of its view, row of the system so far)` is kUsed.
-  template <class StateOf>
-  void keep(const StateOf& state_of) {
-    std::vector<Eigen::Index> kept;
-    Eigen::Index at = 0;
-    for (std::size_t s = 0; s < rows_.size(); ++s) {
-      for (std::size_t j = 0; j < rows_[s].state.size(); ++j) {
-        if (rows_[s].state[j] != RowState::kUsed) continue;
-        const RowState state = state_of(s, j, at);
-        if (state == RowState::kUsed) {
-          kept.push_back(at);
-        } else {
-          leave_out(rows_[s], j, state);
-        }
-        ++at;
-      }
-    }
+  void keep(const StateOfRow& state_of) {
+    const std::vector<Eigen::Index> kept = keep_rows(rows_, state_of);
     system_ = selected(system_, kept);
     simulation_.set_rows(rows_);
     medium_.set_rows(rows_, kept);
     parts_ =
         ShotParts(system_.shot_rows, simulation_.center_mm(), simulation_.area_mm2(), system_.l);
     pilots_.forget();
+  }
+
+  void leave_total_reflection_out(const ScatteringPoint& at) {
+    const std::vector<std::vector<bool>> near = near_total_reflection(
+        scene_, channel_, rows_, 1.0 / (at.sigma_s_per_mm + at.sigma_a_per_mm));
+    keep([&](std::size_t shot, std::size_t row, Eigen::Index) {
+      return near[shot][row] ? RowState::kEdge : RowState::kUsed;
+    });
   }
 
   // Whether there were any.
@@ -266,6 +266,7 @@ class TransportSearch {
     refuse_undetermined(result.estimate);
   }
 
+  const Scene& scene_;
   const MaterialChannel& channel_;
   DistanceKnots knots_;
   DenseSystem system_;
