@@ -48,7 +48,7 @@ std::vector<Deviation> object_deviations() {
        .words = {"eta", "refractive"},
        .unit = "",
        .sizes = {0.02, 0.04, 0.09},
-       .within = 1,
+       .within = 2,
        .truth =
            [](TrueSetup& t, const DeviationDraw& d) {
              t.rig.scene.objects.front().eta_int_over_ext -= d.signed_size();

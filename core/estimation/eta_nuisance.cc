@@ -1,5 +1,7 @@
 #include "core/estimation/eta_nuisance.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -38,11 +40,18 @@ EtaNuisance::Change EtaNuisance::change(const ShotParts& parts, const Scattering
   of_parts.array().colwise() /= light;
   const Eigen::VectorXd wanted = parts.of_parts(per_eta).cwiseQuotient(parts.of_parts(paths));
   // Few parts may not tell all terms apart: the smallest solution.
-  const Eigen::Vector4d by_term = of_parts.completeOrthogonalDecomposition().solve(wanted);
+  const Eigen::MatrixXd solve = of_parts.completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::Vector4d by_term = solve * wanted;
+  const auto freedom = static_cast<double>(std::max<Eigen::Index>(1, wanted.size() - 4));
+  const double variance = (wanted - of_parts * by_term).squaredNorm() / freedom;
   const Eigen::Index medium = scale_is_free ? 3 : 2;
   Change out{terms.rightCols(4 - medium) * by_term.tail(4 - medium) - observed,
              Eigen::Vector3d::Zero()};
-  out.as_medium.head(medium) = by_term.head(medium);
+  // An uncertain index times an uncertain change by it: the squares add.
+  for (Eigen::Index k = 0; k < medium; ++k) {
+    const double std = std::sqrt(variance) * solve.row(k).norm();
+    out.as_medium[k] = std::copysign(std::hypot(by_term[k], std), by_term[k]);
+  }
   return out;
 }
 

@@ -20,6 +20,7 @@ namespace scattermeter {
 // noise would look like structure that tells eta from all else, is expressed by that of the dipole
 // and by changes of scale, sigma_s' and sigma_a: the sum of these that is closest to it in the
 // light of the shots' parts. Of a cube, it is nearly a change of sigma_s' by 1 % for 0.01 of eta.
+// What these terms leave is noise: changes of the medium are as uncertain as it makes them.
 class EtaNuisance {
  public:
   // by_dipole: the change of the rows whose state is kUsed, shot by shot. The channel must outlive
@@ -30,8 +31,10 @@ class EtaNuisance {
   // From now on, changes have these rows. kept: their indices among those so far.
   void set_rows(const ChannelRows& rows, const std::vector<Eigen::Index>& kept);
   struct Change {
-    Eigen::VectorXd column;     // by row: what is left beside as_medium
-    Eigen::Vector3d as_medium;  // Nuisance::as_medium; the third 0 unless the scale is free
+    Eigen::VectorXd column;  // by row: what is left beside as_medium
+    // Nuisance::as_medium, root mean square with the sign of the mean; the third 0 unless the scale
+    // is free.
+    Eigen::Vector3d as_medium;
   };
   // smooth: the image without noise; paths, per_eta: the light of paths and its change by eta. All
   // by row, at scale 1; `scale` is that of the point.

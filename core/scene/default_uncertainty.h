@@ -6,8 +6,9 @@
 namespace scattermeter::default_uncertainty {
 
 // Handbook values of one plastic differ by 0.01 to 0.02 between grades and wavelengths, those of
-// food and tissue by more; by transport, the image hardly tells eta from sigma_s'.
-inline constexpr double kEta = 0.03;
+// food and tissue by more, and one plastic taken for another by 0.1; by transport, the image hardly
+// tells eta from sigma_s'.
+inline constexpr double kEta = 0.04;
 // Of gamma, about isotropic scattering: as large as the root mean square of g, for any g from 0 to
 // 0.95 by the function of Henyey and Greenstein.
 inline constexpr double kGamma = 0.55;

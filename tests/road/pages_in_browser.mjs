@@ -53,7 +53,7 @@ async function lookAtAll(name) {
       // the page.
       const beyond = asList => {
         const cut = [...document.querySelectorAll('figure, canvas, svg, select, h1, h2, p, td')]
-          .filter(e => !e.closest('pre.scroll, details:not([open])') && e.getBoundingClientRect().right > innerWidth + 1)
+          .filter(e => !e.closest('pre.scroll, figure .scroll, details:not([open])') && e.getBoundingClientRect().right > innerWidth + 1)
           .map(e => e.outerHTML.slice(0, 80))
           .concat(document.documentElement.scrollWidth > innerWidth ? ['the page'] : []);
         return asList ? cut : cut.length === 0;

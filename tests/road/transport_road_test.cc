@@ -72,7 +72,7 @@ void expect_the_truth(const std::string& channels) {
     // An index off by 0.01, measured: 1.0 to 1.5 %.
     const nlohmann::json& eta = entry(r.at("budget"), "cause", "eta");
     const double per_hundredth =
-        eta.at("sigma_s_prime_per_mm").get<double>() / s.at("value").get<double>() / 3.0;
+        eta.at("sigma_s_prime_per_mm").get<double>() / s.at("value").get<double>() / 4.0;
     EXPECT_GT(per_hundredth, 0.005);
     EXPECT_LT(per_hundredth, 0.02);
   }

@@ -18,7 +18,8 @@ TEST(CheckCommand, StatusesAndFiles) {
   rig.simulate();
   const std::vector<std::string> words = {"check",   rig.shots(), "--rig",
                                           rig.rig(), "--out",     rig.out()};
-  // The rig now states less than half of the noise's variance: the check fails, and its files are written.
+  // The rig now states less than half of the noise's variance: the check fails, and its files are
+  // written.
   rig.write(replaced(rig.text(), "gain_e_per_count: 6.0", "gain_e_per_count: 14.0"));
   const Answer failed = run(words);
   EXPECT_EQ(failed.status, 1) << failed.out << failed.err;

@@ -1,7 +1,9 @@
 #include "core/estimation/eta_nuisance.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -81,6 +83,47 @@ TEST(EtaNuisance, ExpressesTheChangeOfPaths) {
       nuisance.change(c.parts, c.smooth, 1.0, true, c.smooth.l, Eigen::VectorXd(other + medium));
   EXPECT_NEAR(free.as_medium[2], -0.3, 1e-8);
   EXPECT_LT((free.column - (other - observed + 0.3 * c.smooth.l)).norm(), 1e-8 * observed.norm());
+}
+
+// Noise of the paths makes the change of the medium uncertain: the mean square of what is told is
+// that of the change plus the variance of the estimates, which themselves vary by as much.
+TEST(EtaNuisance, ChangesOfTheMediumHoldTheirUncertainty) {
+  const EtaCube c;
+  EtaNuisance nuisance(c.channel, c.by_dipole);
+  nuisance.set_rows(c.rows, c.kept);
+  const Eigen::VectorXd medium = -1.1 * c.smooth.per_log_sigma_s + 0.02 * c.smooth.per_sigma_a;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  constexpr int kDraws = 400;
+  Eigen::Vector2d told = Eigen::Vector2d::Zero(), fitted_variance = Eigen::Vector2d::Zero();
+  Eigen::MatrixXd terms(c.smooth.l.size(), 4);
+  Eigen::VectorXd observed(c.smooth.l.size());
+  for (Eigen::Index j = 0; j < observed.size(); ++j) {
+    observed[j] =
+        observed_growth(1.3, c.shots[0].seen->cos_to_camera(static_cast<std::size_t>(j))) *
+        c.smooth.l[j];
+  }
+  terms << c.smooth.per_log_sigma_s, c.smooth.per_sigma_a, c.smooth.l, c.by_dipole + observed;
+  Eigen::MatrixXd of_parts(c.parts.n_parts(), 4);
+  for (Eigen::Index k = 0; k < 4; ++k) of_parts.col(k) = c.parts.of_parts(terms.col(k));
+  const Eigen::ArrayXd light = of_parts.col(2).array();
+  of_parts.array().colwise() /= light;
+  const Eigen::MatrixXd inverse = (of_parts.transpose() * of_parts).inverse();
+  for (int i = 0; i < kDraws; ++i) {
+    Eigen::VectorXd noise(c.smooth.l.size());
+    for (double& x : noise) x = normal(random);
+    const Eigen::Vector2d m =
+        nuisance.change(c.parts, c.smooth, 1.0, false, c.smooth.l, Eigen::VectorXd(medium + noise))
+            .as_medium.head<2>();
+    told += m.cwiseAbs2() / kDraws;
+    const Eigen::VectorXd of_noise = c.parts.of_parts(noise).cwiseQuotient(light.matrix());
+    const Eigen::Vector4d moved = inverse * (of_parts.transpose() * of_noise);
+    fitted_variance += moved.head<2>().cwiseAbs2() / kDraws;
+  }
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const double b = k == 0 ? -1.1 : 0.02;
+    EXPECT_NEAR((told[k] - b * b) / (2.0 * fitted_variance[k]), 1.0, 0.25) << k;
+  }
 }
 
 // Rows that are left out are left out of the dipole's change as well.
