@@ -17,6 +17,7 @@
 #include "apps/instrument/rig_places.h"
 #include "apps/instrument/row_precision.h"
 #include "apps/instrument/seen_shots.h"
+#include "apps/instrument/shot_summary.h"
 #include "calib/pose/shot_pose.h"
 #include "core/base/chi_square.h"
 #include "core/base/input_error.h"
@@ -63,47 +64,6 @@ std::optional<Finding> scattered_points(const Rig& rig, const PoseResult& pose,
                  "check camera.intrinsics (was the lens focused again?) and the marks' positions, "
                  "or state how well they were read",
                  shots};
-}
-
-std::vector<MergedBracket> brackets_of(const std::vector<ObservedShot>& shots) {
-  std::vector<MergedBracket> out;
-  for (const ObservedShot& shot : shots) {
-    if (shot.exposures.size() < 2) continue;
-    MergedBracket& bracket = out.emplace_back();
-    bracket.shot = shot.stated->file;
-    for (std::size_t c = 0; c < kRgb; ++c) {
-      bracket.samples[c] = shot.observation.channel[c].samples;
-      bracket.samples_clipped[c] = shot.observation.channel[c].samples_clipped;
-    }
-    for (std::size_t k = 0; k < shot.exposures.size(); ++k) {
-      MergedBracket::File& file = bracket.files.emplace_back();
-      file.file = shot.exposures[k].file;
-      file.exposure_s = shot.exposures[k].true_s;
-      file.departure = shot.exposures[k].departure;
-      for (std::size_t c = 0; c < kRgb; ++c) {
-        file.samples[c] = shot.observation.channel[c].exposures[k].samples;
-      }
-    }
-  }
-  return out;
-}
-
-Skipped skipped_of(const std::vector<ObservedShot>& shots, const LitObjects& lit) {
-  Skipped out;
-  std::set<const SeenObject*> views;
-  for (const ObservedShot& shot : shots) {
-    out.samples_outside += shot.samples_outside;
-    if (views.insert(shot.seen.get()).second) {
-      out.patches_unseen +=
-          static_cast<std::size_t>(shot.seen->patches->size()) - shot.seen->map.patch_of_row.size();
-    }
-  }
-  for (const IncidentLight* light : lit.lights_so_far()) {
-    out.patches_unlit += static_cast<std::size_t>(
-        std::count(light->patch_power_sr.begin(), light->patch_power_sr.end(), 0.0));
-    out.shadow_rays += light->shadow_rays_skipped;
-  }
-  return out;
 }
 
 // The estimate of all channels but those that the findings refuse.
@@ -288,7 +248,10 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   }
   opened = seen.whole();
   out.places = std::make_shared<RigPlaces>(rig_places(rig_, objects_, opened));
-  if (!without_noise) refuse_blurred(opened, rig_.scene.camera.intrinsics.fx_px, out.results);
+  if (!without_noise) {
+    refuse_blurred(opened, rig_.scene.camera.intrinsics.fx_px, out.results);
+    if (const std::string noise = noise_note(opened); !noise.empty()) out.notes.push_back(noise);
+  }
   out.skipped = skipped_of(opened, lit_);
   out.skipped.rows = rows_of(seen.whole()) - rows_of(seen.shots());
   for (const ChannelResult& r : out.results) out.skipped.nuisances += r.nuisances_negligible;

@@ -4,15 +4,9 @@
 #include <map>
 #include <stdexcept>
 
+#include "core/camera/sensor_noise.h"
+
 namespace scattermeter::capture {
-namespace {
-
-// Triples overlap: second differences one step apart have a correlation of -4/6, two steps apart of
-// 1/6, so n of them determine a variance as well as n / (1 + 2 (16 + 1) / 36) independent ones.
-constexpr double kOverlap = 1.0 + 2.0 * 17.0 / 36.0;
-
-}  // namespace
-
 std::array<std::vector<NoisePoint>, kRgb> noise_curve(const CfaSamples& samples,
                                                       const SampleMap& map) {
   if (samples.x0 != map.x0 || samples.y0 != map.y0 || samples.width != map.width ||
@@ -52,7 +46,7 @@ std::array<std::vector<NoisePoint>, kRgb> noise_curve(const CfaSamples& samples,
       p.mean_counts /= n;
       p.variance_counts2 /= n;
       p.model_counts2 /= n;
-      p.relative_std = std::sqrt(2.0 * kOverlap / n);
+      p.relative_std = std::sqrt(2.0 * kSecondDifferenceOverlap / n);
       out[channel].push_back(p);
     }
   }

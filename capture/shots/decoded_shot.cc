@@ -109,7 +109,7 @@ Json channel_json(const ChannelObservation& o) {
           {"samples_clipped", o.samples_clipped},
           {"brightest_counts", o.brightest_counts},
           {"brightest_snr", o.brightest_snr},
-          {"noise_ratio", o.noise_ratio},
+          {"noise_excess", o.noise_excess},
           {"exposures", parts}};
 }
 
@@ -132,7 +132,7 @@ ChannelObservation channel_of(const Json& j) {
   o.samples_clipped = count(at(j, "samples_clipped"));
   o.brightest_counts = number(at(j, "brightest_counts"));
   o.brightest_snr = number(at(j, "brightest_snr"));
-  o.noise_ratio = number(at(j, "noise_ratio"));
+  o.noise_excess = number(at(j, "noise_excess"));
   for (const Json& p : list(at(j, "exposures"))) {
     o.exposures.push_back({unpacked<double>(at(p, "of_row")), count(at(p, "samples"))});
     if (o.exposures.back().of_row.size() != o.l.size()) throw NoShot{};

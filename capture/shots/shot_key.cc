@@ -6,7 +6,7 @@ namespace scattermeter::capture {
 namespace {
 
 // To be incremented whenever the same inputs are decoded to something else than before.
-constexpr int kFormat = 5;
+constexpr int kFormat = 6;
 
 void add_camera(const SceneCamera& camera, const ShotDecoding& decoding, FileDigests& digests,
                 Digest& key) {

@@ -1,6 +1,8 @@
 #include "core/estimation/channel_rows.h"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/fit/method_errors.h"
 #include "core/scene/rough_surfaces.h"
@@ -100,19 +102,22 @@ DenseSystem channel_system(const Scene& scene, const MaterialChannel& channel,
 std::vector<Eigen::Index> keep_rows(ChannelRows& rows, const StateOfRow& state_of) {
   std::vector<Eigen::Index> kept;
   Eigen::Index at = 0;
-  for (std::size_t s = 0; s < rows.size(); ++s) {
-    for (std::size_t j = 0; j < rows[s].state.size(); ++j) {
-      if (rows[s].state[j] != RowState::kUsed) continue;
-      const RowState state = state_of(s, j, at);
-      if (state == RowState::kUsed) {
-        kept.push_back(at);
-      } else {
-        leave_out(rows[s], j, state);
-      }
-      ++at;
+  for_used_rows(rows, [&](std::size_t s, std::size_t j) {
+    const RowState state = state_of(s, j, at);
+    if (state == RowState::kUsed) {
+      kept.push_back(at);
+    } else {
+      leave_out(rows[s], j, state);
     }
-  }
+    ++at;
+  });
   return kept;
+}
+
+StateOfRow outliers_at(std::vector<Eigen::Index> far) {
+  return [far = std::move(far)](std::size_t, std::size_t, Eigen::Index row) {
+    return std::binary_search(far.begin(), far.end(), row) ? RowState::kOutlier : RowState::kUsed;
+  };
 }
 
 void report_rows(const MaterialChannel& channel, const ChannelRows& rows, ChannelResult& result) {
@@ -127,29 +132,15 @@ void report_rows(const MaterialChannel& channel, const ChannelRows& rows, Channe
 }
 
 ChannelRows every_nth(std::size_t n, ChannelRows rows) {
-  std::size_t seen = 0;
-  for (ChannelObservation& o : rows) {
-    for (std::size_t j = 0; j < o.l.size(); ++j) {
-      if (o.state[j] == RowState::kUsed && seen++ % n != 0) leave_out(o, j, RowState::kOutlier);
-    }
-  }
+  keep_rows(rows, [n](std::size_t, std::size_t, Eigen::Index row) {
+    return static_cast<std::size_t>(row) % n == 0 ? RowState::kUsed : RowState::kOutlier;
+  });
   return rows;
 }
 
 bool leave_outliers_out(const ComparedImage& image, ChannelRows& rows) {
   const std::vector<Eigen::Index> far = outliers(image.l, image.predicted, image.std_l);
-  auto next = far.begin();
-  Eigen::Index at = 0;
-  for (ChannelObservation& o : rows) {
-    for (std::size_t j = 0; j < o.l.size(); ++j) {
-      if (o.state[j] != RowState::kUsed) continue;
-      if (next != far.end() && *next == at) {
-        leave_out(o, j, RowState::kOutlier);
-        ++next;
-      }
-      ++at;
-    }
-  }
+  keep_rows(rows, outliers_at(far));
   return !far.empty();
 }
 

@@ -35,11 +35,23 @@ DenseSystem channel_system(const Scene& scene, const MaterialChannel& channel,
                            const ChannelRows& rows, const Weights& weights,
                            double mean_free_path_mm);
 
+// f(shot, row of its map) for every used row, shot by shot.
+template <class F>
+void for_used_rows(const ChannelRows& rows, const F& f) {
+  for (std::size_t s = 0; s < rows.size(); ++s) {
+    for (std::size_t j = 0; j < rows[s].state.size(); ++j) {
+      if (rows[s].state[j] == RowState::kUsed) f(s, j);
+    }
+  }
+}
+
 // Of a used row: shot, row of its map, row among those used so far.
 using StateOfRow = std::function<RowState(std::size_t, std::size_t, Eigen::Index)>;
 // Gives the used rows these states. Returns those that stay in use, by their number among those
 // used so far.
 std::vector<Eigen::Index> keep_rows(ChannelRows& rows, const StateOfRow& state_of);
+// For keep_rows(): the used rows of these numbers, in ascending order, are outliers.
+StateOfRow outliers_at(std::vector<Eigen::Index> far);
 
 // Counts the rows by state.
 void report_rows(const MaterialChannel& channel, const ChannelRows& rows, ChannelResult& result);

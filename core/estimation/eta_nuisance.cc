@@ -14,13 +14,10 @@ namespace scattermeter {
 void EtaNuisance::set_rows(const ChannelRows& rows, const std::vector<Eigen::Index>& kept) {
   by_dipole_ = Eigen::VectorXd(by_dipole_(kept));
   std::vector<double> observed;
-  for (std::size_t s = 0; s < rows.size(); ++s) {
-    const SeenObject& seen = *channel_.shots[s]->seen;
-    for (std::size_t j = 0; j < rows[s].state.size(); ++j) {
-      if (rows[s].state[j] != RowState::kUsed) continue;
-      observed.push_back(observed_growth(channel_.eta_int_over_ext, seen.cos_to_camera(j)));
-    }
-  }
+  for_used_rows(rows, [&](std::size_t s, std::size_t j) {
+    observed.push_back(
+        observed_growth(channel_.eta_int_over_ext, channel_.shots[s]->seen->cos_to_camera(j)));
+  });
   observed_ = Eigen::Map<const Eigen::VectorXd>(observed.data(),
                                                 static_cast<Eigen::Index>(observed.size()));
 }

@@ -19,28 +19,25 @@ Eigen::Vector3d along_surface(const Eigen::Vector3d& from, const Eigen::Vector3d
 
 void PhaseNuisance::set_rows(const ChannelRows& rows) {
   std::vector<double> turn;
-  for (std::size_t s = 0; s < channel_.shots.size(); ++s) {
+  for_used_rows(rows, [&](std::size_t s, std::size_t j) {
     const ObservedShot& shot = *channel_.shots[s];
     const SeenObject& seen = *shot.seen;
-    for (std::size_t j = 0; j < rows[s].state.size(); ++j) {
-      if (rows[s].state[j] != RowState::kUsed) continue;
-      const Eigen::Vector3d& at_mm = seen.sites[j].center_mm;
-      const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
-      const Eigen::Vector3d to_camera = along_surface(at_mm, seen.camera_center_mm, normal);
-      double sum = 0.0, turned = 0.0;
-      for (const std::string& name : shot.stated->lights) {
-        const SceneLight& light = scene_.light(name);
-        if (light.led() == nullptr) continue;
-        const Led& led = light.led()->led;
-        const double irradiance =
-            light->power()[static_cast<Eigen::Index>(channel_.channel)] *
-            led.transmitted_irradiance_per_mm2(at_mm, normal, channel_.eta_int_over_ext);
-        sum += irradiance;
-        turned -= irradiance * along_surface(at_mm, led.position_mm, normal).dot(to_camera);
-      }
-      turn.push_back(sum > 0.0 ? turned / sum : 0.0);
+    const Eigen::Vector3d& at_mm = seen.sites[j].center_mm;
+    const Eigen::Vector3d& normal = seen.patches->normal(seen.map.patch_of_row[j]);
+    const Eigen::Vector3d to_camera = along_surface(at_mm, seen.camera_center_mm, normal);
+    double sum = 0.0, turned = 0.0;
+    for (const std::string& name : shot.stated->lights) {
+      const SceneLight& light = scene_.light(name);
+      if (light.led() == nullptr) continue;
+      const Led& led = light.led()->led;
+      const double irradiance =
+          light->power()[static_cast<Eigen::Index>(channel_.channel)] *
+          led.transmitted_irradiance_per_mm2(at_mm, normal, channel_.eta_int_over_ext);
+      sum += irradiance;
+      turned -= irradiance * along_surface(at_mm, led.position_mm, normal).dot(to_camera);
     }
-  }
+    turn.push_back(sum > 0.0 ? turned / sum : 0.0);
+  });
   turn_ = Eigen::Map<const Eigen::VectorXd>(turn.data(), static_cast<Eigen::Index>(turn.size()));
 }
 

@@ -240,9 +240,7 @@ class TransportSearch {
   bool leave_outliers_out(const TransportRound& round) {
     const std::vector<Eigen::Index> far = outlying_rows(round, simulation_.area_mm2());
     if (far.empty()) return false;
-    keep([&](std::size_t, std::size_t, Eigen::Index row) {
-      return std::binary_search(far.begin(), far.end(), row) ? RowState::kOutlier : RowState::kUsed;
-    });
+    keep(outliers_at(far));
     return true;
   }
 

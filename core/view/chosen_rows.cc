@@ -33,7 +33,7 @@ ChannelObservation with_rows(const ChannelObservation& all, const std::vector<st
   out.samples_clipped = all.samples_clipped;
   out.brightest_counts = all.brightest_counts;
   out.brightest_snr = all.brightest_snr;
-  out.noise_ratio = all.noise_ratio;
+  out.noise_excess = all.noise_excess;
   for (const ExposurePart& part : all.exposures) {
     out.exposures.push_back({some(part.of_row, rows), part.samples});
   }

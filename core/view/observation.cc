@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/camera/sensor_noise.h"
 #include "core/view/row_mean.h"
 
 namespace scattermeter {
@@ -19,7 +20,7 @@ struct Sum {
 
 // Squared second differences of neighbouring samples, and what their variances predict of them.
 struct Scatter {
-  double squared = 0, expected = 0;
+  double squared = 0, expected = 0, n = 0;
 
   // Three samples of one phase in line: the second difference is free of the slope.
   void add(const CfaSamples& samples, std::size_t i) {
@@ -30,6 +31,13 @@ struct Scatter {
     expected += static_cast<double>(samples.variance_counts2[i]) +
                 4.0 * static_cast<double>(samples.variance_counts2[i + 2]) +
                 static_cast<double>(samples.variance_counts2[i + 4]);
+    n += 1.0;
+  }
+  // ChannelObservation::noise_excess
+  double excess() const {
+    constexpr double kMatters = 1.3, kStds = 6.0;
+    const double chance = kStds * std::sqrt(2.0 * kSecondDifferenceOverlap / std::max(n, 1.0));
+    return squared > std::max(kMatters, 1.0 + chance) * expected ? squared / expected : 1.0;
   }
 };
 
@@ -108,8 +116,7 @@ void observe_channel(const SampleSums& sums, const SampleMap& map, std::size_t c
   channel.variance_per_l.assign(n_rows, 0.0);
   channel.l_per_count.assign(n_rows, 0.0);
   channel.state.assign(n_rows, RowState::kNoSamples);
-  const Scatter& scatter = sums.scatter[c];
-  if (scatter.expected > 0.0) channel.noise_ratio = scatter.squared / scatter.expected;
+  channel.noise_excess = sums.scatter[c].excess();
   for (std::size_t row = 0; row < n_rows; ++row) {
     const Sum& s = sums.channel[c][row];
     const double n = s.l.n();
@@ -128,9 +135,9 @@ void observe_channel(const SampleSums& sums, const SampleMap& map, std::size_t c
     }
     const RowMean mean = mean_of_row(sums, map, c, row);
     channel.l[row] = unit * mean.value;
-    channel.variance[row] = unit * unit * mean.variance;
+    channel.variance[row] = channel.noise_excess * unit * unit * mean.variance;
     // Samples of l / (unit factor) counts: sum of factor^2 variance_per_count l / (unit factor).
-    channel.variance_per_l[row] = unit * s.growth / (n * n) * mean.spread;
+    channel.variance_per_l[row] = channel.noise_excess * unit * s.growth / (n * n) * mean.spread;
     channel.l_per_count[row] = unit * s.factor / n;
     channel.state[row] = RowState::kUsed;
     channel.brightest_snr =

@@ -46,9 +46,10 @@ struct ChannelObservation {
   std::size_t samples_clipped = 0;
   double brightest_counts = 0;  // largest row mean, counts above black
   double brightest_snr = 0;     // largest l / std over rows
-  // Mean squared second difference of neighbouring samples of one filter phase over its expectation
-  // from their variances: 1 where the noise model is right. 0 without three samples in line.
-  double noise_ratio = 0;
+  // Variance of the samples' noise, by the squared second differences of neighbours of one filter
+  // phase, over what their variances say, where it is above 1.3 and six standard deviations above
+  // 1; else 1. The variances above have been multiplied by it.
+  double noise_excess = 1;
   std::vector<ExposurePart> exposures;  // for a bracket, in its order; else empty
 };
 

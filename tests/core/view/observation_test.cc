@@ -84,8 +84,9 @@ TEST(Observation, FloorTakesDarkRowsOut) {
   EXPECT_EQ(o.channel[0].rows_used, 0U);
 }
 
-// Samples whose scatter is what their variances say have a noise ratio of 1.
-TEST(Observation, NoiseRatio) {
+// Samples that scatter as their variances say have no excess; where they scatter twice as much, so
+// do the rows.
+TEST(Observation, NoiseThatExceedsItsModel) {
   SampleMap map;
   map.width = 200;
   map.height = 100;
@@ -102,9 +103,17 @@ TEST(Observation, NoiseRatio) {
   std::normal_distribution<float> normal(500.0F, 4.0F);
   s.signal_counts.resize(20'000);
   for (float& v : s.signal_counts) v = normal(random);
-  const Observation o = observe(s, map, {1.0, 1.0, 1.0});
-  // 5000 differences and more: 2.8 % deviation for red; four of that.
-  for (const ChannelObservation& c : o.channel) EXPECT_NEAR(c.noise_ratio, 1.0, 0.12);
+  const Observation as_stated = observe(s, map, {1.0, 1.0, 1.0});
+  s.variance_counts2.assign(20'000, 4.0F);
+  const Observation understated = observe(s, map, {1.0, 1.0, 1.0});
+  for (std::size_t c = 0; c < kRgb; ++c) {
+    const ChannelObservation& right = as_stated.channel[c];
+    const ChannelObservation& wrong = understated.channel[c];
+    EXPECT_EQ(right.noise_excess, 1.0);
+    // 5000 differences and more: 2.8 % deviation for red; four of that.
+    EXPECT_NEAR(wrong.noise_excess, 4.0, 0.5);
+    EXPECT_NEAR(wrong.variance[0] / right.variance[0], wrong.noise_excess / 4.0, 1e-9);
+  }
 }
 
 // The variance grows with l as it does where every sample is brighter: two shots of one scene, the
