@@ -1,7 +1,6 @@
 #include "apps/instrument/instrument.h"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/core.h>
 
