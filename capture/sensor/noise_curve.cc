@@ -7,6 +7,7 @@
 #include "core/camera/sensor_noise.h"
 
 namespace scattermeter::capture {
+
 std::array<std::vector<NoisePoint>, kRgb> noise_curve(const CfaSamples& samples,
                                                       const SampleMap& map) {
   if (samples.x0 != map.x0 || samples.y0 != map.y0 || samples.width != map.width ||

@@ -114,9 +114,9 @@ std::vector<Eigen::Index> keep_rows(ChannelRows& rows, const StateOfRow& state_o
   return kept;
 }
 
-StateOfRow outliers_at(std::vector<Eigen::Index> far) {
-  return [far = std::move(far)](std::size_t, std::size_t, Eigen::Index row) {
-    return std::binary_search(far.begin(), far.end(), row) ? RowState::kOutlier : RowState::kUsed;
+StateOfRow state_at(std::vector<Eigen::Index> numbers, RowState state) {
+  return [numbers = std::move(numbers), state](std::size_t, std::size_t, Eigen::Index row) {
+    return std::binary_search(numbers.begin(), numbers.end(), row) ? state : RowState::kUsed;
   };
 }
 
@@ -140,7 +140,7 @@ ChannelRows every_nth(std::size_t n, ChannelRows rows) {
 
 bool leave_outliers_out(const ComparedImage& image, ChannelRows& rows) {
   const std::vector<Eigen::Index> far = outliers(image.l, image.predicted, image.std_l);
-  keep_rows(rows, outliers_at(far));
+  keep_rows(rows, state_at(far, RowState::kOutlier));
   return !far.empty();
 }
 

@@ -50,8 +50,8 @@ using StateOfRow = std::function<RowState(std::size_t, std::size_t, Eigen::Index
 // Gives the used rows these states. Returns those that stay in use, by their number among those
 // used so far.
 std::vector<Eigen::Index> keep_rows(ChannelRows& rows, const StateOfRow& state_of);
-// For keep_rows(): the used rows of these numbers, in ascending order, are outliers.
-StateOfRow outliers_at(std::vector<Eigen::Index> far);
+// For keep_rows(): the used rows of these numbers, in ascending order, get that state.
+StateOfRow state_at(std::vector<Eigen::Index> numbers, RowState state);
 
 // Counts the rows by state.
 void report_rows(const MaterialChannel& channel, const ChannelRows& rows, ChannelResult& result);

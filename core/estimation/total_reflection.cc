@@ -45,31 +45,31 @@ double bend_of_inner_reflection(const RayScene& object, const Eigen::Vector3d& p
   return bend * std::exp(-hit.distance / mean_free_path_mm);
 }
 
-std::vector<std::vector<bool>> near_total_reflection(const Scene& scene,
-                                                     const MaterialChannel& channel,
-                                                     const ChannelRows& rows,
-                                                     double mean_free_path_mm) {
-  std::vector<std::vector<bool>> near(rows.size());
-  for (std::size_t s = 0; s < rows.size(); ++s) {
-    const ObservedShot& shot = *channel.shots[s];
-    const SeenObject& seen = *shot.seen;
-    const UncertainIndex index{channel.eta_int_over_ext, seen.object->stated->eta_std};
-    std::vector<Eigen::Vector3d> ends_mm = {seen.camera_center_mm};
-    for (const std::string& name : shot.stated->lights) {
-      if (const LedLight* led = scene.light(name).led()) ends_mm.push_back(led->led.position_mm);
-    }
-    near[s].resize(rows[s].state.size());
-    for (std::size_t j = 0; j < rows[s].state.size(); ++j) {
-      if (rows[s].state[j] != RowState::kUsed) continue;
-      const Eigen::Vector3d& at_mm = seen.sites[j].center_mm;
-      const Eigen::Vector3d normal = seen.patches->normal_at(seen.map.patch_of_row[j], at_mm);
-      near[s][j] = std::any_of(ends_mm.begin(), ends_mm.end(), [&](const Eigen::Vector3d& end_mm) {
-        return bend_of_inner_reflection(*seen.object->rays, at_mm, normal,
-                                        (end_mm - at_mm).normalized(), index,
-                                        mean_free_path_mm) > kMostBend;
-      });
+std::vector<Eigen::Index> near_total_reflection(const Scene& scene, const MaterialChannel& channel,
+                                                const ChannelRows& rows, double mean_free_path_mm) {
+  std::vector<std::vector<Eigen::Vector3d>> ends_mm;  // of rays from a shot's rows
+  for (const ObservedShot* shot : channel.shots) {
+    ends_mm.push_back({shot->seen->camera_center_mm});
+    for (const std::string& name : shot->stated->lights) {
+      const LedLight* led = scene.light(name).led();
+      if (led != nullptr) ends_mm.back().push_back(led->led.position_mm);
     }
   }
+  std::vector<Eigen::Index> near;
+  Eigen::Index at = 0;
+  for_used_rows(rows, [&](std::size_t s, std::size_t j) {
+    const SeenObject& seen = *channel.shots[s]->seen;
+    const UncertainIndex index{channel.eta_int_over_ext, seen.object->stated->eta_std};
+    const Eigen::Vector3d& at_mm = seen.sites[j].center_mm;
+    const Eigen::Vector3d normal = seen.patches->normal_at(seen.map.patch_of_row[j], at_mm);
+    const auto bends = [&](const Eigen::Vector3d& end_mm) {
+      return bend_of_inner_reflection(*seen.object->rays, at_mm, normal,
+                                      (end_mm - at_mm).normalized(), index,
+                                      mean_free_path_mm) > kMostBend;
+    };
+    if (std::any_of(ends_mm[s].begin(), ends_mm[s].end(), bends)) near.push_back(at);
+    ++at;
+  });
   return near;
 }
 

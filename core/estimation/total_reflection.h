@@ -27,13 +27,11 @@ double bend_of_inner_reflection(const RayScene& object, const Eigen::Vector3d& p
                                 const Eigen::Vector3d& normal, const Eigen::Vector3d& to,
                                 const UncertainIndex& index, double mean_free_path_mm);
 
-// By shot and row of its map: whether the row is in use, and more than a hundredth of its light is
-// uncertain in this way, by the camera's ray or that of an LED of the shot. No column of nuisances
+// Numbers, among the used rows, of those of which more than a hundredth of the light is uncertain
+// in this way, by the camera's ray or that of an LED of the shot. No column of nuisances
 // can express that. On a pyramid of 0.6 per mm whose front is seen and lit at such an angle, an
 // index off by 0.02 made the rows beside its base darker by 10 %.
-std::vector<std::vector<bool>> near_total_reflection(const Scene& scene,
-                                                     const MaterialChannel& channel,
-                                                     const ChannelRows& rows,
-                                                     double mean_free_path_mm);
+std::vector<Eigen::Index> near_total_reflection(const Scene& scene, const MaterialChannel& channel,
+                                                const ChannelRows& rows, double mean_free_path_mm);
 
 }  // namespace scattermeter

@@ -72,7 +72,9 @@ class TransportSearch {
     estimate.converged = false;
     if (!has_enough_rows(estimate)) return;
     const ScatteringPoint at = start(estimate);
-    leave_total_reflection_out(at);
+    leave_out(near_total_reflection(scene_, channel_, rows_,
+                                    1.0 / (at.sigma_s_per_mm + at.sigma_a_per_mm)),
+              RowState::kEdge);
     if (!has_enough_rows(estimate)) return;
     if (std::optional<ChannelResult> found = search(at, result)) {
       result = std::move(*found);
@@ -127,7 +129,8 @@ class TransportSearch {
           dipole(at));
       const ScatteringPoint to = round.step().to;
       if (learned && is_close(round.step(), round.blocks(), round.misfit())) {
-        is_owed = !outliers_known && leave_outliers_out(round);
+        is_owed = !outliers_known &&
+                  leave_out(outlying_rows(round, simulation_.area_mm2()), RowState::kOutlier);
         if (is_owed) {
           last = first_look(to, round.scatter());
         } else {
@@ -228,20 +231,10 @@ class TransportSearch {
     pilots_.forget();
   }
 
-  void leave_total_reflection_out(const ScatteringPoint& at) {
-    const std::vector<std::vector<bool>> near = near_total_reflection(
-        scene_, channel_, rows_, 1.0 / (at.sigma_s_per_mm + at.sigma_a_per_mm));
-    keep([&](std::size_t shot, std::size_t row, Eigen::Index) {
-      return near[shot][row] ? RowState::kEdge : RowState::kUsed;
-    });
-  }
-
   // Whether there were any.
-  bool leave_outliers_out(const TransportRound& round) {
-    const std::vector<Eigen::Index> far = outlying_rows(round, simulation_.area_mm2());
-    if (far.empty()) return false;
-    keep(outliers_at(far));
-    return true;
+  bool leave_out(const std::vector<Eigen::Index>& numbers, RowState state) {
+    if (!numbers.empty()) keep(state_at(numbers, state));
+    return !numbers.empty();
   }
 
   ScatteringImage dipole(const ScatteringPoint& at) const {

@@ -45,6 +45,15 @@ struct EtaCube : test_support::DipoleCube {
     }
     parts = ShotParts({n}, center_mm, area_mm2, smooth.l);
   }
+  // Change of the observed l by eta.
+  Eigen::VectorXd observed() const {
+    Eigen::VectorXd out(smooth.l.size());
+    for (Eigen::Index j = 0; j < out.size(); ++j) {
+      const double cosine = shots[0].seen->cos_to_camera(static_cast<std::size_t>(j));
+      out[j] = observed_growth(1.3, cosine) * smooth.l[j];
+    }
+    return out;
+  }
   MaterialChannel channel;
   ChannelRows rows;
   std::vector<Eigen::Index> kept;
@@ -60,12 +69,7 @@ TEST(EtaNuisance, ExpressesTheChangeOfPaths) {
   const EtaCube c;
   EtaNuisance nuisance(c.channel, c.by_dipole);
   nuisance.set_rows(c.rows, c.kept);
-  Eigen::VectorXd observed(c.smooth.l.size());
-  for (Eigen::Index j = 0; j < observed.size(); ++j) {
-    observed[j] =
-        observed_growth(1.3, c.shots[0].seen->cos_to_camera(static_cast<std::size_t>(j))) *
-        c.smooth.l[j];
-  }
+  const Eigen::VectorXd observed = c.observed();
   EXPECT_GT(observed.minCoeff(), 0.1);  // less light gets out
   const Eigen::VectorXd other = -0.3 * c.smooth.l + 0.6 * (c.by_dipole + observed);
   const Eigen::VectorXd medium = -1.1 * c.smooth.per_log_sigma_s + 0.02 * c.smooth.per_sigma_a;
@@ -97,12 +101,7 @@ TEST(EtaNuisance, ChangesOfTheMediumHoldTheirUncertainty) {
   constexpr int kDraws = 400;
   Eigen::Vector2d told = Eigen::Vector2d::Zero(), fitted_variance = Eigen::Vector2d::Zero();
   Eigen::MatrixXd terms(c.smooth.l.size(), 4);
-  Eigen::VectorXd observed(c.smooth.l.size());
-  for (Eigen::Index j = 0; j < observed.size(); ++j) {
-    observed[j] =
-        observed_growth(1.3, c.shots[0].seen->cos_to_camera(static_cast<std::size_t>(j))) *
-        c.smooth.l[j];
-  }
+  const Eigen::VectorXd observed = c.observed();
   terms << c.smooth.per_log_sigma_s, c.smooth.per_sigma_a, c.smooth.l, c.by_dipole + observed;
   Eigen::MatrixXd of_parts(c.parts.n_parts(), 4);
   for (Eigen::Index k = 0; k < 4; ++k) of_parts.col(k) = c.parts.of_parts(terms.col(k));

@@ -54,11 +54,10 @@ TEST(TotalReflection, RowsAboveTheBaseOfACube) {
   const ChannelRows rows = channel_rows(cube.scene, channel);
   const double mean_free_path_mm = 1.0 / medium.sigma_t_prime_per_mm();
   object.eta_std = 0.0;
-  const auto none = near_total_reflection(cube.scene, channel, rows, mean_free_path_mm);
-  EXPECT_EQ(std::count(none[0].begin(), none[0].end(), true), 0);
+  EXPECT_TRUE(near_total_reflection(cube.scene, channel, rows, mean_free_path_mm).empty());
   object.eta_std = 0.03;
-  const std::vector<bool> near =
-      near_total_reflection(cube.scene, channel, rows, mean_free_path_mm)[0];
+  const std::vector<Eigen::Index> numbers =
+      near_total_reflection(cube.scene, channel, rows, mean_free_path_mm);
 
   const SeenObject& seen = *cube.shots[0].seen;
   const auto paths = [&](double eta, std::uint64_t seed) {
@@ -73,13 +72,14 @@ TEST(TotalReflection, RowsAboveTheBaseOfACube) {
   const Eigen::VectorXd nominal = paths(1.25, 1);
   const auto darkening = [&](const Eigen::VectorXd& other) {
     double light[2][2] = {};
-    for (std::size_t j = 0; j < near.size(); ++j) {
-      if (seen.patches->normal(seen.map.patch_of_row[j]).y() > -0.9) continue;
-      if (rows[0].state[j] != RowState::kUsed) continue;
-      EXPECT_EQ(near[j], seen.sites[j].center_mm.z() < 3.0);
-      light[near[j] ? 1 : 0][0] += nominal[static_cast<Eigen::Index>(j)];
-      light[near[j] ? 1 : 0][1] += other[static_cast<Eigen::Index>(j)];
-    }
+    Eigen::Index at = 0;
+    for_used_rows(rows, [&](std::size_t, std::size_t j) {
+      const bool near = std::binary_search(numbers.begin(), numbers.end(), at++);
+      if (seen.patches->normal(seen.map.patch_of_row[j]).y() > -0.9) return;
+      EXPECT_EQ(near, seen.sites[j].center_mm.z() < 3.0);
+      light[near ? 1 : 0][0] += nominal[static_cast<Eigen::Index>(j)];
+      light[near ? 1 : 0][1] += other[static_cast<Eigen::Index>(j)];
+    });
     return light[1][1] / light[1][0] / (light[0][1] / light[0][0]);
   };
   EXPECT_LT(darkening(paths(1.19, 2)), 0.975);
