@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -8,6 +11,41 @@
 #include "apps/simulation/simulate.h"
 
 namespace scattermeter::apps {
+namespace {
+
+// What would make a shot useless is told as soon as it is made.
+std::string level_notes(const std::vector<SimulatedLevel>& levels) {
+  constexpr double kDark = 0.01;
+  std::string out;
+  for (const SimulatedLevel& level : levels) {
+    if (level.brightest_share > 1.0) {
+      out += fmt::format(
+          "note: {}: clips: the object's brightest sample is at {:.3g} times the range, exposed "
+          "for {:.2g} "
+          "s\n",
+          level.file, level.brightest_share, level.exposure_s);
+    } else if (level.brightest_share < kDark) {
+      out += fmt::format(
+          "note: {}: is dark: the object's brightest sample is at {:.2g} % of the range, exposed "
+          "for {:.2g} "
+          "s; see the lights' positions, axes and intensities, and the exposure time\n",
+          level.file, 100.0 * level.brightest_share, level.exposure_s);
+    }
+  }
+  return out;
+}
+
+std::string exposure_text(const std::vector<SimulatedLevel>& levels) {
+  if (levels.empty()) return "";
+  const auto [least, most] = std::minmax_element(
+      levels.begin(), levels.end(),
+      [](const SimulatedLevel& a, const SimulatedLevel& b) { return a.exposure_s < b.exposure_s; });
+  return least->exposure_s < most->exposure_s
+             ? fmt::format(", exposed for {:.2g} to {:.2g} s", least->exposure_s, most->exposure_s)
+             : fmt::format(", exposed for {:.2g} s", least->exposure_s);
+}
+
+}  // namespace
 
 void add_simulate_command(CLI::App& app, CommandContext& context) {
   struct Options {
@@ -63,8 +101,10 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
         options->simulate.transport.volume = options->transport == "volume";
         const SimulatedShots made =
             simulate(read_rig(options->rig), options->out, options->simulate, context.progress);
+        context.err << level_notes(made.levels);
         if (!context.quiet) {
-          context.out << made.paths.size() << " shots written to " << options->out << "\n";
+          context.out << made.paths.size() << " shots written to " << options->out
+                      << exposure_text(made.levels) << "\n";
           if (options->simulate.transport.volume) {
             context.out << fmt::format(
                 "Monte Carlo error of the light of a patch: {:.2g} % (median over the patches, of "

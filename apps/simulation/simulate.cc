@@ -110,6 +110,7 @@ SimulatedShots simulate(const Rig& given_rig, const std::string& out_folder,
       for (std::size_t k = 0; k < files.size(); ++k) {
         made.paths.push_back((std::filesystem::path(out_folder) / files[k]).string());
         shots->write(i, options.seed, made.paths.back(), k);
+        made.levels.push_back({files[k], shots->exposure_s(i, k), shots->brightest_share(i, k)});
       }
       stage.step();
     }

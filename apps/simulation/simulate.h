@@ -22,9 +22,16 @@ struct SimulateOptions {
   RenderTransport transport = {};  // its seed is the one above
 };
 
+struct SimulatedLevel {
+  std::string file;  // name in the rig
+  double exposure_s = 0;
+  double brightest_share = 0;  // see VirtualShots
+};
+
 struct SimulatedShots {
-  std::vector<std::string> paths;  // of the files
-  double monte_carlo_std = 0;      // see ShotRenderer
+  std::vector<std::string> paths;      // of the files
+  std::vector<SimulatedLevel> levels;  // of the objects' shots
+  double monte_carlo_std = 0;          // see ShotRenderer
 };
 
 // The shot of the board that pose.shot names, without noise, from the camera of the other shots.

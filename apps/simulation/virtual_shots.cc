@@ -1,6 +1,7 @@
 #include "apps/simulation/virtual_shots.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -20,20 +21,25 @@ VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& objects,
                      "is missing: a time is needed for each file of the bracket " + shot.file);
   }
   ShotRenderer renderer(rig, objects, options.transport);
-  Eigen::Array3d brightest = Eigen::Array3d::Zero();
+  std::vector<Eigen::Array3d> brightest;  // W/(mm^2 sr), of each shot
   ProgressStage stage(options.progress, "rendering", rig.scene.shots.size());
   for (const SceneShot& shot : rig.scene.shots) {
     RadiancePicture p = renderer.render(shot);
-    brightest = brightest.max(p.brightest);
+    brightest.push_back(p.brightest);
     pictures_.push_back({p.x0, p.y0, p.width, p.height, std::move(p.radiance)});
     stage.step();
   }
   monte_carlo_std_ = renderer.monte_carlo_std();
-  choose_exposure(brightest);
+  choose_exposure(std::accumulate(
+      brightest.begin(), brightest.end(), Eigen::Array3d::Zero().eval(),
+      [](const Eigen::Array3d& a, const Eigen::Array3d& b) { return a.max(b).eval(); }));
   for (std::size_t i = 0; i < size(); ++i) {
     LinearPicture& p = pictures_[i];
     exposure_s_.push_back(rig.scene.shots[i].exposure_s.value_or(
         rig.scene.camera.exposure_s.value_or(default_exposure_s_)));
+    brightest_share_.push_back(
+        (brightest[i] * Eigen::Map<const Eigen::Array3d>(responsivity_.data())).maxCoeff() *
+        exposure_s_[i] / sensor_.range_counts());
     tbb::parallel_for(0, p.height, [&](int y) {
       for (int x = 0; x < p.width; ++x) {
         const auto c = static_cast<std::size_t>(renderer.channel(p.x0 + x, p.y0 + y));
@@ -65,6 +71,10 @@ void VirtualShots::choose_exposure(const Eigen::Array3d& brightest) {
 double VirtualShots::exposure_s(std::size_t shot, std::size_t exposure) const {
   return exposure == 0 ? exposure_s_.at(shot)
                        : rig_.scene.shots.at(shot).more_exposures_s.at(exposure - 1);
+}
+
+double VirtualShots::brightest_share(std::size_t shot, std::size_t exposure) const {
+  return brightest_share_.at(shot) * exposure_s(shot, exposure) / exposure_s(shot);
 }
 
 std::vector<float> VirtualShots::whole_signal_counts(std::size_t shot, std::size_t exposure) const {

@@ -44,6 +44,9 @@ class VirtualShots {
   double monte_carlo_std() const { return monte_carlo_std_; }
   // `exposure`: index in SceneShot::files(), here and below.
   double exposure_s(std::size_t shot, std::size_t exposure = 0) const;
+  // Signal of the object's brightest sample without noise, as a share of the sensor's range (above
+  // 1: it clips).
+  double brightest_share(std::size_t shot, std::size_t exposure = 0) const;
   // Counts per (W/(mm^2 sr)) and second: the rig's, or as chosen.
   const std::array<double, 3>& responsivity() const { return responsivity_; }
 
@@ -82,6 +85,7 @@ class VirtualShots {
   capture::VirtualSensor sensor_;
   std::vector<LinearPicture> pictures_;
   std::vector<double> exposure_s_;
+  std::vector<double> brightest_share_;  // of each shot's first exposure
   std::array<double, 3> responsivity_{};
   double default_exposure_s_ = 0;
   double monte_carlo_std_ = 0;
