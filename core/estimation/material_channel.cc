@@ -1,6 +1,7 @@
 #include "core/estimation/material_channel.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/core.h>
 
@@ -67,6 +68,14 @@ std::string shot_problem(const ObservedShot& shot, std::size_t channel) {
   if (o.brightest_snr < kDarkSnr) {
     return fmt::format("{}: channel {} is dark, brightest patch {:.1f} counts above black",
                        shot.stated->file, name, o.brightest_counts);
+  }
+  const double noise = std::sqrt(o.noise_excess);
+  if (o.brightest_snr < kDarkSnr * noise) {
+    return fmt::format(
+        "{}: channel {} is {:.2g} times as noisy as the rig states, its brightest patch only "
+        "{:.2g} times as bright as its noise: see what the picture has besides the object, or set "
+        "camera.sensor gain_e_per_count and read_noise_counts for this ISO",
+        shot.stated->file, name, noise, o.brightest_snr / noise);
   }
   return "";
 }

@@ -141,7 +141,8 @@ void observe_channel(const SampleSums& sums, const SampleMap& map, std::size_t c
     channel.l_per_count[row] = unit * s.factor / n;
     channel.state[row] = RowState::kUsed;
     channel.brightest_snr =
-        std::max(channel.brightest_snr, channel.l[row] / std::sqrt(channel.variance[row]));
+        std::max(channel.brightest_snr,
+                 channel.l[row] * std::sqrt(channel.noise_excess / channel.variance[row]));
     ++channel.rows_used;
   }
 }

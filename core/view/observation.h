@@ -45,7 +45,7 @@ struct ChannelObservation {
   std::size_t samples = 0;  // in rows
   std::size_t samples_clipped = 0;
   double brightest_counts = 0;  // largest row mean, counts above black
-  double brightest_snr = 0;     // largest l / std over rows
+  double brightest_snr = 0;     // largest l / std over rows, by the stated noise
   // Variance of the samples' noise, by the squared second differences of neighbours of one filter
   // phase, over what their variances say, where it is above 1.3 and six standard deviations above
   // 1; else 1. The variances above have been multiplied by it.

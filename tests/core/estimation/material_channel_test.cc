@@ -80,6 +80,12 @@ TEST(MaterialChannel, StatesWhatMakesAShotUseless) {
   o.brightest_counts = 3.0;
   EXPECT_EQ(shot_problem(shot, 1),
             "a.dng: channel G is dark, brightest patch 3.0 counts above black");
+  o.brightest_snr = 50.0;
+  o.noise_excess = 100.0;
+  EXPECT_THAT(shot_problem(shot, 1), HasSubstr("a.dng: channel G is 10 times as noisy as the rig "
+                                               "states, its brightest patch only 5 times"));
+  o.noise_excess = 16.0;
+  EXPECT_EQ(shot_problem(shot, 1), "");
 }
 
 TEST(MaterialChannel, HasOnePhaseFunction) {

@@ -113,6 +113,7 @@ TEST(Observation, NoiseThatExceedsItsModel) {
     // 5000 differences and more: 2.8 % deviation for red; four of that.
     EXPECT_NEAR(wrong.noise_excess, 4.0, 0.5);
     EXPECT_NEAR(wrong.variance[0] / right.variance[0], wrong.noise_excess / 4.0, 1e-9);
+    EXPECT_NEAR(wrong.brightest_snr / right.brightest_snr, 2.0, 1e-9);  // as stated
   }
 }
 
