@@ -1,9 +1,13 @@
 #include "apps/rig/rig_camera_reader.h"
 
 #include <array>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include "apps/rig/radiance_file.h"
 #include "apps/rig/rig_fields.h"
@@ -13,6 +17,10 @@
 
 namespace scattermeter::apps {
 namespace {
+
+// Least focal length, in widths of the frame: what is shorter is no pinhole camera, but a length in
+// another unit.
+constexpr double kShortestLens = 0.1;
 
 CameraIntrinsics intrinsics_of(const YamlField& field, const std::string& rig_path) {
   if (field.is_scalar()) return calib::read_intrinsics(beside(rig_path, field.text()));
@@ -96,6 +104,12 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
   camera.intrinsics.height_px = size[1];
   if (const std::string problem = intrinsics_problem(camera.intrinsics); !problem.empty()) {
     intrinsics.fail(problem);
+  }
+  if (const double fx = camera.intrinsics.fx_px; fx < kShortestLens * size[0]) {
+    intrinsics.fail(fmt::format("fx_px {:g} sees {:.0f} degrees across the {} px of the frame", fx,
+                                360.0 / std::numbers::pi * std::atan(0.5 * size[0] / fx), size[0]),
+                    "; a focal length in mm becomes px when divided by the pitch of the sensor's "
+                    "samples in mm");
   }
   const auto intrinsics_std = field.find("intrinsics_std");
   if (camera.lens_root.cols() == 0) {

@@ -133,5 +133,15 @@ TEST_F(RigCameraReader, NamesWhatIsWrong) {
   EXPECT_THAT(refused(kCamera + "iso: 0\n"), HasSubstr("iso"));
 }
 
+TEST_F(RigCameraReader, FocalLengthInMillimetres) {
+  EXPECT_THAT(refused("image_size_px: [3872, 2592]\n"
+                      "intrinsics: {fx_px: 60, fy_px: 60, cx_px: 1935, cy_px: 1295}\n"),
+              HasSubstr("intrinsics: fx_px 60 sees 176 degrees across the 3872 px"));
+  EXPECT_EQ(camera("image_size_px: [3872, 2592]\n"
+                   "intrinsics: {fx_px: 400, fy_px: 400, cx_px: 1935, cy_px: 1295}\n")
+                .scene.camera.intrinsics.fx_px,
+            400.0);
+}
+
 }  // namespace
 }  // namespace scattermeter::apps
