@@ -32,9 +32,15 @@ BodyPlanes body_planes(const TriangleMesh& mesh, int most) {
     if (k < 0) {
       if (static_cast<int>(body.planes.size()) == most) return {};
       k = static_cast<int>(body.planes.size());
-      body.planes.push_back({normal, offset_mm, {}});
+      const Eigen::Vector3d& corner = mesh.vertices_mm[static_cast<std::size_t>(t[0])];
+      body.planes.push_back({normal, offset_mm, {}, {corner, corner}});
     }
-    body.planes[static_cast<std::size_t>(k)].facets.push_back(f);
+    BodyPlane& plane = body.planes[static_cast<std::size_t>(k)];
+    plane.facets.push_back(f);
+    for (const int i : t) {
+      const Eigen::Vector3d& corner = mesh.vertices_mm[static_cast<std::size_t>(i)];
+      plane.box = {plane.box.min_mm.cwiseMin(corner), plane.box.max_mm.cwiseMax(corner)};
+    }
     body.plane_of_facet.push_back(k);
   }
   body.convex = true;

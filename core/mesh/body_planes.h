@@ -15,6 +15,7 @@ struct BodyPlane {
   Eigen::Vector3d normal;   // unit, outwards
   double offset_mm = 0;     // normal . x on the plane
   std::vector<int> facets;  // that lie on it
+  Box3d box;                // of these
   double depth_mm(const Eigen::Vector3d& x) const { return offset_mm - normal.dot(x); }
 };
 

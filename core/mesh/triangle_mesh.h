@@ -26,6 +26,11 @@ struct Box3d {
   Eigen::Vector3d max_mm;
   Eigen::Vector3d size_mm() const { return max_mm - min_mm; }
   Eigen::Vector3d center_mm() const { return 0.5 * (min_mm + max_mm); }
+  // Whether both ends of a line are, by one coordinate, beyond the same side by more than that.
+  bool is_beside(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double margin_mm) const {
+    return (from.cwiseMax(to) - min_mm).minCoeff() < -margin_mm ||
+           (max_mm - from.cwiseMin(to)).minCoeff() < -margin_mm;
+  }
 };
 
 // Axis-aligned bounds of all vertices. Precondition: at least one vertex, else

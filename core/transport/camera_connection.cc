@@ -11,6 +11,7 @@
 
 #include "core/material/eta_change.h"
 #include "core/material/fresnel.h"
+#include "core/mesh/facet_visibility.h"
 #include "core/transport/path_plane.h"
 
 namespace scattermeter {
@@ -43,10 +44,16 @@ CameraConnection::CameraConnection(const PathBoundary& boundary,
   if (planes.empty() || rough_) {
     beams_ = std::make_shared<FacetBeams>(boundary.scene().mesh(), camera_mm_, eta_);
   }
+  if (planes.empty()) return;
+  const std::vector<bool> seen = surely_seen(boundary.scene().mesh(), camera_mm_);
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const double height_mm = -planes[k].depth_mm(camera_mm_);
     if (!(height_mm > 0.0)) continue;
-    windows_.push_back({static_cast<int>(k), height_mm, camera_mm_ - height_mm * planes[k].normal});
+    const bool all_seen =
+        std::all_of(planes[k].facets.begin(), planes[k].facets.end(),
+                    [&](int facet) { return seen[static_cast<std::size_t>(facet)]; });
+    windows_.push_back(
+        {static_cast<int>(k), height_mm, camera_mm_ - height_mm * planes[k].normal, all_seen});
   }
 }
 
@@ -134,13 +141,12 @@ void CameraConnection::through(const Window& window, const Image& image, const V
   if (!(bound_mm < deepest_mm)) return;
   const double beyond_mm = -kOnBody * boundary_.size_mm();
   const bool convex = boundary_.body().convex;
-  if (convex) {
-    // Most passages are not on the body, which is told from where they may lie.
-    const auto [near, far] =
-        passage_between(image.x, depth_mm, plane.normal, window.foot, window.height_mm, eta_);
-    for (const BodyPlane& other : planes) {
-      if (other.depth_mm(near) < beyond_mm && other.depth_mm(far) < beyond_mm) return;
-    }
+  // Most passages are not on the body, which is told from where they may lie.
+  const auto [near, far] =
+      passage_between(image.x, depth_mm, plane.normal, window.foot, window.height_mm, eta_);
+  if (!convex && plane.box.is_beside(near, far, -beyond_mm)) return;
+  for (std::size_t k = 0; convex && k < planes.size(); ++k) {
+    if (planes[k].depth_mm(near) < beyond_mm && planes[k].depth_mm(far) < beyond_mm) return;
   }
   const auto [ray, passage] =
       passage_to(image.x, depth_mm, plane.normal, window.foot, window.height_mm, eta_);
@@ -151,6 +157,8 @@ void CameraConnection::through(const Window& window, const Image& image, const V
     return true;
   };
   if (convex && !on_body(passage)) return;
+  int facet = convex ? -1 : boundary_.facet_holding(window.plane_idx, passage);
+  if (!convex && facet < 0) return;
 
   // Back from the passage, wall by wall, to the scattering itself.
   Eigen::Vector3d from = passage;
@@ -172,10 +180,9 @@ void CameraConnection::through(const Window& window, const Image& image, const V
   }
   const Eigen::Vector3d outgoing = (from - toward).normalized();
   if (!convex && !boundary_.clear_inside(toward, from)) return;
-  int facet = -1;
   if (convex) {
     facet = boundary_.facet_of_plane(window.plane_idx, passage);
-  } else {
+  } else if (!window.surely_seen) {
     facet = boundary_.facet_seen(camera_mm_, passage, window.plane_idx);
     if (facet < 0) return;
   }

@@ -102,6 +102,7 @@ class CameraConnection {
     int plane_idx;
     double height_mm;      // of the camera above it
     Eigen::Vector3d foot;  // of the camera on it
+    bool surely_seen;      // all of its facets are visible from the camera
   };
   // A mirror image of the scattering. walls[0]: the wall that the light hits first.
   struct Image {

@@ -28,6 +28,15 @@ PathBoundary::PathBoundary(const RayScene& scene, Method method)
     normal_.push_back(area_vector_mm2(mesh, f).normalized());
     const auto& corner = mesh.triangles[static_cast<std::size_t>(f)];
     offset_mm_.push_back(normal_.back().dot(mesh.vertices_mm[static_cast<std::size_t>(corner[0])]));
+    const double twice_area_mm2 = 2.0 * area_vector_mm2(mesh, f).norm();
+    FacetWeights weights;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector3d& a = mesh.vertices_mm[static_cast<std::size_t>(corner[i])];
+      const Eigen::Vector3d& b = mesh.vertices_mm[static_cast<std::size_t>(corner[(i + 1) % 3])];
+      weights.per_mm[i] = normal_.back().cross(b - a) / twice_area_mm2;
+      weights.at_origin[i] = -weights.per_mm[i].dot(a);
+    }
+    weights_.push_back(weights);
   }
   if (!by_planes_) grid_.emplace(mesh);
 }
@@ -74,7 +83,7 @@ PathBoundary::Flight PathBoundary::fly_by_rays(Eigen::Vector3d& x, const Eigen::
                                                Crossing& crossing) const {
   clearance_mm = grid_->at(x);
   if (clearance_mm < 0.0) return Flight::kLost;
-  if (step_mm >= clearance_mm) {
+  if (step_mm >= clearance_mm && !in_one_cell(x, x + step_mm * direction, 0.0)) {
     bool lost = false;
     const std::optional<Crossing> met = passed(x, direction, step_mm, 1.0, lost);
     if (lost) return Flight::kLost;
@@ -193,7 +202,7 @@ bool PathBoundary::clear_inside(const Eigen::Vector3d& from, const Eigen::Vector
   const Eigen::Vector3d way = to - from;
   const double length_mm = way.norm();
   if (length_mm <= 3.0 * grain_mm_) return true;
-  if (grid_->at(from) > length_mm) return true;
+  if (grid_->at(from) > length_mm || in_one_cell(from, to, grain_mm_)) return true;
   bool lost = false;
   const auto met = passed(from, way / length_mm, length_mm, 1.0, lost);
   return !lost && (!met || met->distance_mm > length_mm - 3.0 * grain_mm_);
@@ -201,6 +210,8 @@ bool PathBoundary::clear_inside(const Eigen::Vector3d& from, const Eigen::Vector
 
 bool PathBoundary::reaches_plane(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                  int plane) const {
+  if (facet_holding(plane, to) < 0) return false;
+  if (in_one_cell(from, to, grain_mm_)) return true;
   const Eigen::Vector3d way = to - from;
   const double length_mm = way.norm();
   bool lost = false;
@@ -220,34 +231,52 @@ int PathBoundary::facet_seen(const Eigen::Vector3d& from, const Eigen::Vector3d&
   return hit.facet_idx;
 }
 
-int PathBoundary::facet_of_plane(int plane, const Eigen::Vector3d& x) const {
-  const BodyPlane& p = body_.planes[static_cast<std::size_t>(plane)];
-  const TriangleMesh& mesh = scene_.mesh();
-  if (p.facets.size() > kFewFacets) {
-    const double back_mm = 1e-3 * size_mm_;
-    const RayHit hit =
-        scene_.first_hit_between(x + back_mm * p.normal, -p.normal, 0.0, 2.0 * back_mm);
-    if (hit.facet_idx >= 0 &&
-        body_.plane_of_facet[static_cast<std::size_t>(hit.facet_idx)] == plane) {
-      return hit.facet_idx;
-    }
+bool PathBoundary::in_one_cell(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                               double beyond_mm) const {
+  for (const BodyPlane& p : body_.planes) {
+    const double at_mm = p.depth_mm(from);
+    const double to_mm = p.depth_mm(to);
+    const bool behind =
+        (at_mm > grain_mm_ && to_mm > -beyond_mm) || (at_mm > -grain_mm_ && to_mm > grain_mm_);
+    if (!behind && !(at_mm < -grain_mm_ && to_mm < -grain_mm_)) return false;
   }
+  return !body_.planes.empty();
+}
+
+int PathBoundary::facet_by_ray(int plane, const Eigen::Vector3d& x) const {
+  const Eigen::Vector3d& normal = body_.planes[static_cast<std::size_t>(plane)].normal;
+  const double back_mm = 1e-3 * size_mm_;
+  const RayHit hit = scene_.first_hit_between(x + back_mm * normal, -normal, 0.0, 2.0 * back_mm);
+  const bool is_it =
+      hit.facet_idx >= 0 && body_.plane_of_facet[static_cast<std::size_t>(hit.facet_idx)] == plane;
+  return is_it ? hit.facet_idx : -1;
+}
+
+int PathBoundary::facet_of_plane(int plane, const Eigen::Vector3d& x) const {
+  if (body_.planes[static_cast<std::size_t>(plane)].facets.size() > kFewFacets) {
+    if (const int facet = facet_by_ray(plane, x); facet >= 0) return facet;
+  }
+  return nearest_of_plane(plane, x).facet;
+}
+
+int PathBoundary::facet_holding(int plane, const Eigen::Vector3d& x) const {
+  if (body_.planes[static_cast<std::size_t>(plane)].facets.size() > kFewFacets) {
+    return facet_by_ray(plane, x);
+  }
+  const Nearest nearest = nearest_of_plane(plane, x);
+  return nearest.least_weight > -kGrain ? nearest.facet : -1;
+}
+
+PathBoundary::Nearest PathBoundary::nearest_of_plane(int plane, const Eigen::Vector3d& x) const {
   // The facet that the point is inside of, or nearest to, by its smallest barycentric weight.
-  int best = -1;
-  double most = -std::numeric_limits<double>::infinity();
-  for (int f : p.facets) {
-    const auto& t = mesh.triangles[static_cast<std::size_t>(f)];
+  Nearest best{-1, -std::numeric_limits<double>::infinity()};
+  for (const int facet : body_.planes[static_cast<std::size_t>(plane)].facets) {
+    const FacetWeights& w = weights_[static_cast<std::size_t>(facet)];
     double least = std::numeric_limits<double>::infinity();
-    const double twice_area = 2.0 * p.normal.dot(area_vector_mm2(mesh, f));
     for (std::size_t i = 0; i < 3; ++i) {
-      const Eigen::Vector3d& a = mesh.vertices_mm[static_cast<std::size_t>(t[i])];
-      const Eigen::Vector3d& b = mesh.vertices_mm[static_cast<std::size_t>(t[(i + 1) % 3])];
-      least = std::min(least, p.normal.dot((b - a).cross(x - a)) / twice_area);
+      least = std::min(least, w.per_mm[i].dot(x) + w.at_origin[i]);
     }
-    if (least > most) {
-      most = least;
-      best = f;
-    }
+    if (least > best.least_weight) best = {facet, least};
   }
   return best;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -89,12 +90,30 @@ class PathBoundary {
     return crossing.facet_idx >= 0 ? crossing.facet_idx : facet_of_plane(crossing.plane_idx, x);
   }
   int facet_of_plane(int plane, const Eigen::Vector3d& x) const;
+  // The facet of a plane that a point of the plane lies on; -1: on none.
+  int facet_holding(int plane, const Eigen::Vector3d& x) const;
 
  private:
   Flight fly_by_planes(Eigen::Vector3d& x, const Eigen::Vector3d& direction, double& step_mm,
                        double& clearance_mm, Crossing& crossing) const;
   Flight fly_by_rays(Eigen::Vector3d& x, const Eigen::Vector3d& direction, double& step_mm,
                      double& clearance_mm, Crossing& crossing) const;
+  // Whether two points, the first one inside or on the surface, certainly lie on the same side of
+  // every plane, so that the line between them meets no facet; the second may be `beyond_mm` beyond
+  // a plane.
+  bool in_one_cell(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double beyond_mm) const;
+  // Barycentric weights of a point of its plane: per_mm . x + at_origin.
+  struct FacetWeights {
+    std::array<Eigen::Vector3d, 3> per_mm;
+    std::array<double, 3> at_origin;
+  };
+  struct Nearest {
+    int facet = -1;
+    double least_weight;  // barycentric, of the point in that facet: negative outside of it
+  };
+  Nearest nearest_of_plane(int plane, const Eigen::Vector3d& x) const;
+  // That a ray finds there.
+  int facet_by_ray(int plane, const Eigen::Vector3d& x) const;
   // First facet passed outwards (side 1) or inwards (-1) within a distance. `lost`: another was
   // passed in the opposite direction before.
   std::optional<Crossing> passed(const Eigen::Vector3d& x, const Eigen::Vector3d& direction,
@@ -110,6 +129,7 @@ class PathBoundary {
   bool by_planes_;
   std::vector<Eigen::Vector3d> normal_;  // by facet
   std::vector<double> offset_mm_;
+  std::vector<FacetWeights> weights_;  // by facet
   std::optional<ClearanceGrid> grid_;
 };
 

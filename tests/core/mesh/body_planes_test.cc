@@ -18,6 +18,8 @@ TEST(BodyPlanes, ABoxHasSixHoweverManyItsTriangles) {
     for (const BodyPlane& p : body.planes) {
       EXPECT_EQ(p.facets.size(), box.triangles.size() / 6);
       EXPECT_NEAR(p.depth_mm({0, 0, 10}), 10.0, 1e-12);  // of the centre
+      EXPECT_NEAR(p.box.size_mm().sum(), 40.0, 1e-12);   // flat
+      EXPECT_NEAR(p.depth_mm(p.box.center_mm()), 0.0, 1e-12);
     }
   }
 }

@@ -97,5 +97,14 @@ TEST(TriangleMesh, CutFinerIsTheSameSurface) {
   EXPECT_NEAR(signed_volume_mm3(fine), signed_volume_mm3(cube), 1e-9);
 }
 
+TEST(Box3d, KnowsLinesBesideIt) {
+  const Box3d box{{0, 0, 0}, {1, 2, 3}};
+  EXPECT_TRUE(box.is_beside({1.2, 0, 0}, {1.1, 2, 3}, 0.05));
+  EXPECT_FALSE(box.is_beside({1.2, 0, 0}, {1.1, 2, 3}, 0.15));
+  EXPECT_TRUE(box.is_beside({0.5, 0, -1}, {0.5, 0, -2}, 0.5));
+  EXPECT_FALSE(box.is_beside({-1, 1, 1}, {2, 1, 1}, 0.0));
+  EXPECT_FALSE(box.is_beside({0.5, 1, 1}, {9, 9, 9}, 0.0));  // one end inside
+}
+
 }  // namespace
 }  // namespace scattermeter

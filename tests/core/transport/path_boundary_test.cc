@@ -1,6 +1,9 @@
 #include "core/transport/path_boundary.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -114,15 +117,25 @@ TEST(PathBoundary, KeepsABoundOfTheDistance) {
   }
 }
 
-// A box with a cross-shaped pit is not convex: what leaves through one wall of the pit comes in by
-// the other.
-TEST(PathBoundary, FindsWhereLightEntersAgain) {
+// A box with a pit down to a point: not convex.
+TriangleMesh make_bowl() {
   TriangleMesh bowl = test_support::make_cube();
   bowl.vertices_mm.emplace_back(0, 0, 12);
   bowl.triangles.erase(bowl.triangles.begin() + 2, bowl.triangles.begin() + 4);
   for (const auto& [a, b] : {std::pair{4, 5}, {5, 7}, {7, 6}, {6, 4}}) {
     bowl.triangles.push_back({a, b, 8});
   }
+  return bowl;
+}
+
+// Height of a point above the walls of the pit.
+double above_bowl_mm(const Eigen::Vector3d& x) {
+  return x.z() - 12.0 - 0.8 * std::max(std::abs(x.x()), std::abs(x.y()));
+}
+
+// What leaves through one wall of the pit comes in by the other.
+TEST(PathBoundary, FindsWhereLightEntersAgain) {
+  const TriangleMesh bowl = make_bowl();
   const RayScene scene(bowl);
   const PathBoundary boundary(scene);
   ASSERT_FALSE(boundary.by_planes());
@@ -135,6 +148,56 @@ TEST(PathBoundary, FindsWhereLightEntersAgain) {
   EXPECT_FALSE(boundary.entering(x, {0, 0, 1}).has_value());
   EXPECT_FALSE(boundary.clear_inside({-9, 0, 19}, {9, 0, 19}));
   EXPECT_TRUE(boundary.clear_inside({-9, 0, 10}, {9, 0, 10}));
+}
+
+// Lines between points of a body that is not convex, with rays where a plane lies between them and
+// without: as sampled along them. A line that leaves the body by less than 0.02 mm may be either.
+TEST(PathBoundary, LinesInABodyThatIsNotConvex) {
+  const TriangleMesh bowl = make_bowl();
+  const RayScene scene(bowl);
+  const PathBoundary boundary(scene);
+  RandomStream random(10, 0);
+  int clear = 0, blocked = 0;
+  while (clear < 3000 || blocked < 300) {
+    const auto inside = [&]() -> Eigen::Vector3d {
+      for (;;) {
+        const Eigen::Vector3d x(20.0 * random.uniform() - 10.0, 20.0 * random.uniform() - 10.0,
+                                20.0 * random.uniform());
+        if (above_bowl_mm(x) < 0.0) return x;
+      }
+    };
+    const Eigen::Vector3d from = inside(), to = inside();
+    double most_mm = -1e9;
+    for (double t = 0.0; t <= 1.0; t += 1e-3) {
+      most_mm = std::max(most_mm, above_bowl_mm(from + t * (to - from)));
+    }
+    if (std::abs(most_mm) < 0.02) continue;
+    ASSERT_EQ(boundary.clear_inside(from, to), most_mm < 0.0) << from << "\n" << to;
+    (most_mm < 0.0 ? clear : blocked)++;
+  }
+}
+
+TEST(PathBoundary, FacetsOfAPlane) {
+  const TriangleMesh bowl = make_bowl();
+  const RayScene scene(bowl);
+  const PathBoundary boundary(scene);
+  // The pit's wall at x < 0, and the plane that it lies on.
+  const int wall = boundary.facet_seen({0, 0, 100}, {-5, 1, 16}, [&] {
+    for (std::size_t k = 0; k < boundary.body().planes.size(); ++k) {
+      const BodyPlane& p = boundary.body().planes[k];
+      if (p.normal.x() > 0.1 && p.normal.x() < 0.9) return static_cast<int>(k);
+    }
+    return -1;
+  }());
+  ASSERT_GE(wall, 0);
+  const int plane = boundary.body().plane_of_facet[static_cast<std::size_t>(wall)];
+  EXPECT_EQ(boundary.facet_holding(plane, {-5, 1, 16}), wall);
+  EXPECT_EQ(boundary.facet_holding(plane, {-5, 6, 16}), -1);  // beyond its edge
+  EXPECT_EQ(boundary.facet_of_plane(plane, {-5, 6, 16}), wall);
+  EXPECT_TRUE(boundary.reaches_plane({-9, 1, 5}, {-5, 1, 16}, plane));
+  EXPECT_FALSE(boundary.reaches_plane({-9, 1, 5}, {-5, 6, 16}, plane));
+  // Through the pit.
+  EXPECT_FALSE(boundary.reaches_plane({9.5, 1, 19}, {-5, 1, 16}, plane));
 }
 
 }  // namespace
