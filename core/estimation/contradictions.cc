@@ -116,8 +116,18 @@ void refuse_beside_others(std::vector<ChannelResult>& results) {
   }
 }
 
+// For what another channel of the same shots shows, unless the result is refused for a reason of
+// its own; that nothing was found is none.
+void refuse_as_another(const std::string& sentence, ChannelResult& result) {
+  std::vector<std::string>& reasons = result.estimate.reasons;
+  const bool in_vain =
+      !result.estimate.converged && result.estimate.sigma_s_prime_per_mm.value > 0.0;
+  if (result.refused() && (!in_vain || reasons.front().starts_with("channel "))) return;
+  reasons.insert(reasons.begin(), sentence);
+}
+
 // Where the model misses the images of two channels, the rig is not as stated, and the third
-// channel may owe its good fit to wrong coefficients.
+// channel may owe its good fit to wrong coefficients, or have no fit for the same reason.
 void refuse_beside_missed(const std::string& material, std::vector<ChannelResult>& results) {
   const ChannelResult* first = nullptr;
   int missed = 0;
@@ -131,7 +141,7 @@ void refuse_beside_missed(const std::string& material, std::vector<ChannelResult
   const std::string text =
       fmt::format("channel {} of these shots: {}", first->channel, first->estimate.reasons.front());
   for (ChannelResult& r : results) {
-    if (r.material == material && !r.refused()) r.estimate.reasons.push_back(text);
+    if (r.material == material) refuse_as_another(text, r);
   }
 }
 
@@ -198,8 +208,7 @@ void refuse_contradicted(std::vector<ChannelResult>& results) {
   refuse_beside_others(results);
   for (ChannelResult& r : results) {
     const auto by = contradicted.find(r.material);
-    if (by == contradicted.end() || r.refused()) continue;
-    r.estimate.reasons.push_back(by->second);
+    if (by != contradicted.end()) refuse_as_another(by->second, r);
   }
 }
 

@@ -231,6 +231,18 @@ TEST(Contradictions, TwoChannelsThatAreMissedRefuseTheThird) {
   ASSERT_EQ(results[1].estimate.reasons.size(), 1U);
   EXPECT_EQ(results[1].estimate.reasons[0],
             "channel R of these shots: the dipole misses the image");
+  // A channel of which nothing was found has what the others say before its own.
+  results[1].estimate.converged = false;
+  results[1].estimate.sigma_s_prime_per_mm.value = 0.0;
+  results[1].estimate.reasons = {"a.dng: channel G is dark"};
+  refuse_contradicted(results);
+  EXPECT_EQ(results[1].estimate.reasons.size(), 1U);
+  results[1].estimate.sigma_s_prime_per_mm.value = 900.0;
+  results[1].estimate.reasons = {"the fit did not converge"};
+  refuse_contradicted(results);
+  ASSERT_EQ(results[1].estimate.reasons.size(), 2U);
+  EXPECT_EQ(results[1].estimate.reasons[0],
+            "channel R of these shots: the dipole misses the image");
 }
 
 // A model that misses the image says nothing about the rig.
