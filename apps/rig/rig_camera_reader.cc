@@ -11,6 +11,7 @@
 
 #include "apps/rig/radiance_file.h"
 #include "apps/rig/rig_fields.h"
+#include "apps/rig/rig_limits.h"
 #include "calib/lens/camera_calibration_file.h"
 #include "calib/lens/intrinsics_file.h"
 #include "core/scene/default_uncertainty.h"
@@ -92,6 +93,7 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
   SceneCamera& camera = rig.scene.camera;
   if (const auto f = field.find("model")) camera.model = f->text();
   const std::array<int, 2> size = integer_pair(field.at("image_size_px"), 2, 100'000);
+  check_image_size(field.at("image_size_px"), rig.limits);
   const YamlField intrinsics = field.at("intrinsics");
   camera.intrinsics = intrinsics_of(intrinsics, rig.path);
   if (intrinsics.is_scalar()) {

@@ -230,7 +230,6 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   rig.decoding.max_megapixels = rig.limits.raw_megapixels;
   rig.scene.source = path;
   read_camera(top.at("camera"), with_radiance, rig);
-  check_image_size(top.at("camera").at("image_size_px"), rig.limits);
   rig.pose = read_pose(top.at("pose"));
   for (const auto& [name, field] : top.at("objects").entries()) {
     rig.scene.objects.push_back(read_object(name, field, path));
