@@ -43,8 +43,8 @@ void widen_by_mesh_scale(const MaterialChannel& channel, Estimate& estimate);
 // Whether a light of its shots is fitted along (ambient light).
 bool has_fitted_light(const Scene& scene, const MaterialChannel& channel);
 
-// Why a shot is useless as a whole in a channel (dark, over-exposed, nothing seen); empty: it is
-// usable.
+// Why a shot is useless as a whole in a channel (dark, over-exposed, much noisier than stated,
+// nothing seen); empty: it is usable.
 std::string shot_problem(const ObservedShot& shot, std::size_t channel);
 
 }  // namespace scattermeter
