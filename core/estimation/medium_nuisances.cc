@@ -1,7 +1,6 @@
 #include "core/estimation/medium_nuisances.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 
 #include "core/estimation/transport_pilot.h"
@@ -44,7 +43,15 @@ void MediumNuisances::set_columns(const ScatteringPoint& at, bool scale_is_free,
   if (eta_column_ < 0) return;
   EtaNuisance::Change eta = eta_.change(parts, smooth, at.scale, scale_is_free, paths, per_eta);
   columns.col(eta_column_) = std::move(eta.column);
-  system.nuisances[static_cast<std::size_t>(eta_column_)].as_medium = eta.as_medium;
+  eta_of(system).as_medium = eta.as_medium;
+}
+
+void MediumNuisances::see_eta(const ScatteringPoint& at, bool scale_is_free, const ShotParts& parts,
+                              const ScatteringImage& smooth, const Eigen::VectorXd& paths,
+                              const Eigen::VectorXd& per_eta, DenseSystem& system) const {
+  if (eta_column_ < 0) return;
+  eta_of(system).as_medium =
+      eta_.change(parts, smooth, at.scale, scale_is_free, paths, per_eta).as_medium;
 }
 
 }  // namespace scattermeter

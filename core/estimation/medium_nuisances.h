@@ -1,6 +1,7 @@
 // Changes of a channel's light by what its medium and surface have beside sigma_s' and sigma_a.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,8 +30,15 @@ class MediumNuisances {
                    const ShotParts& parts, const ScatteringImage& smooth,
                    const Eigen::VectorXd& paths, const Eigen::VectorXd& per_eta,
                    DenseSystem& system) const;
+  // What eta changes as the medium would, from more paths at the same point; the columns remain.
+  void see_eta(const ScatteringPoint& at, bool scale_is_free, const ShotParts& parts,
+               const ScatteringImage& smooth, const Eigen::VectorXd& paths,
+               const Eigen::VectorXd& per_eta, DenseSystem& system) const;
 
  private:
+  Nuisance& eta_of(DenseSystem& system) const {
+    return system.nuisances[static_cast<std::size_t>(eta_column_)];
+  }
   const MaterialChannel& channel_;
   DistanceKnots knots_;
   PhaseNuisance phase_;

@@ -185,7 +185,13 @@ class TransportSearch {
   // as many as are useful and as time and options allow. by: the look that made its weights.
   void trace(TransportRound& round, int blocks, bool may_be_last, const Look& by) {
     const ChannelSimulation::Projections projections = round.projections();
-    round.take(look(round.at(), blocks, projections));
+    const auto take = [&](int of_blocks) {
+      ChannelSimulation::Look seen = look(round.at(), of_blocks, projections);
+      medium_.see_eta(round.at(), scale_.is_free(), parts_, round.pilot(), seen.image.l,
+                      seen.per_eta, system_);
+      round.take(std::move(seen));
+    };
+    take(blocks);
     while (may_be_last && fits_weights(errors(round), by.errors) &&
            is_close(round.step(), round.blocks(), round.misfit()) && !round.has_enough_paths()) {
       stage_.check();
@@ -195,7 +201,7 @@ class TransportSearch {
         more = kLeastBlocks;
       }
       if (more == 0) break;
-      round.take(look(round.at(), more, projections));
+      take(more);
     }
   }
 

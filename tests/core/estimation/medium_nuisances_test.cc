@@ -75,5 +75,23 @@ TEST(MediumNuisances, SetsTheColumnsThatDependOnThePoint) {
   }
 }
 
+// More paths change what eta does as the medium would, not the columns that weights rest on.
+TEST(MediumNuisances, SeesEtaWithMorePaths) {
+  const ScatteringPoint at{0.9, 0.01, 1.0};
+  for (const bool with_eta : {true, false}) {
+    MediumCube c(with_eta);
+    const DistanceKnots knots = smooth_knots(c.lit);
+    MediumNuisances medium(c.scene, c.channel, knots, c.system);
+    medium.set_rows(c.rows, c.kept);
+    const Eigen::VectorXd few = -0.9 * c.smooth.per_log_sigma_s;
+    const Eigen::VectorXd more = -1.2 * c.smooth.per_log_sigma_s;
+    medium.set_columns(at, false, {}, c.parts, c.smooth, c.smooth.l, few, c.system);
+    const Eigen::MatrixXd columns = c.system.nuisance_columns;
+    medium.see_eta(at, false, c.parts, c.smooth, c.smooth.l, more, c.system);
+    EXPECT_EQ(c.system.nuisance_columns, columns);
+    EXPECT_NEAR(c.system.nuisances[1].as_medium[0], with_eta ? -1.2 : 0.0, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace scattermeter
