@@ -186,9 +186,10 @@ void solve_with_doubt(const RecoveredReflectance& recovered, const DistanceKnots
 void add_contradictions(const DipoleFit& fit, const Solved& solved, const DipoleFitOptions& options,
                         Estimate& estimate) {
   estimate.pulls = solved.judgement.pulls;
-  if (const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage)) {
-    estimate.reasons.push_back(contradiction_sentence(*worst, estimate.pulls));
-  }
+  const PriorPull* worst = contradiction(estimate.pulls, kMostPull, kLeastPullImage);
+  const std::string doubt = worst != nullptr ? contradiction_sentence(*worst, estimate.pulls)
+                                             : far_eta(estimate.pulls, options.eta_int_over_ext);
+  if (!doubt.empty()) estimate.reasons.push_back(doubt);
   const LackOfFit parts =
       misfit_of_parts(fit.image.parts, solved.priors.nuisances, solved.priors.scale);
   if (parts.p_value < options.misfit_p_value && parts.rms > options.max_parts_relative) {

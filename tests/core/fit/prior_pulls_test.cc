@@ -251,5 +251,19 @@ TEST(PriorPulls, ContradictionIsSignificantAndVisible) {
   EXPECT_EQ(contradiction(pulls, 10.0, 1e-3), nullptr);
 }
 
+TEST(PriorPulls, EtaFartherThanItIsFollowed) {
+  std::vector<PriorPull> pulls(2);
+  pulls[0].group = "scale";
+  pulls[0].offset = 0.3;
+  pulls[1].group = "eta";
+  pulls[1].offset = -0.055;
+  EXPECT_EQ(far_eta(pulls, 1.49), "");
+  pulls[1].offset = -0.085;
+  EXPECT_THAT(far_eta(pulls, 1.49),
+              ::testing::HasSubstr("the shots put eta at 1.41, farther from the 1.49 that"));
+  pulls[1].offset = 0.07;
+  EXPECT_THAT(far_eta(pulls, 1.49), ::testing::HasSubstr("eta at 1.56"));
+}
+
 }  // namespace
 }  // namespace scattermeter
