@@ -21,14 +21,12 @@ std::string level_notes(const std::vector<SimulatedLevel>& levels) {
     if (level.brightest_share > 1.0) {
       out += fmt::format(
           "note: {}: clips: the object's brightest sample is at {:.3g} times the range, exposed "
-          "for {:.2g} "
-          "s\n",
+          "for {:.2g} s\n",
           level.file, level.brightest_share, level.exposure_s);
     } else if (level.brightest_share < kDark) {
       out += fmt::format(
           "note: {}: is dark: the object's brightest sample is at {:.2g} % of the range, exposed "
-          "for {:.2g} "
-          "s; see the lights' positions, axes and intensities, and the exposure time\n",
+          "for {:.2g} s; see the lights' positions, axes and intensities, and the exposure time\n",
           level.file, 100.0 * level.brightest_share, level.exposure_s);
     }
   }

@@ -59,7 +59,7 @@ std::string noise_note(const std::vector<ObservedShot>& shots) {
       if (excess > 1.0) ++noisy;
       if (excess > most) {
         most = excess;
-        where = fmt::format("{} {}", shot.stated->file, "RGB"[c]);
+        where = fmt::format("{} {}", shot.stated->file, kRgbName[c]);
       }
     }
   }

@@ -92,8 +92,9 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
               "sensor", "exposure_s", "iso", "f_number"});
   SceneCamera& camera = rig.scene.camera;
   if (const auto f = field.find("model")) camera.model = f->text();
-  const std::array<int, 2> size = integer_pair(field.at("image_size_px"), 2, 100'000);
-  check_image_size(field.at("image_size_px"), rig.limits);
+  const YamlField image_size_px = field.at("image_size_px");
+  const std::array<int, 2> size = integer_pair(image_size_px, 2, 100'000);
+  check_image_size(image_size_px, rig.limits);
   const YamlField intrinsics = field.at("intrinsics");
   camera.intrinsics = intrinsics_of(intrinsics, rig.path);
   if (intrinsics.is_scalar()) {

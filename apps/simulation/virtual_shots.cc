@@ -1,7 +1,6 @@
 #include "apps/simulation/virtual_shots.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -22,17 +21,17 @@ VirtualShots::VirtualShots(const Rig& rig, const ObjectScenes& objects,
   }
   ShotRenderer renderer(rig, objects, options.transport);
   std::vector<Eigen::Array3d> brightest;  // W/(mm^2 sr), of each shot
+  Eigen::Array3d of_all = Eigen::Array3d::Zero();
   ProgressStage stage(options.progress, "rendering", rig.scene.shots.size());
   for (const SceneShot& shot : rig.scene.shots) {
     RadiancePicture p = renderer.render(shot);
     brightest.push_back(p.brightest);
+    of_all = of_all.max(p.brightest);
     pictures_.push_back({p.x0, p.y0, p.width, p.height, std::move(p.radiance)});
     stage.step();
   }
   monte_carlo_std_ = renderer.monte_carlo_std();
-  choose_exposure(std::accumulate(
-      brightest.begin(), brightest.end(), Eigen::Array3d::Zero().eval(),
-      [](const Eigen::Array3d& a, const Eigen::Array3d& b) { return a.max(b).eval(); }));
+  choose_exposure(of_all);
   for (std::size_t i = 0; i < size(); ++i) {
     LinearPicture& p = pictures_[i];
     exposure_s_.push_back(rig.scene.shots[i].exposure_s.value_or(

@@ -41,11 +41,13 @@ CameraConnection::CameraConnection(const PathBoundary& boundary,
     rough_.emplace(medium.surface_alpha, eta_);
     of_more_eta_.emplace(medium.surface_alpha, eta_ + kEtaStep);
   }
+  const TriangleMesh& mesh = boundary.scene().mesh();
   if (planes.empty() || rough_) {
-    beams_ = std::make_shared<FacetBeams>(boundary.scene().mesh(), camera_mm_, eta_);
+    beams_ = std::make_shared<FacetBeams>(mesh, camera_mm_, eta_);
+    return;
   }
-  if (planes.empty()) return;
-  const std::vector<bool> seen = surely_seen(boundary.scene().mesh(), camera_mm_);
+  std::vector<bool> seen(mesh.triangles.size(), true);  // of a convex body, all that faces it
+  if (!boundary.body().convex) seen = surely_seen(mesh, camera_mm_);
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const double height_mm = -planes[k].depth_mm(camera_mm_);
     if (!(height_mm > 0.0)) continue;

@@ -25,10 +25,12 @@ PathBoundary::PathBoundary(const RayScene& scene, Method method)
       by_planes_(body_.convex && method == Method::kAuto) {
   const TriangleMesh& mesh = scene.mesh();
   for (int f = 0; f < static_cast<int>(mesh.triangles.size()); ++f) {
-    normal_.push_back(area_vector_mm2(mesh, f).normalized());
+    const Eigen::Vector3d area_mm2 = area_vector_mm2(mesh, f);
+    normal_.push_back(area_mm2.normalized());
     const auto& corner = mesh.triangles[static_cast<std::size_t>(f)];
     offset_mm_.push_back(normal_.back().dot(mesh.vertices_mm[static_cast<std::size_t>(corner[0])]));
-    const double twice_area_mm2 = 2.0 * area_vector_mm2(mesh, f).norm();
+    if (body_.planes.empty()) continue;
+    const double twice_area_mm2 = 2.0 * area_mm2.norm();
     FacetWeights weights;
     for (std::size_t i = 0; i < 3; ++i) {
       const Eigen::Vector3d& a = mesh.vertices_mm[static_cast<std::size_t>(corner[i])];

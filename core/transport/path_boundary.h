@@ -129,7 +129,7 @@ class PathBoundary {
   bool by_planes_;
   std::vector<Eigen::Vector3d> normal_;  // by facet
   std::vector<double> offset_mm_;
-  std::vector<FacetWeights> weights_;  // by facet
+  std::vector<FacetWeights> weights_;  // by facet; empty without planes
   std::optional<ClearanceGrid> grid_;
 };
 

@@ -140,9 +140,7 @@ void observe_channel(const SampleSums& sums, const SampleMap& map, std::size_t c
     channel.variance_per_l[row] = channel.noise_excess * unit * s.growth / (n * n) * mean.spread;
     channel.l_per_count[row] = unit * s.factor / n;
     channel.state[row] = RowState::kUsed;
-    channel.brightest_snr =
-        std::max(channel.brightest_snr,
-                 channel.l[row] * std::sqrt(channel.noise_excess / channel.variance[row]));
+    channel.brightest_snr = std::max(channel.brightest_snr, mean.value / std::sqrt(mean.variance));
     ++channel.rows_used;
   }
 }
