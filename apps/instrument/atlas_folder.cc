@@ -67,7 +67,7 @@ std::optional<Eigen::Vector3d> center_of(std::string_view name) {
 
 // The file: six counts, the sums, their changes by eta, and of each kept tilt the steps' sizes and
 // the batches in steps. Bytes as in memory.
-constexpr std::int64_t kFormat = 4;
+constexpr std::int64_t kFormat = 5;
 using Counts = std::array<std::int64_t, 6>;
 
 template <class T>

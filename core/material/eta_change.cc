@@ -50,12 +50,15 @@ double depth_growth(double eta_int_over_ext, double cos_inside, double optical_l
   return (1.0 - cos2) / (eta_int_over_ext * cos2) * (optical_length - 1.0);
 }
 
-double entry_growth(double eta_int_over_ext, double cos_inside, double optical_length) {
+double entry_growth(double eta_int_over_ext, double cos_inside) {
   const double sin2 =
       eta_int_over_ext * eta_int_over_ext * (1.0 - cos_inside * cos_inside);  // outside
   if (!(cos_inside > 0.0 && sin2 < 1.0)) return 0.0;
-  return fresnel_growth(eta_int_over_ext, true, std::sqrt(1.0 - sin2), true) +
-         depth_growth(eta_int_over_ext, cos_inside, optical_length);
+  return fresnel_growth(eta_int_over_ext, true, std::sqrt(1.0 - sin2), true);
+}
+
+double exit_growth(double eta_int_over_ext, double cos_inside, double optical_length) {
+  return depth_growth(eta_int_over_ext, cos_inside, optical_length) - 2.0 / eta_int_over_ext;
 }
 
 }  // namespace scattermeter

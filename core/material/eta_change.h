@@ -25,8 +25,13 @@ double observed_growth(double eta_int_over_ext, double cos_theta);
 // changes with the direction outside given. cos_inside: mu > 0.
 double depth_growth(double eta_int_over_ext, double cos_inside, double optical_length);
 
-// Of light that enters from a given direction and flies so far: it passes, and goes less deep; 0
-// unless cos_inside is that of a refracted ray.
-double entry_growth(double eta_int_over_ext, double cos_inside, double optical_length);
+// Of light that enters from a given direction; 0 unless cos_inside is that of a refracted ray.
+double entry_growth(double eta_int_over_ext, double cos_inside);
+
+// Of light that flies so far from its last scattering and leaves in a given direction, but for the
+// share that passes: the solid angle inside (1/eta^2) and depth_growth(). Where light falls outside
+// the body depends on the direction outside, which a given one inside does not hold: at the
+// critical angle, it changes without limit.
+double exit_growth(double eta_int_over_ext, double cos_inside, double optical_length);
 
 }  // namespace scattermeter

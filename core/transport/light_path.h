@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "core/material/eta_change.h"
 #include "core/transport/path_score.h"
 
 namespace scattermeter {
@@ -15,9 +16,37 @@ struct LightPath {
   double length_mm = 0.0;        // up to the end of the current step
   double per_eta = 0.0;          // as in PathScore
   double per_eta_outside = 0.0;  // the same of what met the surface since it left
+  double flown_from_mm = 0.0;    // length at the last scattering or entry
+  double cos_entered = 0.0;      // inside, of light refracted in and not yet scattered; else 0
   bool straight = false;         // as in PathScore
   bool by_plane = false;
   bool by_several = false;  // as it last met the surface
+
+  // The changes by eta of what happens to it. Refracted into the body: cos_inside > 0, or with
+  // another direction than that of a refracted ray.
+  void enter(double eta, double cos_inside) {
+    flown_from_mm = length_mm;
+    cos_entered = eta * eta * (1.0 - cos_inside * cos_inside) < 1.0 ? cos_inside : 0.0;
+  }
+  // Scattered at the end of its step.
+  void end_flight(double eta, double mean_free_path_mm) {
+    if (cos_entered > 0.0) {
+      per_eta += depth_growth(eta, cos_entered, (length_mm - flown_from_mm) / mean_free_path_mm);
+    }
+    cos_entered = 0.0;
+    flown_from_mm = length_mm;
+  }
+  // Refracted out of the body, so far before the end of its step. If it was not scattered inside,
+  // its direction there depends on that of its entry.
+  void leave(double eta, double cos_inside, double cos_outside, double before_end_mm,
+             double mean_free_path_mm) {
+    per_eta_outside += fresnel_growth(eta, true, cos_outside, true);
+    if (!(cos_entered > 0.0)) {
+      const double flown_mm = length_mm - before_end_mm - flown_from_mm;
+      per_eta_outside += exit_growth(eta, cos_inside, flown_mm / mean_free_path_mm);
+    }
+    cos_entered = 0.0;
+  }
 
   // If it ended there, at one of the body's facets or on the plane (-1).
   PathScore score_at(const Eigen::Vector3d& point_mm, int facet_idx) const {

@@ -76,6 +76,8 @@ class PathTracer {
  private:
   void trace(const Entry& entry, RandomStream& random) {
     LightPath path{entry.position_mm, entry.direction, entry.power / options_.paths_per_block};
+    path.enter(eta_, -entry.direction.dot(entry.normal));
+    path.per_eta = entry_growth(eta_, path.cos_entered);
     audit_.entered += path.weight;
     const double roulette_below = options_.roulette_weight * path.weight;
     double clearance_mm = 0.0;
@@ -86,17 +88,13 @@ class PathTracer {
         return;
       }
       double step_mm = -std::log(random.uniform()) * mean_free_path_mm_;
-      if (path.length_mm == 0.0) {
-        path.per_eta =
-            entry_growth(eta_, -entry.direction.dot(entry.normal), step_mm / mean_free_path_mm_);
-      }
       path.length_mm += step_mm;
       while (step_mm > 0.0) {
         const PathBoundary::Flight flight =
             world_.boundary.fly(path.x, path.direction, step_mm, clearance_mm, crossing);
         if (flight == PathBoundary::Flight::kInside) break;
         if (flight == PathBoundary::Flight::kLost) return lose(path);
-        if (leaves(crossing, random, path)) {
+        if (leaves(crossing, step_mm, random, path)) {
           path.length_mm -= step_mm;
           if (!enters_again(crossing, random, path)) return;
           path.per_eta += std::exchange(path.per_eta_outside, 0.0);
@@ -135,6 +133,7 @@ class PathTracer {
 
   // Counts a scattering and its absorption; false: one too many.
   bool scatters(double albedo, LightPath& path) {
+    path.end_flight(eta_, mean_free_path_mm_);
     if (++path.scatterings > options_.max_scatterings) {
       lose(path);
       return false;
@@ -162,17 +161,19 @@ class PathTracer {
     return true;
   }
 
-  // At the surface from inside: reflects (false) or refracts out (true).
-  bool leaves(const Crossing& at, RandomStream& random, LightPath& path) const {
+  // At the surface from inside, so far before the step's end: reflects (false) or refracts out
+  // (true).
+  bool leaves(const Crossing& at, double before_end_mm, RandomStream& random,
+              LightPath& path) const {
     if (plane_ && plane_->without_gap(at)) return true;
     if (rough_) return passes_rough(at, random, path);
     const double cosine = path.direction.dot(at.normal);
-    const bool passes = random.uniform() < fresnel_transmittance(1.0 / eta_, cosine);
-    (passes ? path.per_eta_outside : path.per_eta) += fresnel_growth(eta_, false, cosine, passes);
-    if (passes) {
+    if (random.uniform() < fresnel_transmittance(1.0 / eta_, cosine)) {
       path.direction = refracted(path.direction, -at.normal, 1.0 / eta_);
+      path.leave(eta_, cosine, path.direction.dot(at.normal), before_end_mm, mean_free_path_mm_);
       return true;
     }
+    path.per_eta += fresnel_growth(eta_, false, cosine, false);
     path.direction = reflected(path.direction, at.normal);
     path.straight = false;
     return false;
@@ -191,6 +192,7 @@ class PathTracer {
     path.per_eta_outside += fresnel_growth(eta_, true, cosine, passes);
     if (passes) {
       path.direction = refracted(path.direction, at.normal, eta_);
+      path.enter(eta_, -path.direction.dot(at.normal));
       path.x = at.point_mm;
       return true;
     }

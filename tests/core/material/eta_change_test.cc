@@ -68,16 +68,33 @@ TEST(EtaChange, DepthGrowth) {
   EXPECT_EQ(depth_growth(kIndex, 0.8, 1.0), 0.0);
 }
 
-// What passes, and how deep it goes; a direction that no refracted ray has tells nothing.
+// What passes; a direction that no refracted ray has tells nothing.
 TEST(EtaChange, EntryGrowth) {
   constexpr double kIndex = 1.4, kCosOutside = 0.6;
   const double cos_inside = std::sqrt(1.0 - (1.0 - kCosOutside * kCosOutside) / (kIndex * kIndex));
-  EXPECT_NEAR(entry_growth(kIndex, cos_inside, 1.0),
-              fresnel_growth(kIndex, true, kCosOutside, true), 1e-9);
-  EXPECT_NEAR(entry_growth(kIndex, cos_inside, 3.0) - entry_growth(kIndex, cos_inside, 1.0),
-              depth_growth(kIndex, cos_inside, 3.0), 1e-9);
-  EXPECT_EQ(entry_growth(kIndex, 0.5, 1.0), 0.0);
-  EXPECT_EQ(entry_growth(kIndex, 0.0, 1.0), 0.0);  // a beam starts inside
+  EXPECT_NEAR(entry_growth(kIndex, cos_inside), fresnel_growth(kIndex, true, kCosOutside, true),
+              1e-9);
+  EXPECT_EQ(entry_growth(kIndex, 0.5), 0.0);
+  EXPECT_EQ(entry_growth(kIndex, 0.0), 0.0);  // a beam starts inside
+}
+
+// Of diffuse light inside, what leaves changes by as much whether directions outside are held, or
+// those inside.
+TEST(EtaChange, ExitGrowthIsThatOfDirectionsInside) {
+  for (const double eta : {1.3, 1.45, 1.55}) {
+    constexpr int kSteps = 200000;
+    double by_inside = 0.0, by_outside = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      const double cosine = std::sqrt((i + 0.5) / kSteps);  // evenly in diffuse light
+      by_inside += fresnel_transmittance(1.0 / eta, cosine) *
+                   fresnel_growth(eta, false, cosine, true) / kSteps;
+      const double t = fresnel_transmittance(eta, cosine) / (eta * eta);
+      // A flight as long as the mean: what is scattered last does not change.
+      by_outside +=
+          t * (fresnel_growth(eta, true, cosine, true) + exit_growth(eta, 0.9, 1.0)) / kSteps;
+    }
+    EXPECT_NEAR(by_outside, by_inside, 0.03 * std::abs(by_inside)) << eta;
+  }
 }
 
 }  // namespace
