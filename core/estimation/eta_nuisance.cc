@@ -1,7 +1,6 @@
 #include "core/estimation/eta_nuisance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -22,10 +21,9 @@ void EtaNuisance::set_rows(const ChannelRows& rows, const std::vector<Eigen::Ind
                                                 static_cast<Eigen::Index>(observed.size()));
 }
 
-EtaNuisance::Change EtaNuisance::change(const ShotParts& parts, const ScatteringImage& smooth,
-                                        double scale, bool scale_is_free,
-                                        const Eigen::VectorXd& paths,
-                                        const Eigen::VectorXd& per_eta) const {
+Eigen::VectorXd EtaNuisance::column(const ShotParts& parts, const ScatteringImage& smooth,
+                                    double scale, bool scale_is_free, const Eigen::VectorXd& paths,
+                                    const Eigen::VectorXd& per_eta) const {
   const Eigen::VectorXd l = scale * smooth.l;
   const Eigen::VectorXd observed = observed_.cwiseProduct(l);
   Eigen::MatrixXd terms(l.size(), 4);
@@ -37,19 +35,9 @@ EtaNuisance::Change EtaNuisance::change(const ShotParts& parts, const Scattering
   of_parts.array().colwise() /= light;
   const Eigen::VectorXd wanted = parts.of_parts(per_eta).cwiseQuotient(parts.of_parts(paths));
   // Few parts may not tell all terms apart: the smallest solution.
-  const Eigen::MatrixXd solve = of_parts.completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::Vector4d by_term = solve * wanted;
-  const auto freedom = static_cast<double>(std::max<Eigen::Index>(1, wanted.size() - 4));
-  const double variance = (wanted - of_parts * by_term).squaredNorm() / freedom;
-  const Eigen::Index medium = scale_is_free ? 3 : 2;
-  Change out{terms.rightCols(4 - medium) * by_term.tail(4 - medium) - observed,
-             Eigen::Vector3d::Zero()};
-  // An uncertain index times an uncertain change by it: the squares add.
-  for (Eigen::Index k = 0; k < medium; ++k) {
-    const double std = std::sqrt(variance) * solve.row(k).norm();
-    out.as_medium[k] = std::copysign(std::hypot(by_term[k], std), by_term[k]);
-  }
-  return out;
+  const Eigen::Vector4d by_term = of_parts.completeOrthogonalDecomposition().solve(wanted);
+  const Eigen::Index beside = scale_is_free ? 1 : 2;  // the terms that are not of the medium
+  return terms.rightCols(beside) * by_term.tail(beside) - observed;
 }
 
 }  // namespace scattermeter

@@ -1,7 +1,6 @@
 #include "core/estimation/medium_nuisances.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "core/estimation/transport_pilot.h"
 
@@ -41,17 +40,15 @@ void MediumNuisances::set_columns(const ScatteringPoint& at, bool scale_is_free,
         roughness_change(surfaces, system.weights, knots_, at, channel_.eta_int_over_ext);
   }
   if (eta_column_ < 0) return;
-  EtaNuisance::Change eta = eta_.change(parts, smooth, at.scale, scale_is_free, paths, per_eta);
-  columns.col(eta_column_) = std::move(eta.column);
-  eta_of(system).as_medium = eta.as_medium;
+  columns.col(eta_column_) = eta_.column(parts, smooth, at.scale, scale_is_free, paths, per_eta);
+  see_eta(smooth, at.scale, per_eta, system);
 }
 
-void MediumNuisances::see_eta(const ScatteringPoint& at, bool scale_is_free, const ShotParts& parts,
-                              const ScatteringImage& smooth, const Eigen::VectorXd& paths,
+void MediumNuisances::see_eta(const ScatteringImage& smooth, double scale,
                               const Eigen::VectorXd& per_eta, DenseSystem& system) const {
   if (eta_column_ < 0) return;
-  eta_of(system).as_medium =
-      eta_.change(parts, smooth, at.scale, scale_is_free, paths, per_eta).as_medium;
+  system.beyond_column = {
+      eta_column_, eta_.change(smooth, scale, per_eta) - system.nuisance_columns.col(eta_column_)};
 }
 
 }  // namespace scattermeter

@@ -30,15 +30,11 @@ class MediumNuisances {
                    const ShotParts& parts, const ScatteringImage& smooth,
                    const Eigen::VectorXd& paths, const Eigen::VectorXd& per_eta,
                    DenseSystem& system) const;
-  // What eta changes as the medium would, from more paths at the same point; the columns remain.
-  void see_eta(const ScatteringPoint& at, bool scale_is_free, const ShotParts& parts,
-               const ScatteringImage& smooth, const Eigen::VectorXd& paths,
-               const Eigen::VectorXd& per_eta, DenseSystem& system) const;
+  // What eta changes beyond its column, by all paths at the same point.
+  void see_eta(const ScatteringImage& smooth, double scale, const Eigen::VectorXd& per_eta,
+               DenseSystem& system) const;
 
  private:
-  Nuisance& eta_of(DenseSystem& system) const {
-    return system.nuisances[static_cast<std::size_t>(eta_column_)];
-  }
   const MaterialChannel& channel_;
   DistanceKnots knots_;
   PhaseNuisance phase_;

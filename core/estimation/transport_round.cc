@@ -37,14 +37,6 @@ std::vector<EquationPilot> pilots_of(const ShotParts& parts, const ScatteringPoi
   return out;
 }
 
-// The largest factor of the Monte Carlo variance by which rows may scatter without exceeding `most`
-// times their light.
-double most_scatter(double most, const Eigen::VectorXd& light, const Eigen::VectorXd& monte_carlo,
-                    const Eigen::VectorXd& weights) {
-  const double own = weights.dot(monte_carlo);
-  return own > 0.0 ? 1.0 + most * most * weights.dot(light.cwiseAbs2()) / own : 1.0;
-}
-
 }  // namespace
 
 TransportRound::TransportRound(const TransportShots& shots, const ScalePrior& scale,
@@ -123,6 +115,11 @@ Eigen::SparseMatrix<double> TransportRound::projection(std::size_t half) const {
 
 void TransportRound::take(ChannelSimulation::Look look) {
   look_ = std::move(look);
+  const DenseSystem::BeyondColumn& beyond = shots_.system.beyond_column;
+  for (Single& single : singles_) {
+    const Eigen::Index n = single.system.l.size();
+    if (beyond.nuisance >= 0) single.system.beyond_column.l = beyond.l.segment(single.first, n);
+  }
   const Eigen::MatrixXd own = look_.covariance.topLeftCorner(instruments(), instruments());
   step_ = joint_.step(look_.halves, own, at_);
   // Smoothed images, such as renderings, scatter less from row to row than over several rows; both
@@ -282,11 +279,10 @@ ModelJudgement TransportRound::judgement() const {
   }
   model.data_length = whitened(shots_.system.l).norm();
   ModelJudgement out = judge(model);
+  const Eigen::Index beyond = shots_.system.beyond_column.nuisance;
   for (PriorPull& pull : out.pulls) {
-    const auto of = std::find_if(model.nuisances.begin(), model.nuisances.end(),
-                                 [&](const Nuisance& v) { return v.name == pull.name; });
-    if (of->as_medium.isZero(0.0)) continue;
-    shift_unseen(pull.least_seen_in_std * of->std * of->as_medium, at_.sigma_s_per_mm, pull);
+    if (beyond < 0 || pull.name != model.nuisances[static_cast<std::size_t>(beyond)].name) continue;
+    shift_unseen(pull.least_seen_in_std * step_.by_beyond, at_.sigma_s_per_mm, pull);
   }
   return out;
 }

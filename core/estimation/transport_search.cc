@@ -187,8 +187,7 @@ class TransportSearch {
     const ChannelSimulation::Projections projections = round.projections();
     const auto take = [&](int of_blocks) {
       ChannelSimulation::Look seen = look(round.at(), of_blocks, projections);
-      medium_.see_eta(round.at(), scale_.is_free(), parts_, round.pilot(), seen.image.l,
-                      seen.per_eta, system_);
+      medium_.see_eta(round.pilot(), round.at().scale, seen.per_eta, system_);
       round.take(std::move(seen));
     };
     take(blocks);

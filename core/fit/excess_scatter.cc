@@ -16,4 +16,10 @@ double excess_scatter(const Eigen::VectorXd& residual, const Eigen::VectorXd& no
   return std::max(1.0, weights.dot(residual.cwiseAbs2() - noise_variance) / own);
 }
 
+double most_scatter(double most, const Eigen::VectorXd& light,
+                    const Eigen::VectorXd& monte_carlo_variance, const Eigen::VectorXd& weights) {
+  const double own = weights.dot(monte_carlo_variance);
+  return own > 0.0 ? 1.0 + most * most * weights.dot(light.cwiseAbs2()) / own : 1.0;
+}
+
 }  // namespace scattermeter

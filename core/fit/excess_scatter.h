@@ -16,4 +16,9 @@ namespace scattermeter {
 double excess_scatter(const Eigen::VectorXd& residual, const Eigen::VectorXd& noise_variance,
                       const Eigen::VectorXd& monte_carlo_variance, const Eigen::VectorXd& weights);
 
+// That of rows which scatter by `most` of their light, beyond noise and Monte Carlo; 1 without
+// Monte Carlo.
+double most_scatter(double most, const Eigen::VectorXd& light,
+                    const Eigen::VectorXd& monte_carlo_variance, const Eigen::VectorXd& weights);
+
 }  // namespace scattermeter

@@ -69,6 +69,9 @@ DenseSystem selected(const DenseSystem& system, const std::vector<Eigen::Index>&
   if (!system.nuisances.empty()) {
     out.nuisance_columns = system.nuisance_columns(rows, Eigen::all);
   }
+  if (system.beyond_column.nuisance >= 0) {
+    out.beyond_column = {system.beyond_column.nuisance, system.beyond_column.l(rows)};
+  }
   Eigen::Index end = 0;
   auto next = rows.begin();
   for (const Eigen::Index n : system.shot_rows) {

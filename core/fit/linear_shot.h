@@ -32,10 +32,6 @@ struct Nuisance {
   // to be fitted).
   bool fitted = true;
   std::string name = {};  // unique ("led1.position0"); may be empty
-  // By transport: a unit of it changes the image by its column and as these changes of log sigma_s,
-  // sigma_a and a free log scale do. The column alone counts in the weights of the rows and the
-  // pulls: what looks like a change of the medium cannot be told from it, and widens the estimate.
-  Eigen::Vector3d as_medium = Eigen::Vector3d::Zero();
 };
 
 // The used rows as a dense system: weights (W), l (W/mm^2) and standard deviation of l.
@@ -47,6 +43,14 @@ struct DenseSystem {
   std::vector<Nuisance> nuisances = {};      // may be empty; the fitted ones come first
   Eigen::MatrixXd nuisance_columns = {};     // rows x nuisances: dl / dv
   std::vector<Eigen::Index> shot_rows = {};  // number of rows of each shot, in order
+  // By transport: what a unit of this nuisance changes beyond its column, with the noise of paths.
+  // It moves the estimate as it projects on it, and so widens it; weights and pulls, which would
+  // take the noise for structure that tells the nuisance from all else, have the column alone.
+  struct BeyondColumn {
+    Eigen::Index nuisance = -1;  // -1: none
+    Eigen::VectorXd l = {};      // by row
+  };
+  BeyondColumn beyond_column = {};
 };
 
 // Some of the rows, in ascending order, with all nuisances.

@@ -218,7 +218,7 @@ void see_from(double least_seen_in_std, PriorPull& pull) {
   pull.unseen_sigma_a_per_mm *= share;
 }
 
-void shift_unseen(const Eigen::Vector3d& by, double sigma_s_per_mm, PriorPull& pull) {
+void shift_unseen(const Eigen::VectorXd& by, double sigma_s_per_mm, PriorPull& pull) {
   pull.unseen_sigma_s_prime_per_mm += sigma_s_per_mm * by[0];
   pull.unseen_sigma_a_per_mm += by[1];
 }

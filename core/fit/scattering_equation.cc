@@ -206,12 +206,12 @@ ScatteringEquation::Step ScatteringEquation::step(const PathHalves& m,
       out.promised * mean([&](const Weights& w, std::size_t half) -> Eigen::MatrixXd {
         return mix[half] * w.of_nuisances;
       });
-  for (std::size_t k = 0; k < system_.nuisances.size(); ++k) {
-    const Nuisance& v = system_.nuisances[k];
-    if (!(v.std > 0.0) || v.as_medium.isZero(0.0)) continue;
-    const Eigen::VectorXd moved = v.std * v.as_medium.head(n);
-    out.common_causes.col(static_cast<Eigen::Index>(k)) += moved;
-    out.promised += moved * moved.transpose();
+  out.by_beyond = Eigen::VectorXd::Zero(n);
+  if (const Eigen::Index k = system_.beyond_column.nuisance; k >= 0) {
+    const double std = system_.nuisances[static_cast<std::size_t>(k)].std;
+    out.by_beyond = std * out.promised * both * system_.beyond_column.l;
+    out.common_causes.col(k) += out.by_beyond;
+    out.promised += out.by_beyond * out.by_beyond.transpose();
   }
   std::map<std::string, Eigen::MatrixXd> groups;
   for (Eigen::Index i = 0; i < out.common_causes.cols(); ++i) {

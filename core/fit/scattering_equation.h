@@ -100,6 +100,8 @@ class ScatteringEquation {
     // Moves caused by one deviation of each common cause: a column for every nuisance, and one for
     // a scale with a prior.
     Eigen::MatrixXd common_causes;
+    // Move caused by one deviation of DenseSystem::beyond_column's; included in the former.
+    Eigen::VectorXd by_beyond;
   };
   // One Newton step from `at`, given m there and the covariance of the mean of projection(half) *
   // m(half) at scale 1. A step is cut to a change of 0.4 and ends at sigma_a = 0 at the latest.

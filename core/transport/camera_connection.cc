@@ -150,13 +150,11 @@ void CameraConnection::through(const Window& window, const Image& image, const V
   for (std::size_t k = 0; convex && k < planes.size(); ++k) {
     if (planes[k].depth_mm(near) < beyond_mm && planes[k].depth_mm(far) < beyond_mm) return;
   }
-  const auto [ray, passage] =
+  const Passage to_camera =
       passage_to(image.x, depth_mm, plane.normal, window.foot, window.height_mm, eta_);
-  const auto on_body = [&](const Eigen::Vector3d& p) {
-    for (const BodyPlane& other : planes) {
-      if (other.depth_mm(p) < beyond_mm) return false;
-    }
-    return true;
+  const auto& [ray, passage, moved] = to_camera;
+  const auto on_body = [&](const auto& p) {
+    return boundary_.body().least_depth_mm(p) >= beyond_mm;
   };
   if (convex && !on_body(passage)) return;
   int facet = convex ? -1 : boundary_.facet_holding(window.plane_idx, passage);
@@ -188,7 +186,7 @@ void CameraConnection::through(const Window& window, const Image& image, const V
     facet = boundary_.facet_seen(camera_mm_, passage, window.plane_idx);
     if (facet < 0) return;
   }
-  push(vertex, passage, ray, facet, outgoing, walls, bound_mm, scores);
+  push(vertex, to_camera, facet, outgoing, walls, bound_mm, scores);
 }
 
 void CameraConnection::through_facets(const Vertex& vertex, double deepest_mm,
@@ -200,11 +198,12 @@ void CameraConnection::through_facets(const Vertex& vertex, double deepest_mm,
     const auto [near, far] =
         passage_between(vertex.x, depth_mm, facet.normal, facet.foot, facet.height_mm, eta_);
     if (!facet.may_hold(near, far)) return;
-    const auto [ray, passage] =
+    const Passage to_camera =
         passage_to(vertex.x, depth_mm, facet.normal, facet.foot, facet.height_mm, eta_);
+    const auto& [ray, passage, moved] = to_camera;
     if (!(ray.length_mm < deepest_mm)) return;
     if (!may_be_seen(vertex, facet, passage)) return;
-    push(vertex, passage, ray, facet.facet_idx, (passage - vertex.x).normalized(),
+    push(vertex, to_camera, facet.facet_idx, (passage - vertex.x).normalized(),
          {1.0, depth_growth(eta_, ray.cos_inside, sigma_t_ * ray.length_mm)}, ray.length_mm,
          scores);
   });
@@ -245,7 +244,8 @@ void CameraConnection::through_rough_facets(const Vertex& vertex, double deepest
         const double cos_ray = to_camera.dot(through->facet_normal);
         const double trace_per_mm =
             (2.0 - through->stretch * (1.0 - cos_ray * cos_ray)) / (eta_ * distance_mm);
-        push(vertex, passage, {0.0, length_mm, through->cos_inside, 1.0 + length_mm * trace_per_mm},
+        push(vertex,
+             {{0.0, length_mm, through->cos_inside, 1.0 + length_mm * trace_per_mm}, passage},
              facet.facet_idx, -through->direction, {share(*rough_, *through), per_eta}, length_mm,
              scores);
       });
@@ -267,9 +267,7 @@ std::optional<PathScore> CameraConnection::not_connected(const PathScore& escape
   const Eigen::Vector3d& normal = boundary_.facet_normal(escape.facet_idx);
   const double cosine = to_camera.dot(normal);
   const double cos_half = escape.by_several ? EscapeCone::kCosWideHalf : EscapeCone::kCosHalf;
-  if (!(cosine > 0.0) || escape.direction.dot(to_camera) < cos_half) {
-    return std::nullopt;
-  }
+  if (!(cosine > 0.0) || escape.direction.dot(to_camera) < cos_half) return std::nullopt;
   if (!boundary_.convex() && boundary_.scene().occluded(escape.point_mm, normal, camera_mm_)) {
     return std::nullopt;
   }
@@ -284,17 +282,18 @@ std::optional<PathScore> CameraConnection::not_connected(const PathScore& escape
 }
 
 // `bound_mm`: the lower bound of the path's length that decided whether it was made.
-void CameraConnection::push(const Vertex& vertex, const Eigen::Vector3d& passage,
-                            const RefractedRay& ray, int facet, const Eigen::Vector3d& outgoing,
-                            const Way& way, double bound_mm, std::vector<PathScore>& scores) const {
+void CameraConnection::push(const Vertex& vertex, const Passage& to_camera, int facet,
+                            const Eigen::Vector3d& outgoing, const Way& way, double bound_mm,
+                            std::vector<PathScore>& scores) const {
+  const auto& [ray, passage, moved_mm_per_eta] = to_camera;
   const double probability = std::min(1.0, std::exp(kSureDepth - sigma_t_ * bound_mm));
-  scores.push_back({passage, (camera_mm_ - passage).normalized(), facet,
-                    std::numbers::pi / (eta_ * eta_) * vertex.weight * way.share *
-                        phase_.per_sr(vertex.before.dot(outgoing)) *
-                        std::exp(-sigma_t_ * ray.length_mm) /
-                        (ray.cos_inside * ray.spread * probability),
-                    vertex.scatterings, vertex.length_mm + ray.length_mm,
-                    vertex.per_eta + way.per_eta - 2.0 / eta_, way.straight});
+  scores.push_back(
+      {passage, (camera_mm_ - passage).normalized(), facet,
+       std::numbers::pi / (eta_ * eta_) * vertex.weight * way.share *
+           phase_.per_sr(vertex.before.dot(outgoing)) * std::exp(-sigma_t_ * ray.length_mm) /
+           (ray.cos_inside * ray.spread * probability),
+       vertex.scatterings, vertex.length_mm + ray.length_mm,
+       vertex.per_eta + way.per_eta - 2.0 / eta_, way.straight, false, false, moved_mm_per_eta});
 }
 
 }  // namespace scattermeter

@@ -126,8 +126,8 @@ class CameraConnection {
     double per_eta = 0;  // relative change of the connection but for pi / eta^2
     bool straight = true;
   };
-  void push(const Vertex& vertex, const Eigen::Vector3d& passage, const RefractedRay& ray,
-            int facet, const Eigen::Vector3d& outgoing, const Way& way, double bound_mm,
+  void push(const Vertex& vertex, const Passage& to_camera, int facet,
+            const Eigen::Vector3d& outgoing, const Way& way, double bound_mm,
             std::vector<PathScore>& scores) const;
 
   const PathBoundary& boundary_;

@@ -269,6 +269,16 @@ int PathBoundary::facet_holding(int plane, const Eigen::Vector3d& x) const {
   return nearest.least_weight > -kGrain ? nearest.facet : -1;
 }
 
+int PathBoundary::plane_at(const Eigen::Vector3d& x, const Eigen::Vector3d& normal) const {
+  for (std::size_t k = 0; k < body_.planes.size(); ++k) {
+    const BodyPlane& plane = body_.planes[k];
+    if (std::abs(plane.depth_mm(x)) < grain_mm_ && plane.normal.dot(normal) > 0.9999) {
+      return static_cast<int>(k);
+    }
+  }
+  return -1;
+}
+
 PathBoundary::Nearest PathBoundary::nearest_of_plane(int plane, const Eigen::Vector3d& x) const {
   // The facet that the point is inside of, or nearest to, by its smallest barycentric weight.
   Nearest best{-1, -std::numeric_limits<double>::infinity()};

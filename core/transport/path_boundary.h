@@ -92,6 +92,8 @@ class PathBoundary {
   int facet_of_plane(int plane, const Eigen::Vector3d& x) const;
   // The facet of a plane that a point of the plane lies on; -1: on none.
   int facet_holding(int plane, const Eigen::Vector3d& x) const;
+  // The plane on which a point of the surface with this normal lies; -1: on none of few.
+  int plane_at(const Eigen::Vector3d& x, const Eigen::Vector3d& normal) const;
 
  private:
   Flight fly_by_planes(Eigen::Vector3d& x, const Eigen::Vector3d& direction, double& step_mm,

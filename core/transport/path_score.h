@@ -19,13 +19,16 @@ struct PathScore {
   double length_mm = 0;  // inside the body
   // Change by eta of the weight that such paths have, relative and per unit of eta (perturbation
   // Monte Carlo with core/material/eta_change.h), but for the share that passes as they leave here.
-  // By how much light that is refracted otherwise moves sideways is left out: it counts at edges.
+  // That light which is refracted otherwise moves sideways is left out where it leaves here.
   double per_eta = 0;
   // Since its last scattering it has neither been reflected nor left the body and entered again,
   // and of a rough boundary it met a single facet.
   bool straight = false;
   bool by_plane = false;    // since its last scattering it has come from the plane
   bool by_several = false;  // it left a rough boundary by several microfacets
+  // Of a connection through a smooth face: how refraction moves the point
+  // (core/transport/sideways_growth.h).
+  Eigen::Vector3d moved_mm_per_eta = Eigen::Vector3d::Zero();
 };
 
 // Power by fate, in the source's unit. entered = absorbed + in_plane + escaped + roulette + lost to

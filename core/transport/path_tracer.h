@@ -22,6 +22,7 @@
 #include "core/transport/path_plane.h"
 #include "core/transport/path_score.h"
 #include "core/transport/path_world.h"
+#include "core/transport/sideways_growth.h"
 
 namespace scattermeter {
 
@@ -101,6 +102,9 @@ class PathTracer {
           clearance_mm = 0.0;
           path.length_mm += step_mm;
         }
+      }
+      if (path.scatterings == 0 && path.cos_entered > 0.0 && path.flown_from_mm == 0.0) {
+        path.per_eta += entry_sideways_growth(world_.boundary, entry, eta_, path.length_mm);
       }
       if (!scatters(albedo_, path)) return;
       if (world_.camera != nullptr) {

@@ -27,7 +27,8 @@ RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
   }
   const double cos_inside = q / (eta_int_over_ext * std::sqrt(r * r + h2));
   slope = 1.0 + depth_mm * eta2 * h2 / (q * q * q);
-  return {r, depth_mm / cos_inside, cos_inside, (1.0 + depth_mm / q) * slope};
+  const double per_eta = depth_mm * r * eta_int_over_ext * (r * r + h2) / (q * q * q * slope);
+  return {r, depth_mm / cos_inside, cos_inside, (1.0 + depth_mm / q) * slope, per_eta};
 }
 
 Passage passage_to(const Eigen::Vector3d& x, double depth_mm, const Eigen::Vector3d& normal,
@@ -37,7 +38,8 @@ Passage passage_to(const Eigen::Vector3d& x, double depth_mm, const Eigen::Vecto
   const double foot_mm = across.norm();
   const RefractedRay ray = refracted_ray(height_mm, depth_mm, foot_mm, eta);
   if (!(foot_mm > 0.0)) return {ray, foot};
-  return {ray, foot + (ray.radius_mm / foot_mm) * across};
+  return {ray, foot + (ray.radius_mm / foot_mm) * across,
+          (ray.radius_mm_per_eta / foot_mm) * across};
 }
 
 std::pair<Eigen::Vector3d, Eigen::Vector3d> passage_between(const Eigen::Vector3d& x,

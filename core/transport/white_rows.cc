@@ -5,30 +5,48 @@
 #include <utility>
 
 #include "core/transport/path_blocks.h"
+#include "core/transport/sideways_growth.h"
 
 namespace scattermeter {
 namespace {
 
 class TiltTally {
  public:
-  TiltTally(const ScatteringView& view, const TriangleMesh& mesh, const AbsorptionTilts& tilts)
+  TiltTally(const ScatteringView& view, const PathBoundary& boundary, const AbsorptionTilts& tilts)
       : view_(&view),
-        mesh_(&mesh),
+        boundary_(&boundary),
         tilts_(&tilts),
         sum(Eigen::MatrixXd::Zero(tilts.count(), view.n_rows)),
         per_eta(sum) {}
 
   void escape(const PathScore&) {}
   void camera(const PathScore& score) {
-    const std::int32_t row = row_of(*view_, *mesh_, score);
+    const std::int32_t row = row_of(*view_, boundary_->scene().mesh(), score);
     if (row < 0) return;
     tilts_->add(score.weight, score.length_mm, sum.col(row).data());
-    tilts_->add(score.weight * score.per_eta, score.length_mm, per_eta.col(row).data());
+    const double growth = score.per_eta + sideways(score, row);
+    tilts_->add(score.weight * growth, score.length_mm, per_eta.col(row).data());
   }
 
  private:
+  // Of its row's light. To find the rows beside takes longer than all else: some scores count for
+  // all. Of faces alone: a row of many facets ends on others.
+  double sideways(const PathScore& score, std::int32_t row) {
+    constexpr int kOneOf = 8;
+    if (!boundary_->by_planes() || ++scores_ % kOneOf != 0) return 0.0;
+    const auto plane = static_cast<std::size_t>(score.facet_idx);
+    return kOneOf *
+           sideways_growth(score.point_mm, score.moved_mm_per_eta, [&](const Eigen::Vector3d& x) {
+             PathScore there = score;
+             there.point_mm = x;
+             there.facet_idx = boundary_->facet_holding(boundary_->body().plane_of_facet[plane], x);
+             return there.facet_idx >= 0 && row_of(*view_, boundary_->scene().mesh(), there) == row;
+           });
+  }
+
   const ScatteringView* view_;
-  const TriangleMesh* mesh_;
+  const PathBoundary* boundary_;
+  int scores_ = 0;
   const AbsorptionTilts* tilts_;
 
  public:
@@ -85,7 +103,7 @@ void WhiteRows::refine(const PathWorld& world, std::uint64_t seed) {
   std::vector<Eigen::MatrixXf> further(kept_tilts(), Eigen::MatrixXf::Zero(kBatches, view_.n_rows));
   trace_blocks<TiltTally>(
       white, options, first, first + kBatches,
-      [&] { return TiltTally(view_, white.boundary.scene().mesh(), tilts_); },
+      [&] { return TiltTally(view_, white.boundary, tilts_); },
       [&](const TiltTally& block, const PathAudit&) {
         // A block estimates the whole from its own paths.
         sums_.sum += options.paths_per_block * block.sum;

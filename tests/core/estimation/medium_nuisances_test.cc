@@ -66,16 +66,14 @@ TEST(MediumNuisances, SetsTheColumnsThatDependOnThePoint) {
     if (!with_eta) continue;
     EtaNuisance eta(c.channel, before.nuisance_columns.col(1));
     eta.set_rows(c.rows, c.kept);
-    const EtaNuisance::Change change =
-        eta.change(c.parts, c.smooth, 1.0, false, c.smooth.l, per_eta);
-    EXPECT_EQ(c.system.nuisance_columns.col(1), change.column);
-    EXPECT_EQ(c.system.nuisances[1].as_medium, change.as_medium);
-    EXPECT_NEAR(change.as_medium[0], -0.9, 1e-6);
-    EXPECT_TRUE(c.system.nuisances[2].as_medium.isZero(0.0));
+    EXPECT_EQ(c.system.nuisance_columns.col(1),
+              eta.column(c.parts, c.smooth, 1.0, false, c.smooth.l, per_eta));
+    EXPECT_EQ(c.system.beyond_column.nuisance, 1);
+    EXPECT_LT((c.system.beyond_column.l - per_eta).norm(), 1e-6 * per_eta.norm());
   }
 }
 
-// More paths change what eta does as the medium would, not the columns that weights rest on.
+// More paths change what eta does beyond its column, not the columns that weights rest on.
 TEST(MediumNuisances, SeesEtaWithMorePaths) {
   const ScatteringPoint at{0.9, 0.01, 1.0};
   for (const bool with_eta : {true, false}) {
@@ -87,9 +85,11 @@ TEST(MediumNuisances, SeesEtaWithMorePaths) {
     const Eigen::VectorXd more = -1.2 * c.smooth.per_log_sigma_s;
     medium.set_columns(at, false, {}, c.parts, c.smooth, c.smooth.l, few, c.system);
     const Eigen::MatrixXd columns = c.system.nuisance_columns;
-    medium.see_eta(at, false, c.parts, c.smooth, c.smooth.l, more, c.system);
+    medium.see_eta(c.smooth, at.scale, more, c.system);
     EXPECT_EQ(c.system.nuisance_columns, columns);
-    EXPECT_NEAR(c.system.nuisances[1].as_medium[0], with_eta ? -1.2 : 0.0, 1e-6);
+    EXPECT_EQ(c.system.beyond_column.nuisance, with_eta ? 1 : -1);
+    if (!with_eta) continue;
+    EXPECT_LT((c.system.beyond_column.l - more).norm(), 1e-6 * more.norm());
   }
 }
 

@@ -39,5 +39,14 @@ TEST(ExcessScatter, NeverBelowOne) {
   EXPECT_THROW(excess_scatter(one, one, Eigen::VectorXd::Ones(4), one), std::invalid_argument);
 }
 
+// The limit is what excess_scatter() reports of rows that scatter by just that share.
+TEST(ExcessScatter, MostIsThatOfAShareOfTheLight) {
+  const Eigen::Vector3d light(4.0, 10.0, 20.0), paths(0.01, 0.02, 0.04), weights(3.0, 1.0, 0.5);
+  const Eigen::Vector3d residual = (paths + 0.0009 * light.cwiseAbs2()).cwiseSqrt();
+  EXPECT_NEAR(most_scatter(0.03, light, paths, weights),
+              excess_scatter(residual, Eigen::Vector3d::Zero(), paths, weights), 1e-12);
+  EXPECT_EQ(most_scatter(0.03, light, Eigen::Vector3d::Zero(), weights), 1.0);
+}
+
 }  // namespace
 }  // namespace scattermeter

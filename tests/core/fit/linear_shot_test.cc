@@ -47,12 +47,15 @@ TEST(LinearShot, SomeRowsOfASystem) {
   s.nuisances = {{"one", 0.1, true}};
   s.nuisance_columns.resize(4, 1);
   s.nuisance_columns << 1, 0, 0, 2;
+  s.beyond_column = {0, Eigen::Vector4d(9, 8, 7, 6)};
   const DenseSystem some = selected(s, {0, 2, 3});
   EXPECT_EQ(some.weights, Eigen::Vector3d(1, 3, 4));
   EXPECT_EQ(some.l, Eigen::Vector3d(10, 30, 40));
   EXPECT_EQ(some.std_l, Eigen::Vector3d(5, 7, 8));
   EXPECT_EQ(some.shot_rows, (std::vector<Eigen::Index>{1, 0, 2}));
   EXPECT_EQ(some.nuisance_columns, Eigen::Vector3d(1, 0, 2));
+  EXPECT_EQ(some.beyond_column.nuisance, 0);
+  EXPECT_EQ(some.beyond_column.l, Eigen::Vector3d(9, 7, 6));
   EXPECT_EQ(selected(s, {}).shot_rows, (std::vector<Eigen::Index>{0, 0, 0}));
 }
 

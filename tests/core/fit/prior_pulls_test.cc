@@ -190,7 +190,7 @@ TEST(PriorPulls, OtherImagesSeeAsWell) {
 // Of what looks like a change of the medium: relative for sigma_s', absolute for sigma_a.
 TEST(PriorPulls, UnseenShiftOfTheMedium) {
   PriorPull p = unseen("eta", "eta", -0.08, 0.002);
-  shift_unseen({0.1, 0.001, 7.0}, 1.5, p);
+  shift_unseen(Eigen::Vector3d(0.1, 0.001, 7.0), 1.5, p);
   EXPECT_NEAR(p.unseen_sigma_s_prime_per_mm, 0.07, 1e-12);
   EXPECT_NEAR(p.unseen_sigma_a_per_mm, 0.003, 1e-12);
 }

@@ -258,9 +258,9 @@ TEST(ScatteringEquation, NuisancesWiden) {
   EXPECT_LT((sum - wide.covariance).norm(), 1e-12 * sum.norm());
 }
 
-// What a nuisance changes as the medium does moves the estimate by just that, and has no part in
-// the weights.
-TEST(ScatteringEquation, NuisancesThatLookLikeTheMediumWiden) {
+// What a nuisance changes beyond its column moves the estimate as the image would, here as a change
+// of the medium, and has no part in the weights.
+TEST(ScatteringEquation, ChangesBeyondAColumnWiden) {
   const ScatteringPoint at{2.0, 0.01, 1.0};
   const ScatteringImage truth = image_of(2.0, 0.01);
   DenseSystem system = system_of(truth.l, 1e-3);
@@ -271,14 +271,15 @@ TEST(ScatteringEquation, NuisancesThatLookLikeTheMediumWiden) {
   const Eigen::Index n = plain.projection(0).rows();
   const ScatteringEquation::Step without =
       plain.step(twice(truth), Eigen::MatrixXd::Zero(n, n), at);
-  system.nuisances[0].as_medium = {-1.5, 0.03, 7.0};  // the scale is not free
+  system.beyond_column = {0, -1.5 * truth.per_log_sigma_s + 0.03 * truth.per_sigma_a};
   const ScatteringEquation equation(system, {0.0}, truth, at);
   const ScatteringEquation::Step with =
       equation.step(twice(truth), Eigen::MatrixXd::Zero(n, n), at);
   EXPECT_EQ(equation.projection(0), plain.projection(0));
   const Eigen::Vector2d moved = with.common_causes.col(0) - without.common_causes.col(0);
-  EXPECT_NEAR(moved[0], -0.03, 1e-12);
-  EXPECT_NEAR(moved[1], 0.0006, 1e-12);
+  EXPECT_NEAR(moved[0], -0.03, 1e-9);
+  EXPECT_NEAR(moved[1], 0.0006, 1e-9);
+  EXPECT_LT((with.by_beyond - moved).norm(), 1e-12);
   const Eigen::Vector2d all = with.common_causes.col(0), own = without.common_causes.col(0);
   EXPECT_LT(
       (with.covariance - without.covariance - all * all.transpose() + own * own.transpose()).norm(),
