@@ -18,8 +18,8 @@ namespace scattermeter {
 template <class Holds>
 double sideways_growth(const Eigen::Vector3d& x_mm, const Eigen::Vector3d& moved_mm_per_eta,
                        const Holds& holds) {
-  // Light changes little over what this moves it by, about a fifth of a mean free path.
-  constexpr double kStep = 0.5;
+  // Light changes little over what this moves it by, a tenth of a mean free path or so.
+  constexpr double kStep = 0.2;
   const double gained = holds(x_mm - kStep * moved_mm_per_eta) ? 0.0 : 1.0;
   const double lost = holds(x_mm + kStep * moved_mm_per_eta) ? 0.0 : 1.0;
   return (gained - lost) / kStep;
