@@ -282,7 +282,7 @@ ModelJudgement TransportRound::judgement() const {
   const Eigen::Index beyond = shots_.system.beyond_column.nuisance;
   for (PriorPull& pull : out.pulls) {
     if (beyond < 0 || pull.name != model.nuisances[static_cast<std::size_t>(beyond)].name) continue;
-    shift_unseen(pull.least_seen_in_std * step_.by_beyond, at_.sigma_s_per_mm, pull);
+    set_unseen(step_.common_causes.col(beyond), at_.sigma_s_per_mm, pull);
   }
   return out;
 }

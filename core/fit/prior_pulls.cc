@@ -218,9 +218,9 @@ void see_from(double least_seen_in_std, PriorPull& pull) {
   pull.unseen_sigma_a_per_mm *= share;
 }
 
-void shift_unseen(const Eigen::VectorXd& by, double sigma_s_per_mm, PriorPull& pull) {
-  pull.unseen_sigma_s_prime_per_mm += sigma_s_per_mm * by[0];
-  pull.unseen_sigma_a_per_mm += by[1];
+void set_unseen(const Eigen::VectorXd& moves, double sigma_s_per_mm, PriorPull& pull) {
+  pull.unseen_sigma_s_prime_per_mm = pull.least_seen_in_std * sigma_s_per_mm * moves[0];
+  pull.unseen_sigma_a_per_mm = pull.least_seen_in_std * moves[1];
 }
 
 double unseen_in_std(const PriorPull& pull, const Estimate& e) {

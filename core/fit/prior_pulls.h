@@ -79,8 +79,9 @@ std::string far_eta(const std::vector<PriorPull>& pulls, double eta_int_over_ext
 // Where other images see an error of the quantity already from so many of its deviations on, what
 // is unseen is less: does nothing unless that is less than pull.least_seen_in_std.
 void see_from(double least_seen_in_std, PriorPull& pull);
-// Adds to what is unseen a shift of log sigma_s and sigma_a (the first two of `by`).
-void shift_unseen(const Eigen::VectorXd& by, double sigma_s_per_mm, PriorPull& pull);
+// What is unseen, where one deviation of the quantity moves log sigma_s and sigma_a by the first
+// two of `moves`.
+void set_unseen(const Eigen::VectorXd& moves, double sigma_s_per_mm, PriorPull& pull);
 // By how many of its stated deviations (of sigma_s' or sigma_a, whichever is more) an error of the
 // quantity that these shots just do not contradict shifts the estimate.
 double unseen_in_std(const PriorPull& pull, const Estimate& estimate);

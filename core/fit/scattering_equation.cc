@@ -206,12 +206,11 @@ ScatteringEquation::Step ScatteringEquation::step(const PathHalves& m,
       out.promised * mean([&](const Weights& w, std::size_t half) -> Eigen::MatrixXd {
         return mix[half] * w.of_nuisances;
       });
-  out.by_beyond = Eigen::VectorXd::Zero(n);
   if (const Eigen::Index k = system_.beyond_column.nuisance; k >= 0) {
     const double std = system_.nuisances[static_cast<std::size_t>(k)].std;
-    out.by_beyond = std * out.promised * both * system_.beyond_column.l;
-    out.common_causes.col(k) += out.by_beyond;
-    out.promised += out.by_beyond * out.by_beyond.transpose();
+    const Eigen::VectorXd moved = std * out.promised * both * system_.beyond_column.l;
+    out.common_causes.col(k) += moved;
+    out.promised += moved * moved.transpose();
   }
   std::map<std::string, Eigen::MatrixXd> groups;
   for (Eigen::Index i = 0; i < out.common_causes.cols(); ++i) {

@@ -97,11 +97,9 @@ class ScatteringEquation {
     Eigen::MatrixXd inverse;  // from the mean of projection(half) * l(half) to the move
     // The covariance if W is right: the inverse of what the paths' derivatives tell.
     Eigen::MatrixXd promised;
-    // Moves caused by one deviation of each common cause: a column for every nuisance, and one for
-    // a scale with a prior.
+    // Moves caused by one deviation of each common cause: a column for every nuisance
+    // (DenseSystem::beyond_column included), and one for a scale with a prior.
     Eigen::MatrixXd common_causes;
-    // Move caused by one deviation of DenseSystem::beyond_column's; included in the former.
-    Eigen::VectorXd by_beyond;
   };
   // One Newton step from `at`, given m there and the covariance of the mean of projection(half) *
   // m(half) at scale 1. A step is cut to a change of 0.4 and ends at sigma_a = 0 at the latest.

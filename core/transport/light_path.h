@@ -22,13 +22,13 @@ struct LightPath {
   bool by_plane = false;
   bool by_several = false;  // as it last met the surface
 
-  // The changes by eta of what happens to it. Refracted into the body: cos_inside > 0, or with
-  // another direction than that of a refracted ray.
+  // The next three note what happens to it, for its changes by eta. It is refracted into the body
+  // (or enters in a direction that no refracted ray has, as a beam may).
   void enter(double eta, double cos_inside) {
     flown_from_mm = length_mm;
     cos_entered = eta * eta * (1.0 - cos_inside * cos_inside) < 1.0 ? cos_inside : 0.0;
   }
-  // Scattered at the end of its step.
+  // It is scattered at the end of its step.
   void end_flight(double eta, double mean_free_path_mm) {
     if (cos_entered > 0.0) {
       per_eta += depth_growth(eta, cos_entered, (length_mm - flown_from_mm) / mean_free_path_mm);
@@ -36,8 +36,8 @@ struct LightPath {
     cos_entered = 0.0;
     flown_from_mm = length_mm;
   }
-  // Refracted out of the body, so far before the end of its step. If it was not scattered inside,
-  // its direction there depends on that of its entry.
+  // It is refracted out of the body, so far before the end of its step. If it was not scattered
+  // inside, its direction there is that of its entry.
   void leave(double eta, double cos_inside, double cos_outside, double before_end_mm,
              double mean_free_path_mm) {
     per_eta_outside += fresnel_growth(eta, true, cos_outside, true);

@@ -13,7 +13,7 @@ struct RefractedRay {
   double length_mm = 0;  // from the point to the passage
   double cos_inside = 1;
   double spread = 1;  // ratio of a ray bundle's area at the point's depth to that on the plane
-  double radius_mm_per_eta = 0;
+  double radius_mm_per_eta = 0;  // change by eta, of the same point's ray
 };
 
 // Snell on a plane: the camera is `height_mm` above it, the point `depth_mm` below it, and their
@@ -26,8 +26,8 @@ RefractedRay refracted_ray(double height_mm, double depth_mm, double foot_mm,
 // The camera's ray through a plane to a point at a depth below it.
 struct Passage {
   RefractedRay ray;
-  Eigen::Vector3d point;  // on the plane
-  Eigen::Vector3d moved_mm_per_eta = Eigen::Vector3d::Zero();
+  Eigen::Vector3d point;                                       // on the plane
+  Eigen::Vector3d moved_mm_per_eta = Eigen::Vector3d::Zero();  // of `point`, for the same x
 };
 Passage passage_to(const Eigen::Vector3d& x, double depth_mm, const Eigen::Vector3d& normal,
                    const Eigen::Vector3d& foot, double height_mm, double eta);

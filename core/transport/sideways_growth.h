@@ -19,7 +19,7 @@ template <class Holds>
 double sideways_growth(const Eigen::Vector3d& x_mm, const Eigen::Vector3d& moved_mm_per_eta,
                        const Holds& holds) {
   // Light changes little over what this moves it by, a tenth of a mean free path or so.
-  constexpr double kStep = 0.2;
+  constexpr double kStep = 0.3;
   const double gained = holds(x_mm - kStep * moved_mm_per_eta) ? 0.0 : 1.0;
   const double lost = holds(x_mm + kStep * moved_mm_per_eta) ? 0.0 : 1.0;
   return (gained - lost) / kStep;

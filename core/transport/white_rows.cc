@@ -32,7 +32,7 @@ class TiltTally {
   // Of its row's light. To find the rows beside takes longer than all else: some scores count for
   // all. Of faces alone: a row of many facets ends on others.
   double sideways(const PathScore& score, std::int32_t row) {
-    constexpr int kOneOf = 16;
+    constexpr int kOneOf = 4;
     if (boundary_->body().planes.empty() || ++scores_ % kOneOf != 0) return 0.0;
     const auto plane = static_cast<std::size_t>(score.facet_idx);
     return kOneOf *

@@ -16,8 +16,8 @@ const nlohmann::json& entry(const nlohmann::json& list, const char* key, const c
                        [&](const nlohmann::json& e) { return e.at(key) == value; });
 }
 
-// One deviation of scale or eta shifts sigma_s' by its line in the budget. The pull is from the
-// light of the parts, the budget from all rows with other weights.
+// One deviation of scale or eta shifts sigma_s' by its line in the budget. The pull of the scale is
+// from the light of the parts, the budget from all rows with other weights.
 void expect_as_in_the_budget(const nlohmann::json& result, const char* quantity) {
   const nlohmann::json& pull = entry(result.at("pulls"), "quantity", quantity);
   const double least_seen = pull.at("least_seen_in_std").get<double>();

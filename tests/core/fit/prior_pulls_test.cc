@@ -187,12 +187,12 @@ TEST(PriorPulls, OtherImagesSeeAsWell) {
   EXPECT_NEAR(p.unseen_sigma_a_per_mm, 0.0005, 1e-12);
 }
 
-// Of what looks like a change of the medium: relative for sigma_s', absolute for sigma_a.
-TEST(PriorPulls, UnseenShiftOfTheMedium) {
+// Moves are relative for sigma_s', absolute for sigma_a, and of one deviation.
+TEST(PriorPulls, UnseenByMoves) {
   PriorPull p = unseen("eta", "eta", -0.08, 0.002);
-  shift_unseen(Eigen::Vector3d(0.1, 0.001, 7.0), 1.5, p);
-  EXPECT_NEAR(p.unseen_sigma_s_prime_per_mm, 0.07, 1e-12);
-  EXPECT_NEAR(p.unseen_sigma_a_per_mm, 0.003, 1e-12);
+  set_unseen(Eigen::Vector3d(0.1, 0.001, 7.0), 1.5, p);
+  EXPECT_NEAR(p.unseen_sigma_s_prime_per_mm, 0.15 * p.least_seen_in_std, 1e-12);
+  EXPECT_NEAR(p.unseen_sigma_a_per_mm, 0.001 * p.least_seen_in_std, 1e-12);
 }
 
 // Where all statements hold, pulls are standard normal and the chi-square has its degrees of
