@@ -8,6 +8,7 @@
 
 #include "apps/instrument/closer_look.h"
 #include "calib/pose/edge_points.h"
+#include "calib/pose/limb_blur.h"
 #include "calib/pose/silhouette_check.h"
 
 namespace scattermeter::apps {
@@ -26,12 +27,13 @@ constexpr double kBlurred_px = 0.8;
 EdgeBlur edge_blur(const Rig& rig, const ObjectScenes& objects, const SceneShot& shot,
                    const capture::RawFrame& frame, const PoseResult& pose) {
   const ObjectScene& object = objects.at(shot.object);
-  if (object.is_round) return {};
   const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
   const calib::EdgeShot edges =
       calib::edge_shot(rig.scene, rig.pose, objects, shot, frame, pose.camera_from_world, {});
   const std::optional<Eigen::Matrix2d> seen_px2 =
-      calib::edge_blur_px2(edges, lens, pose.camera_from_world);
+      object.is_round ? calib::limb_blur_px2(edges, lens, pose.camera_from_world,
+                                             object.stated->eta_int_over_ext)
+                      : calib::edge_blur_px2(edges, lens, pose.camera_from_world);
   if (!seen_px2) return {};
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(*seen_px2);
   const Eigen::Vector2d beyond_px2 =

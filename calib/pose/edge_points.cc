@@ -4,9 +4,9 @@
 #include <optional>
 #include <span>
 
-#include <Eigen/Cholesky>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "calib/pose/blur_across.h"
 #include "calib/pose/cell_means.h"
 #include "calib/pose/edge_strip.h"
 #include "core/base/median.h"
@@ -85,36 +85,6 @@ std::vector<double> blurs_of(const std::vector<EdgeStrip>& strips) {
   return out;
 }
 
-struct BlurAcross {
-  Eigen::Vector2d outward;
-  double px2;
-};
-
-// n^T C n = px2 for each, with the least sum of absolute residuals.
-Eigen::Matrix2d covariance_of(const std::vector<BlurAcross>& blurs) {
-  constexpr int kRounds = 20;
-  constexpr double kLeast_px2 = 1e-3;
-  const auto n = static_cast<Eigen::Index>(blurs.size());
-  // Of the mean over all directions, and of what varies with twice the direction's angle.
-  Eigen::MatrixXd by(n, 3);
-  Eigen::VectorXd px2(n), weight = Eigen::VectorXd::Ones(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const BlurAcross& b = blurs[static_cast<std::size_t>(i)];
-    const double x = b.outward.x(), y = b.outward.y();
-    by.row(i) << 1.0, x * x - y * y, 2.0 * x * y;
-    px2[i] = b.px2;
-  }
-  Eigen::Vector3d fit;
-  for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix3d squares = by.transpose() * weight.asDiagonal() * by;
-    // Without other directions, the spread is round: as strong as one piece.
-    squares.diagonal().tail<2>().array() += weight.mean();
-    fit = squares.ldlt().solve(by.transpose() * weight.cwiseProduct(px2));
-    weight = (px2 - by * fit).cwiseAbs().cwiseMax(kLeast_px2).cwiseInverse();
-  }
-  return Eigen::Matrix2d{{fit[0] + fit[1], fit[2]}, {fit[2], fit[0] - fit[1]}};
-}
-
 }  // namespace
 
 std::optional<Eigen::Matrix2d> edge_blur_px2(const EdgeShot& shot,
@@ -143,7 +113,7 @@ std::optional<Eigen::Matrix2d> edge_blur_px2(const EdgeShot& shot,
     }
   }
   if (blurs.size() < kLeastPieces) return std::nullopt;
-  return covariance_of(blurs);
+  return point_spread_px2(blurs);
 }
 
 std::vector<EdgePoint> edge_points(const std::vector<EdgeShot>& shots,

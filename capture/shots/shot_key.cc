@@ -6,7 +6,7 @@ namespace scattermeter::capture {
 namespace {
 
 // To be incremented whenever the same inputs are decoded to something else than before.
-constexpr int kFormat = 6;
+constexpr int kFormat = 7;
 
 void add_camera(const SceneCamera& camera, const ShotDecoding& decoding, FileDigests& digests,
                 Digest& key) {

@@ -9,7 +9,6 @@
 #include "core/agreement/shot_agreement.h"
 #include "core/estimation/channel_image.h"
 #include "core/estimation/contradictions.h"
-#include "core/estimation/edge_width.h"
 #include "core/estimation/estimation.h"
 #include "core/estimation/material_channel.h"
 #include "core/estimation/model_choice.h"
@@ -71,9 +70,9 @@ class DipoleEstimator {
       }
       if (!again) break;
     }
-    constexpr int kEdgeRounds = 3;
-    for (int round = 0; round < kEdgeRounds; ++round) {
-      open = take_edge_widths(e_.scene, e_.results, edge_widths_mm_);
+    constexpr int kChangesRounds = 3;
+    for (int round = 0; round < kChangesRounds; ++round) {
+      open = take_found(e_.scene, e_.results, changes_at_);
       if (std::find(open.begin(), open.end(), true) == open.end()) break;
       final_fits(open);
     }
@@ -84,7 +83,7 @@ class DipoleEstimator {
  private:
   // Of the open channels, with the nuisances' derivatives at their latest estimates.
   void final_fits(const std::vector<bool>& open) {
-    const auto of_lights = sensitivities(e_, open, knots_, edge_widths_mm_);
+    const auto of_lights = sensitivities(e_, open, knots_, changes_at_);
     e_.watch.lap("sensitivities");
     tbb::parallel_for(std::size_t{0}, e_.channels.size(), [&](std::size_t i) {
       if (!open[i]) return;
@@ -283,7 +282,7 @@ class DipoleEstimator {
   DistanceKnots knots_;
   DipoleFitOptions fit_;
   std::vector<Work> work_;
-  EdgeWidths edge_widths_mm_;
+  ChangesAt changes_at_;
 };
 
 }  // namespace

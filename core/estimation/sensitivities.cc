@@ -1,5 +1,7 @@
 #include "core/estimation/sensitivities.h"
 
+#include <algorithm>
+#include <functional>
 #include <tuple>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -46,12 +48,21 @@ const IncidentLight* light_above_plane(const Estimation& e, const LightKey& key)
 
 }  // namespace
 
+std::vector<bool> take_found(const Scene& scene, const std::vector<ChannelResult>& results,
+                             ChangesAt& at) {
+  std::vector<bool> taken = take_edge_widths(scene, results, at.edge_widths_mm);
+  const std::vector<bool> far = take_far_etas(results, at.eta_offsets);
+  std::transform(taken.begin(), taken.end(), far.begin(), taken.begin(), std::logical_or<>());
+  return taken;
+}
+
 std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
                                                    const std::vector<bool>& estimated,
                                                    const DistanceKnots& knots,
-                                                   const EdgeWidths& edge_widths_mm) {
+                                                   const ChangesAt& at) {
   std::map<LightKey, std::vector<LitMedium>> media;
-  std::map<LightKey, std::vector<double>> widths_mm;  // of the chamfers, by medium
+  std::map<LightKey, std::vector<double>> widths_mm;    // of the chamfers, by medium
+  std::map<LightKey, std::vector<double>> far_offsets;  // of eta, by medium
   std::vector<std::map<LightKey, Eigen::Index>> column(e.channels.size());
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
     if (!estimated[i]) continue;
@@ -63,9 +74,10 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
         media[key].push_back({{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
                               first.scale.value});
         const SceneObject& object = *std::get<0>(key)->object->stated;
-        const auto width = edge_widths_mm.find({e.channels[i].material, object.name});
-        widths_mm[key].push_back(width == edge_widths_mm.end() ? chamfer_width_mm(object)
-                                                               : width->second);
+        const auto width = at.edge_widths_mm.find({e.channels[i].material, object.name});
+        widths_mm[key].push_back(width == at.edge_widths_mm.end() ? chamfer_width_mm(object)
+                                                                  : width->second);
+        far_offsets[key].push_back(at.eta_offsets.empty() ? 0.0 : at.eta_offsets[i]);
       }
     };
     for (const ObservedShot* shot : e.channels[i].shots) {
@@ -104,14 +116,16 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
     }
     item.out = sensitivity(seen, e.kept.weights.at(item.key),
                            images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
-    if (const LedLight* led = e.scene.light(std::get<1>(item.key)).led()) {
+    const SceneLight& light = e.scene.light(std::get<1>(item.key));
+    set_far_per_eta(seen, light, std::get<2>(item.key), e.lit, knots, item.media,
+                    far_offsets.at(item.key), item.out);
+    if (const LedLight* led = light.led()) {
       item.out.per_edge_mm = change_by_edges(seen, led->led, knots, item.media,
                                              widths_mm.at(item.key), e.kept.store.get());
     }
     if (item.direct != nullptr) {
-      item.out.per_albedo =
-          change_by_plane(seen, e.scene.light(std::get<1>(item.key)).led()->led, *item.direct,
-                          plane_below(e.scene, *seen.object), knots, item.media);
+      item.out.per_albedo = change_by_plane(seen, light.led()->led, *item.direct,
+                                            plane_below(e.scene, *seen.object), knots, item.media);
     }
     stage.step();
   };

@@ -8,6 +8,7 @@
 #include "core/diffusion/distance_weights.h"
 #include "core/estimation/edge_width.h"
 #include "core/estimation/estimation.h"
+#include "core/estimation/far_eta.h"
 #include "core/nuisances/light_sensitivity.h"
 #include "core/nuisances/nuisances.h"
 
@@ -19,12 +20,21 @@ struct Sensitivities {
   std::vector<std::map<LightKey, ChannelSensitivity>> of_channel;
 };
 
+// Where the changes that are not linear hold.
+struct ChangesAt {
+  EdgeWidths edge_widths_mm;
+  EtaOffsets eta_offsets;  // empty: near the stated eta
+};
+// Takes those that the results show; returns for which of them one is another now.
+std::vector<bool> take_found(const Scene& scene, const std::vector<ChannelResult>& results,
+                             ChangesAt& at);
+
 // estimated: for each channel, whether its result contains a first estimate; others get no
-// sensitivities. edge_widths_mm: at which the change by edges holds. Precondition:
-// e.kept.weights contains W for those channels' shots. Lights are computed in parallel.
+// sensitivities. Precondition: e.kept.weights contains W for those channels' shots. Lights are
+// computed in parallel.
 std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
                                                    const std::vector<bool>& estimated,
                                                    const DistanceKnots& knots,
-                                                   const EdgeWidths& edge_widths_mm = {});
+                                                   const ChangesAt& at = {});
 
 }  // namespace scattermeter

@@ -266,12 +266,13 @@ std::string contradiction_sentence(const PriorPull& worst, const std::vector<Pri
 }
 
 std::string far_eta(const std::vector<PriorPull>& pulls, double eta_int_over_ext) {
-  constexpr double kFarthest = 0.06;
+  constexpr double kFarthest = 0.12;
   for (const PriorPull& p : pulls) {
     if (p.group != "eta" || !(std::abs(p.offset) > kFarthest)) continue;
     return fmt::format(
-        "the shots put eta at {:.2f}, farther from the {:g} that the rig states than changes by it "
-        "are followed ({:g}): measure the refractive index",
+        "the shots put eta at {:.2f}, farther from the {:g} that the rig states than tables are "
+        "off "
+        "({:g}): measure the refractive index, and check the focus",
         eta_int_over_ext + p.offset, eta_int_over_ext, kFarthest);
   }
   return "";

@@ -71,9 +71,9 @@ const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_
 // and at most two other groups among the pulls that would explain the image nearly as well.
 std::string contradiction_sentence(const PriorPull& worst, const std::vector<PriorPull>& pulls);
 
-// Of the dipole: the shots move eta farther from the stated one than a change of the image by eta
-// is linear. Of cubes and pyramids with an index 0.09 off, the coefficients were up to 10 of their
-// deviations off, as the square of that makes them. "" elsewhere.
+// Of the dipole: the shots put eta farther from the stated one than tables are off, by three of the
+// default deviations: what looks like it is something else, such as blur at the limb of a sphere.
+// "" elsewhere.
 std::string far_eta(const std::vector<PriorPull>& pulls, double eta_int_over_ext);
 
 // Where other images see an error of the quantity already from so many of its deviations on, what

@@ -11,9 +11,9 @@ namespace {
 
 // Of share(eta), where there is any.
 template <class Share>
-double growth(const Share& share, double eta) {
+double growth(const Share& share, double eta, double step = kEtaStep) {
   const double now = share(eta);
-  return now > 0.0 ? (share(eta + kEtaStep) / now - 1.0) / kEtaStep : 0.0;
+  return now > 0.0 ? (share(eta + step) / now - 1.0) / step : 0.0;
 }
 
 }  // namespace
@@ -40,9 +40,9 @@ double rough_growth(double eta_int_over_ext, double cos_theta, bool passed) {
       eta_int_over_ext);
 }
 
-double observed_growth(double eta_int_over_ext, double cos_theta) {
+double observed_growth(double eta_int_over_ext, double cos_theta, double step) {
   return growth([&](double eta) { return 1.0 / fresnel_transmittance(eta, cos_theta); },
-                eta_int_over_ext);
+                eta_int_over_ext, step);
 }
 
 double depth_growth(double eta_int_over_ext, double cos_inside, double optical_length) {

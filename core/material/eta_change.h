@@ -17,8 +17,9 @@ double fresnel_growth(double eta_int_over_ext, bool from_outside, double cos_the
 // is as at a smooth boundary. cos_theta: of the way back; negative from inside.
 double rough_growth(double eta_int_over_ext, double cos_theta, bool passed);
 
-// Of l = pi L_o / Ft for the same radiance L_o outside. cos_theta > 0: to the viewer.
-double observed_growth(double eta_int_over_ext, double cos_theta);
+// Of l = pi L_o / Ft for the same radiance L_o outside. cos_theta > 0: to the viewer. step: of eta,
+// not 0.
+double observed_growth(double eta_int_over_ext, double cos_theta, double step = kEtaStep);
 
 // Of the density, over the depth below a plane surface, at which light that enters is scattered
 // first, or light that leaves last: sigma_t / mu exp(-optical_length), as the cosine mu inside

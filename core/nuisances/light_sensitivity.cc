@@ -1,6 +1,7 @@
 #include "core/nuisances/light_sensitivity.h"
 
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,52 @@ DistanceKnots coarse_knots(const DistanceKnots& knots) {
 
 namespace {
 
+// A view's object under a light, on patches of twice the size.
+class CoarseLight {
+ public:
+  CoarseLight(const SeenObject& seen, const SceneLight& light, std::size_t channel, LitObjects& lit)
+      : seen_(seen),
+        light_(light),
+        channel_(channel),
+        lit_(lit),
+        coarse_(seen.object->mesh(), 2.0 * seen.patches->patch_size_mm()) {}
+  SourceCloud by(const Light& other, double eta) const {
+    return SourceCloud(
+        other.illuminate(coarse_, seen_.shadowing(), eta, LightUse::kMeasure)[channel_],
+        seen_.object->box.center_mm());
+  }
+  // A light with different channels computes all of them at once; they are kept for the other
+  // channels.
+  SourceCloud nominal(double eta) const {
+    if (light_->channels() == 1) return by(*light_, eta);
+    return SourceCloud(lit_.light_on(seen_.object->stated->name, light_, channel_, coarse_, eta),
+                       seen_.object->box.center_mm());
+  }
+
+ private:
+  const SeenObject& seen_;
+  const SceneLight& light_;
+  std::size_t channel_;
+  LitObjects& lit_;
+  PatchMesh coarse_;
+};
+
+// Per unit of the quantity that changes by `by`, relative to l.
+Eigen::MatrixXd relative_change(const Eigen::MatrixXd& changed, const Eigen::MatrixXd& l,
+                                double by) {
+  return (l.array() > 0.0).select((changed - l).array() / (by * l.array()), 0.0);
+}
+
+// Of the l that are observed, for the same radiance.
+void subtract_observed(const SeenObject& seen, const Eigen::MatrixXd& l, double step,
+                       Eigen::MatrixXd& per_eta) {
+  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
+    const auto row = static_cast<Eigen::Index>(j);
+    per_eta.row(row) -= l.row(row) * observed_growth(seen.object->stated->eta_int_over_ext,
+                                                     seen.cos_to_camera(j), step);
+  }
+}
+
 // make(sites, sources, is_other_eta): of one change.
 template <class Each, class Make>
 Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size_t channel,
@@ -28,19 +75,7 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
   if (light->is_fitted()) return out;
   const ObjectScene& object = *seen.object;
   const double eta = object.stated->eta_int_over_ext;
-  const PatchMesh coarse(object.mesh(), 2.0 * seen.patches->patch_size_mm());
-  const auto lit_by = [&](const Light& other, double eta_here) {
-    const RayScene& shadows = seen.shadowing();
-    return SourceCloud(other.illuminate(coarse, shadows, eta_here, LightUse::kMeasure)[channel],
-                       object.box.center_mm());
-  };
-  // A light with different channels computes all of them at once; they are kept for the other
-  // channels.
-  const auto nominal = [&](double eta_here) {
-    if (light->channels() == 1) return lit_by(*light, eta_here);
-    return SourceCloud(lit.light_on(object.stated->name, light, channel, coarse, eta_here),
-                       object.box.center_mm());
-  };
+  const CoarseLight coarse(seen, light, channel, lit);
   std::array<std::vector<ExitSite>, 3> sites;
   sites[0] = sites_at_centers(seen);
   out.shift_mm = 0.1 * seen.patches->patch_size_mm();
@@ -61,14 +96,14 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
                                                           : seen.map.adjacent_rows);
   std::vector<ExitSite> some;
   for (const std::size_t row : out.some.rows) some.push_back(sites[0][row]);
-  const SourceCloud sources = nominal(eta);
+  const SourceCloud sources = coarse.nominal(eta);
   out.nominal = make(sites[0], sources, false);
   for (std::size_t t = 0; t < 2; ++t) out.shifted[t] = make(sites[t + 1], sources, false);
   for (const LightChange& change : light->changes(object.box.center_mm())) {
-    out.changed.push_back(make(some, lit_by(*change.changed, eta), false));
+    out.changed.push_back(make(some, coarse.by(*change.changed, eta), false));
     out.steps.push_back(change.step);
   }
-  out.other_eta = make(some, nominal(eta + kEtaStep), true);
+  out.other_eta = make(some, coarse.nominal(eta + kEtaStep), true);
   return out;
 }
 
@@ -168,15 +203,11 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
   const double eta = seen.object->stated->eta_int_over_ext;
   LightSensitivity out;
   out.l = nominal * scaled_curves(media, knots, eta);
-  const auto per_l = [](const Eigen::MatrixXd& changed, const Eigen::MatrixXd& l,
-                        double by) -> Eigen::MatrixXd {
-    return (l.array() > 0.0).select((changed - l).array() / (by * l.array()), 0.0);
-  };
   const Eigen::MatrixXd& l = images.nominal;
   const Eigen::MatrixXd some_l = l(images.some.rows, Eigen::all);
   const auto of_light = [&](const Eigen::MatrixXd& changed, double by) -> Eigen::MatrixXd {
     if (changed.size() == 0) return {};
-    const Eigen::MatrixXd all = images.some.from_rows * per_l(changed, some_l, by);
+    const Eigen::MatrixXd all = images.some.from_rows * relative_change(changed, some_l, by);
     return all.cwiseProduct(out.l);
   };
   for (std::size_t k = 0; k < images.changed.size(); ++k) {
@@ -184,16 +215,42 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
   }
   if (l.size() > 0) {
     for (std::size_t t = 0; t < 2; ++t) {
-      out.per_tangent_mm[t] = per_l(images.shifted[t], l, images.shift_mm).cwiseProduct(out.l);
+      out.per_tangent_mm[t] =
+          relative_change(images.shifted[t], l, images.shift_mm).cwiseProduct(out.l);
     }
   }
   out.per_eta = of_light(images.other_eta, kEtaStep);
-  if (out.per_eta.size() == 0) return out;
-  for (std::size_t j = 0; j < seen.sites.size(); ++j) {
-    const auto row = static_cast<Eigen::Index>(j);
-    out.per_eta.row(row) -= out.l.row(row) * observed_growth(eta, seen.cos_to_camera(j));
-  }
+  if (out.per_eta.size() > 0) subtract_observed(seen, out.l, kEtaStep, out.per_eta);
   return out;
+}
+
+void set_far_per_eta(const SeenObject& seen, const SceneLight& light, std::size_t channel,
+                     LitObjects& lit, const DistanceKnots& knots,
+                     const std::vector<LitMedium>& media, const std::vector<double>& offsets,
+                     LightSensitivity& sensitivity) {
+  std::map<double, std::vector<Eigen::Index>> of_offset;
+  for (std::size_t m = 0; m < media.size(); ++m) {
+    if (offsets.at(m) != 0.0) of_offset[offsets[m]].push_back(static_cast<Eigen::Index>(m));
+  }
+  if (light->is_fitted() || of_offset.empty()) return;
+  const double eta = seen.object->stated->eta_int_over_ext;
+  const PairSumOptions pairs = coarse_pair_options(knots);
+  const DistanceKnots few = coarse_knots(knots);
+  const std::vector<ExitSite> sites = sites_at_centers(seen);
+  const CoarseLight coarse(seen, light, channel, lit);
+  const auto image = [&](double eta_here, const std::vector<LitMedium>& some) {
+    return smooth_images(sites, coarse.nominal(eta_here), few, pairs,
+                         scaled_curves(some, few, eta_here));
+  };
+  for (const auto& [offset, columns] : of_offset) {
+    std::vector<LitMedium> some;
+    for (const Eigen::Index m : columns) some.push_back(media[static_cast<std::size_t>(m)]);
+    const Eigen::MatrixXd l = sensitivity.l(Eigen::all, columns);
+    Eigen::MatrixXd per_eta =
+        relative_change(image(eta + offset, some), image(eta, some), offset).cwiseProduct(l);
+    subtract_observed(seen, l, offset, per_eta);
+    sensitivity.per_eta(Eigen::all, columns) = per_eta;
+  }
 }
 
 }  // namespace scattermeter

@@ -88,4 +88,12 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
                              const ChangedImages& images, const std::vector<LitMedium>& media,
                              const DistanceKnots& knots);
 
+// Takes the change by eta, per unit, over each medium's own step, which is as far from the stated
+// eta as its image puts it; where that is 0, as it is. So far off, the change is not linear.
+// sensitivity: of the same view, light and media.
+void set_far_per_eta(const SeenObject& seen, const SceneLight& light, std::size_t channel,
+                     LitObjects& lit, const DistanceKnots& knots,
+                     const std::vector<LitMedium>& media, const std::vector<double>& offsets,
+                     LightSensitivity& sensitivity);
+
 }  // namespace scattermeter

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,8 +43,9 @@ capture::RawFrame blurred(const capture::RawFrame& frame, std::array<double, 2> 
 
 class FocusTest : public ::testing::Test {
  protected:
-  FocusTest()
-      : rig_(bodies_rig(480, 1.4, {{"m", plastic()}}, {"cube"})),
+  explicit FocusTest(const std::string& body = "cube")
+      : body_(body),
+        rig_(bodies_rig(480, 1.4, {{"m", plastic()}}, {body})),
         scenes_(bodies_scenes(rig_)),
         pose_(calib::pose_from_points(rig_.scene, rig_.pose)),
         virtual_(rig_, scenes_, VirtualShotOptions{.noise = true}),
@@ -53,10 +55,11 @@ class FocusTest : public ::testing::Test {
   }
   // Size of a pixel on the object.
   double px_mm() const {
-    const Eigen::Vector3d center = pose_.camera_from_world * scenes_.at("cube").box.center_mm();
+    const Eigen::Vector3d center = pose_.camera_from_world * scenes_.at(body_).box.center_mm();
     return center.z() / rig_.scene.camera.intrinsics.fx_px;
   }
 
+  std::string body_;
   Rig rig_;
   ObjectScenes scenes_;
   PoseResult pose_;
@@ -83,9 +86,19 @@ TEST_F(FocusTest, BlurInOneDirectionIsToldFromThatInAll) {
   EXPECT_NEAR(seen.largest_std_mm() / px_mm(), 2.0, 0.4);
 }
 
-TEST_F(FocusTest, RoundBodiesTellNothing) {
-  scenes_.at("cube").is_round = true;
-  EXPECT_FALSE(edge_blur(rig_, scenes_, rig_.scene.shots[0], frame(0), pose_).is_measured);
+class FocusOnASphere : public FocusTest {
+ protected:
+  FocusOnASphere() : FocusTest("sphere") {}
+};
+
+TEST_F(FocusOnASphere, BlurIsMeasuredOnTheLimb) {
+  const SceneShot& shot = rig_.scene.shots[0];
+  const EdgeBlur sharp = edge_blur(rig_, scenes_, shot, frame(0), pose_);
+  EXPECT_TRUE(sharp.is_measured);
+  EXPECT_LT(sharp.largest_std_mm(), 0.35 * px_mm());
+  const EdgeBlur seen = edge_blur(rig_, scenes_, shot, blurred(frame(0), {2.0, 1.0}), pose_);
+  EXPECT_NEAR(std::sqrt(seen.mm2(0, 0)) / px_mm(), 2.0, 0.4);
+  EXPECT_NEAR(std::sqrt(seen.mm2(1, 1)) / px_mm(), 1.0, 0.4);
 }
 
 TEST_F(FocusTest, BlurThatIsNotSmallRefuses) {

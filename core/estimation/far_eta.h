@@ -1,0 +1,18 @@
+// Where the images put an eta that is far from the stated one.
+#pragma once
+
+#include <vector>
+
+#include "core/estimation/channel_result.h"
+
+namespace scattermeter {
+
+// From the stated eta, by channel; 0: near it.
+using EtaOffsets = std::vector<double>;
+
+// What eta changes is not quite proportional to its offset, so where an image puts it 0.03 and more
+// from the stated one, its change is taken over that offset, to 0.01. Takes the offsets that the
+// channels find; returns for which of the converged results it is another one now.
+std::vector<bool> take_far_etas(const std::vector<ChannelResult>& results, EtaOffsets& offsets);
+
+}  // namespace scattermeter
