@@ -16,6 +16,10 @@ double growth(const Share& share, double eta, double step = kEtaStep) {
   return now > 0.0 ? (share(eta + step) / now - 1.0) / step : 0.0;
 }
 
+double sin2_outside(double eta, double cos_inside) {
+  return eta * eta * (1.0 - cos_inside * cos_inside);
+}
+
 }  // namespace
 
 double fresnel_growth(double eta_int_over_ext, bool from_outside, double cos_theta, bool passed) {
@@ -50,11 +54,14 @@ double depth_growth(double eta_int_over_ext, double cos_inside, double optical_l
   return (1.0 - cos2) / (eta_int_over_ext * cos2) * (optical_length - 1.0);
 }
 
+bool is_refracted(double eta_int_over_ext, double cos_inside) {
+  return cos_inside > 0.0 && sin2_outside(eta_int_over_ext, cos_inside) < 1.0;
+}
+
 double entry_growth(double eta_int_over_ext, double cos_inside) {
-  const double sin2 =
-      eta_int_over_ext * eta_int_over_ext * (1.0 - cos_inside * cos_inside);  // outside
-  if (!(cos_inside > 0.0 && sin2 < 1.0)) return 0.0;
-  return fresnel_growth(eta_int_over_ext, true, std::sqrt(1.0 - sin2), true);
+  if (!is_refracted(eta_int_over_ext, cos_inside)) return 0.0;
+  const double cos_outside = std::sqrt(1.0 - sin2_outside(eta_int_over_ext, cos_inside));
+  return fresnel_growth(eta_int_over_ext, true, cos_outside, true);
 }
 
 double exit_growth(double eta_int_over_ext, double cos_inside, double optical_length) {

@@ -26,7 +26,10 @@ double observed_growth(double eta_int_over_ext, double cos_theta, double step = 
 // changes with the direction outside given. cos_inside: mu > 0.
 double depth_growth(double eta_int_over_ext, double cos_inside, double optical_length);
 
-// Of light that enters from a given direction; 0 unless cos_inside is that of a refracted ray.
+// Whether light that entered by refraction may have this cosine inside.
+bool is_refracted(double eta_int_over_ext, double cos_inside);
+
+// Of light that enters from a given direction; 0 unless is_refracted().
 double entry_growth(double eta_int_over_ext, double cos_inside);
 
 // Of light that flies so far from its last scattering and leaves in a given direction, but for the

@@ -26,7 +26,7 @@ struct LightPath {
   // (or enters in a direction that no refracted ray has, as a beam may).
   void enter(double eta, double cos_inside) {
     flown_from_mm = length_mm;
-    cos_entered = eta * eta * (1.0 - cos_inside * cos_inside) < 1.0 ? cos_inside : 0.0;
+    cos_entered = is_refracted(eta, cos_inside) ? cos_inside : 0.0;
   }
   // It is scattered at the end of its step.
   void end_flight(double eta, double mean_free_path_mm) {

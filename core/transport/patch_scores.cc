@@ -14,23 +14,24 @@ struct Tally {
   std::vector<Eigen::Vector3d> sum;
   void escape(const PathScore&) {}
   void camera(const PathScore& s) {
-    sum[static_cast<std::size_t>(patch_of(*patches, *mesh, s).patch_idx)] +=
+    sum[static_cast<std::size_t>(patch_of(*patches, *mesh, s.facet_idx, s.point_mm).patch_idx)] +=
         s.weight * Eigen::Vector3d(1.0, s.scatterings, s.length_mm);
   }
 };
 
 }  // namespace
 
-PatchPoint patch_of(const PatchMesh& patches, const TriangleMesh& mesh, const PathScore& score) {
-  const auto& t = mesh.triangles[static_cast<std::size_t>(score.facet_idx)];
+PatchPoint patch_of(const PatchMesh& patches, const TriangleMesh& mesh, int facet_idx,
+                    const Eigen::Vector3d& point_mm) {
+  const auto& t = mesh.triangles[static_cast<std::size_t>(facet_idx)];
   const Eigen::Vector3d& a = mesh.vertices_mm[static_cast<std::size_t>(t[0])];
   const Eigen::Vector3d ab = mesh.vertices_mm[static_cast<std::size_t>(t[1])] - a;
   const Eigen::Vector3d ac = mesh.vertices_mm[static_cast<std::size_t>(t[2])] - a;
-  const Eigen::Vector3d ap = score.point_mm - a;
+  const Eigen::Vector3d ap = point_mm - a;
   const Eigen::Vector3d normal = ab.cross(ac);
   const double v = normal.dot(ap.cross(ac)) / normal.squaredNorm();
   const double w = normal.dot(ab.cross(ap)) / normal.squaredNorm();
-  return patches.locate(score.facet_idx, {1.0 - v - w, v, w});
+  return patches.locate(facet_idx, {1.0 - v - w, v, w});
 }
 
 PatchScores patch_scores(const PatchMesh& patches, const PathWorld& world,

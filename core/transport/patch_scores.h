@@ -26,7 +26,8 @@ struct PatchScores {
 PatchScores patch_scores(const PatchMesh& patches, const PathWorld& world,
                          const PathOptions& options, int first, int end);
 
-// The patch that a score fell on, and where.
-PatchPoint patch_of(const PatchMesh& patches, const TriangleMesh& mesh, const PathScore& score);
+// The patch of a point of a facet, and where on it.
+PatchPoint patch_of(const PatchMesh& patches, const TriangleMesh& mesh, int facet_idx,
+                    const Eigen::Vector3d& point_mm);
 
 }  // namespace scattermeter

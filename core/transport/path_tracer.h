@@ -103,7 +103,7 @@ class PathTracer {
           path.length_mm += step_mm;
         }
       }
-      if (path.scatterings == 0 && path.cos_entered > 0.0 && path.flown_from_mm == 0.0) {
+      if (path.cos_entered > 0.0 && path.flown_from_mm == 0.0) {
         path.per_eta += entry_sideways_growth(world_.boundary, entry, eta_, path.length_mm);
       }
       if (!scatters(albedo_, path)) return;

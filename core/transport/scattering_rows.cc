@@ -19,7 +19,7 @@ class RowTally {
 
   void escape(const PathScore&) {}
   void camera(const PathScore& score) {
-    const std::int32_t row = row_of(*view_, *mesh_, score);
+    const std::int32_t row = row_of(*view_, *mesh_, score.facet_idx, score.point_mm);
     if (row < 0) return;
     weight[row] += score.weight;
     weight_n[row] += score.weight * score.scatterings;

@@ -18,8 +18,9 @@ ScatteringView scattering_view(const PatchMesh& patches, const std::vector<int>&
   return view;
 }
 
-std::int32_t row_of(const ScatteringView& view, const TriangleMesh& mesh, const PathScore& score) {
-  const int patch = patch_of(*view.patches, mesh, score).patch_idx;
+std::int32_t row_of(const ScatteringView& view, const TriangleMesh& mesh, int facet_idx,
+                    const Eigen::Vector3d& point_mm) {
+  const int patch = patch_of(*view.patches, mesh, facet_idx, point_mm).patch_idx;
   return view.row_of_patch[static_cast<std::size_t>(patch)];
 }
 

@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include "core/mesh/patch_mesh.h"
-#include "core/transport/path_score.h"
 
 namespace scattermeter {
 
@@ -19,7 +18,8 @@ struct ScatteringView {
   Eigen::VectorXd area_mm2;  // of the rows' patches
 };
 ScatteringView scattering_view(const PatchMesh& patches, const std::vector<int>& patch_of_row);
-// The row on which a score fell; -1: none.
-std::int32_t row_of(const ScatteringView& view, const TriangleMesh& mesh, const PathScore& score);
+// The row of a point of a facet; -1: none.
+std::int32_t row_of(const ScatteringView& view, const TriangleMesh& mesh, int facet_idx,
+                    const Eigen::Vector3d& point_mm);
 
 }  // namespace scattermeter

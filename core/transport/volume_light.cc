@@ -31,7 +31,7 @@ struct FieldTally {
   }
   void escape(const PathScore&) {}
   void camera(const PathScore& s) {
-    const PatchPoint at = patch_of(*patches, *mesh, s);
+    const PatchPoint at = patch_of(*patches, *mesh, s.facet_idx, s.point_mm);
     const auto& node = field->nodes_of(at.patch_idx);
     if (node[0] < 0) return;
     for (int i = 0; i < 3; ++i) {

@@ -21,7 +21,7 @@ class TiltTally {
 
   void escape(const PathScore&) {}
   void camera(const PathScore& score) {
-    const std::int32_t row = row_of(*view_, boundary_->scene().mesh(), score);
+    const std::int32_t row = row_at(score.facet_idx, score.point_mm);
     if (row < 0) return;
     tilts_->add(score.weight, score.length_mm, sum.col(row).data());
     const double growth = score.per_eta + sideways(score, row);
@@ -29,18 +29,19 @@ class TiltTally {
   }
 
  private:
+  std::int32_t row_at(int facet_idx, const Eigen::Vector3d& point_mm) const {
+    return row_of(*view_, boundary_->scene().mesh(), facet_idx, point_mm);
+  }
   // Of its row's light. To find the rows beside takes longer than all else: some scores count for
   // all. Of faces alone: a row of many facets ends on others.
   double sideways(const PathScore& score, std::int32_t row) {
     constexpr int kOneOf = 4;
     if (boundary_->body().planes.empty() || ++scores_ % kOneOf != 0) return 0.0;
-    const auto plane = static_cast<std::size_t>(score.facet_idx);
+    const int plane = boundary_->body().plane_of_facet[static_cast<std::size_t>(score.facet_idx)];
     return kOneOf *
            sideways_growth(score.point_mm, score.moved_mm_per_eta, [&](const Eigen::Vector3d& x) {
-             PathScore there = score;
-             there.point_mm = x;
-             there.facet_idx = boundary_->facet_holding(boundary_->body().plane_of_facet[plane], x);
-             return there.facet_idx >= 0 && row_of(*view_, boundary_->scene().mesh(), there) == row;
+             const int facet_idx = boundary_->facet_holding(plane, x);
+             return facet_idx >= 0 && row_at(facet_idx, x) == row;
            });
   }
 

@@ -32,7 +32,8 @@ TEST(PatchScores, FindsThePatch) {
     PathScore score;
     score.facet_idx = world.patches.facet_idx(k);
     score.point_mm = world.patches.center_mm(k);
-    const PatchPoint at = patch_of(world.patches, world.scene.mesh(), score);
+    const PatchPoint at =
+        patch_of(world.patches, world.scene.mesh(), score.facet_idx, score.point_mm);
     EXPECT_EQ(at.patch_idx, k);
     EXPECT_LT((at.barycentric - Eigen::Vector3d::Constant(1.0 / 3.0)).norm(), 1e-9);
   }

@@ -1,5 +1,7 @@
 #include "core/transport/scattering_view.h"
 
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
 #include "tests/fixtures/core/boxes.h"
@@ -13,11 +15,8 @@ struct TwoRows {
   ScatteringView view = scattering_view(patches, {7, 3});
 };
 
-PathScore score_at(const TwoRows& s, int patch) {
-  PathScore score;
-  score.point_mm = s.patches.center_mm(patch);
-  score.facet_idx = s.patches.facet_idx(patch);
-  return score;
+std::int32_t row_of_patch(const TwoRows& s, int patch) {
+  return row_of(s.view, s.mesh, s.patches.facet_idx(patch), s.patches.center_mm(patch));
 }
 
 TEST(ScatteringView, RowsAreThePatchesAskedFor) {
@@ -27,11 +26,11 @@ TEST(ScatteringView, RowsAreThePatchesAskedFor) {
   EXPECT_EQ(s.view.area_mm2[1], s.patches.area_mm2(3));
 }
 
-TEST(ScatteringView, AScoreFallsOnTheRowOfItsPatch) {
+TEST(ScatteringView, APointLiesOnTheRowOfItsPatch) {
   const TwoRows s;
-  EXPECT_EQ(row_of(s.view, s.mesh, score_at(s, 7)), 0);
-  EXPECT_EQ(row_of(s.view, s.mesh, score_at(s, 3)), 1);
-  EXPECT_EQ(row_of(s.view, s.mesh, score_at(s, 4)), -1);
+  EXPECT_EQ(row_of_patch(s, 7), 0);
+  EXPECT_EQ(row_of_patch(s, 3), 1);
+  EXPECT_EQ(row_of_patch(s, 4), -1);
 }
 
 }  // namespace
