@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -10,6 +12,7 @@ namespace scattermeter::apps {
 namespace {
 
 constexpr double kGreensDiffer = 0.05;
+constexpr double kMostHot = 0.01;
 
 // Light of the green sites in even rows over that in odd rows, where neither is dark or clipped; 1
 // where there are too few of them.
@@ -44,32 +47,68 @@ double green_ratio(const capture::RawFrame& frame) {
   return cells >= kLeastCells ? sum[0] / sum[1] : 1.0;
 }
 
+// Share of the samples, in some of the rows, that are brighter than the nearest four of their
+// filter by a twentieth of the range and more.
+double hot_share(const capture::RawFrame& frame) {
+  constexpr double kOfRange = 0.05;
+  constexpr int kRows = 7;  // odd: of either filter
+  const double by = kOfRange * (frame.white_counts - frame.black_counts[0]);
+  std::size_t hot = 0, all = 0;
+  for (int y = 2; y + 2 < frame.height_px; y += kRows) {
+    for (int x = 2; x + 2 < frame.width_px; ++x) {
+      const int around = std::max(
+          {frame.at(x - 2, y), frame.at(x + 2, y), frame.at(x, y - 2), frame.at(x, y + 2)});
+      hot += frame.at(x, y) > around + by ? 1 : 0;
+      ++all;
+    }
+  }
+  return all > 0 ? static_cast<double>(hot) / static_cast<double>(all) : 0.0;
+}
+
 }  // namespace
 
 void FrameWatch::look(std::size_t shot_idx, const capture::RawFrame& frame) {
-  const double ratio = green_ratio(frame);
+  const Seen seen{green_ratio(frame), hot_share(frame)};
   const std::lock_guard lock(mutex_);
-  green_ratio_[shot_idx] = ratio;
+  seen_[shot_idx] = seen;
 }
 
 std::vector<Finding> FrameWatch::findings() const {
-  Finding finding;
-  double worst = 0.0;
-  for (const auto& [shot_idx, ratio] : green_ratio_) {
-    const double off = std::abs(ratio - 1.0);
-    if (!(off > kGreensDiffer)) continue;
-    worst = std::max(worst, off);
-    finding.shots.push_back(shot_idx);
-  }
-  if (finding.shots.empty()) return {};
-  finding.cause = "colour filters";
-  finding.text =
-      fmt::format("colour filters exchanged: the two green sites of {} differ by {:.0f} %",
-                  scene_.shots[finding.shots.front()].file, 100.0 * worst);
-  finding.advice =
-      "the pattern that the file states is not that of the sensor; use raw files as "
-      "the camera wrote them";
-  return {finding};
+  std::vector<Finding> out;
+  // Of the shots for which of(seen) is more than `most`; text: with its largest value.
+  const auto add = [&](const auto& of, double most, Finding finding, const auto& text) {
+    double worst = 0.0;
+    for (const auto& [shot_idx, seen] : seen_) {
+      if (!(of(seen) > most)) continue;
+      worst = std::max(worst, of(seen));
+      finding.shots.push_back(shot_idx);
+    }
+    if (finding.shots.empty()) return;
+    finding.text = text(scene_.shots[finding.shots.front()].file, 100.0 * worst);
+    out.push_back(std::move(finding));
+  };
+  add([](const Seen& seen) { return std::abs(seen.green_ratio - 1.0); }, kGreensDiffer,
+      {"colour filters",
+       "",
+       "the pattern that the file states is not that of the sensor; use raw files as "
+       "the camera wrote them",
+       {}},
+      [](const std::string& file, double percent) {
+        return fmt::format("colour filters exchanged: the two green sites of {} differ by {:.0f} %",
+                           file, percent);
+      });
+  add([](const Seen& seen) { return seen.hot_share; }, kMostHot,
+      {"hot pixels",
+       "",
+       "take shorter exposures with a cooler camera, or list its hot pixels by `scattermeter "
+       "calibrate radiance`",
+       {}},
+      [](const std::string& file, double percent) {
+        return fmt::format(
+            "hot pixels: {:.1f} % of the samples of {} are far brighter than their neighbours",
+            percent, file);
+      });
+  return out;
 }
 
 }  // namespace scattermeter::apps

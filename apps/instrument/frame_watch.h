@@ -1,4 +1,5 @@
-// What the first frames of the shots say about their colour filters, while they are opened.
+// What the first frames of the shots say about their colour filters and hot pixels, while they are
+// opened.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +24,18 @@ class FrameWatch {
   void look(std::size_t shot_idx, const capture::RawFrame& frame);
 
   // Shots whose two green sites differ by more than 5 %: their pattern of colour filters is not
-  // that of the file. (Green sites of real sensors differ by at most 2 %.)
+  // that of the file. (Green sites of real sensors differ by at most 2 %.) And shots of which more
+  // than 1 % of the samples stand out from their neighbours: so many are not taken for noise and
+  // not left out as single outliers, but make rows too bright.
   std::vector<Finding> findings() const;
 
  private:
   const Scene& scene_;
   mutable std::mutex mutex_;
-  std::map<std::size_t, double> green_ratio_;  // by index of the shot
+  struct Seen {
+    double green_ratio, hot_share;
+  };
+  std::map<std::size_t, Seen> seen_;  // by index of the shot
 };
 
 }  // namespace scattermeter::apps

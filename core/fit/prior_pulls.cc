@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/core.h>
 #include <fmt/format.h>
@@ -42,7 +43,7 @@ double over_root(double value, double variance) {
 
 // The next step for a contradiction, by the group of the quantity.
 const char* advice(const std::string& group) {
-  constexpr std::array<std::pair<const char*, const char*>, 20> kAdvice = {{
+  constexpr std::array<std::pair<const char*, const char*>, 21> kAdvice = {{
       {"pose", "check the pose points, and that neither camera nor object has moved"},
       {"camera shift", "fasten camera and object, and take the shot again"},
       {"lens", "calibrate the camera at this focus, and check the mesh's proportions"},
@@ -61,6 +62,7 @@ const char* advice(const std::string& group) {
       {"even light", "switch off other lamps, or list an ambient light"},
       {"surroundings", "state the surroundings, or put the object on a black stand"},
       {"pedestal", "check the black level, and look for stray light and glare in the lens"},
+      {"halo", "clean the lens, shade it from the LEDs, and darken what lies beside the object"},
       {"exposure time", "calibrate the camera's radiance"},
       {"radiance", "measure the radiance of the environment again"},
   }};
@@ -202,10 +204,16 @@ ModelJudgement judge(const WhitenedModel& model) {
 const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_pull,
                                double least_image, double least_explained) {
   const PriorPull* worst = nullptr;
+  const auto is_visible = [&](const PriorPull& p) { return p.image_relative > least_image; };
   for (const PriorPull& p : pulls) {
-    if (!(std::abs(p.pull) > most_pull) || !(p.image_relative > least_image)) continue;
+    if (!(std::abs(p.pull) > (is_visible(p) ? most_pull : std::max(most_pull, kClearPull)))) {
+      continue;
+    }
     if (!(p.explained_relative > least_explained)) continue;
-    if (worst == nullptr || std::abs(p.pull) > std::abs(worst->pull)) worst = &p;
+    if (worst == nullptr || std::pair(is_visible(p), std::abs(p.pull)) >
+                                std::pair(is_visible(*worst), std::abs(worst->pull))) {
+      worst = &p;
+    }
   }
   return worst;
 }

@@ -251,6 +251,17 @@ TEST(PriorPulls, ContradictionIsSignificantAndVisible) {
   EXPECT_EQ(contradiction(pulls, 10.0, 1e-3), nullptr);
 }
 
+// What changes nothing that is visible counts only where it is clear, and after what does.
+TEST(PriorPulls, AClearContradictionNeedNotBeVisible) {
+  const auto of_pose = [](double pull) {
+    return std::vector<PriorPull>{{"pose0", "pose", pull, 1.0, 1e-5}};
+  };
+  EXPECT_EQ(contradiction(of_pose(4.9), 4.0, 1e-3), nullptr);
+  const std::vector<PriorPull> clear = of_pose(-5.1);
+  ASSERT_EQ(contradiction(clear, 4.0, 1e-3), &clear.front());
+  EXPECT_EQ(contradiction(clear, 6.0, 1e-3), nullptr);
+}
+
 TEST(PriorPulls, EtaFartherThanTablesAreOff) {
   std::vector<PriorPull> pulls(2);
   pulls[0].group = "scale";
