@@ -32,9 +32,13 @@ BackgroundLevel background_level(const RawFrame& frame, int x0, int y0, int widt
   std::array<std::vector<double>, kChannels> stds;
   for (int top = 0; top + out.block_px <= frame.height_px; top += out.block_px) {
     for (int left = 0; left + out.block_px <= frame.width_px; left += out.block_px) {
-      const bool clear = left + out.block_px <= x0 || left >= x0 + width ||
-                         top + out.block_px <= y0 || top >= y0 + height;
-      if (!clear) continue;
+      // Of the rectangle, enlarged by `by` on each side.
+      const auto is_clear = [&](int by) {
+        return left + out.block_px <= x0 - by || left >= x0 + width + by ||
+               top + out.block_px <= y0 - by || top >= y0 + height + by;
+      };
+      if (!is_clear(0)) continue;
+      const bool is_beside = !is_clear(out.block_px);
       std::array<BlockSum, kChannels> sums;
       for (int y = top; y < top + out.block_px; ++y) {
         for (int x = left; x < left + out.block_px; ++x) {
@@ -47,16 +51,19 @@ BackgroundLevel background_level(const RawFrame& frame, int x0, int y0, int widt
         }
       }
       ++out.blocks;
+      if (is_beside) ++out.blocks_beside;
       for (std::size_t c = 0; c < kChannels; ++c) {
         const BlockSum& s = sums[c];
         const double mean = s.sum / s.n;
         means[c].push_back(mean);
+        if (is_beside) out.beside_counts[c] += mean;
         stds[c].push_back(std::sqrt(std::max(0.0, s.squares / s.n - mean * mean) / s.n));
       }
     }
   }
   if (out.blocks == 0) return out;
   for (std::size_t c = 0; c < kChannels; ++c) {
+    if (out.blocks_beside > 0) out.beside_counts[c] /= static_cast<double>(out.blocks_beside);
     out.darkest_counts[c] = quantile(means[c], 0.1);
     out.median_counts[c] = quantile(means[c], 0.5);
     out.block_std_counts[c] = quantile(stds[c], 0.5);

@@ -18,6 +18,9 @@ struct BackgroundLevel {
   std::array<double, kChannels> darkest_counts{};
   std::array<double, kChannels> median_counts{};
   std::array<double, kChannels> block_std_counts{};  // of a block mean, from the scatter of samples
+  // The mean of the blocks that touch the rectangle or lie within a block's edge of it.
+  std::size_t blocks_beside = 0;
+  std::array<double, kChannels> beside_counts{};
 };
 
 // The background outside the rectangle [x0, x0 + width) x [y0, y0 + height), in px of the frame.

@@ -162,6 +162,7 @@ std::vector<std::uint8_t> to_bytes(const DecodedShot& shot) {
                                 e.departure.mean_counts};
     numbers.insert(numbers.end(), e.pedestal_counts.begin(), e.pedestal_counts.end());
     numbers.insert(numbers.end(), e.pedestal_std_counts.begin(), e.pedestal_std_counts.end());
+    numbers.insert(numbers.end(), e.beside_counts.begin(), e.beside_counts.end());
     exposures.push_back({{"file", e.file}, {"numbers", packed(numbers)}});
   }
   const auto& mean = shot.frame_mean_counts;
@@ -198,7 +199,7 @@ std::optional<DecodedShot> decoded_shot(std::span<const std::uint8_t> bytes) {
     for (const Json& e : list(at(j, "exposures"))) {
       const Json& file = at(e, "file");
       const std::vector<double> n = unpacked<double>(at(e, "numbers"));
-      if (!file.is_string() || n.size() != 13) throw NoShot{};
+      if (!file.is_string() || n.size() != 16) throw NoShot{};
       shot.exposures.push_back({file.get<std::string>(),
                                 n[0],
                                 n[1],
@@ -206,7 +207,8 @@ std::optional<DecodedShot> decoded_shot(std::span<const std::uint8_t> bytes) {
                                 n[3],
                                 {n[4], n[5], n[6]},
                                 {n[7], n[8], n[9]},
-                                {n[10], n[11], n[12]}});
+                                {n[10], n[11], n[12]},
+                                {n[13], n[14], n[15]}});
     }
     for (const ChannelObservation& o : shot.observation.channel) {
       if (!o.exposures.empty() && o.exposures.size() != shot.exposures.size()) throw NoShot{};

@@ -45,8 +45,12 @@ Pedestal pedestal_of(const RawFrame& frame, const PixelRect& object) {
     const double level = spread < kByChance * background.block_std_counts[c]
                              ? background.median_counts[c]
                              : background.darkest_counts[c];
-    out.counts[c] = level > 0.0 ? 0.7 * level : level;
-    const double own = level > 0.0 ? 0.3 * level : 0.0;
+    const double beside = background.beside_counts[c] - level;
+    const double by_chance = kByChance * background.block_std_counts[c] /
+                             std::sqrt(static_cast<double>(background.blocks_beside));
+    out.beside_counts[c] = background.blocks_beside > 0 && beside > by_chance ? beside : 0.0;
+    out.counts[c] = level > 0.0 ? 0.5 * level : level;
+    const double own = level > 0.0 ? 0.4 * level : 0.0;
     out.std_counts[c] = std::sqrt(own * own + 0.01 + 1e-6 * mean[c] * mean[c] +
                                   background.block_std_counts[c] * background.block_std_counts[c] /
                                       static_cast<double>(background.blocks));

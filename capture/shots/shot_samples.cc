@@ -95,6 +95,7 @@ ShotSamples shot_samples(const Scene& scene, const ShotDecoding& decoding, const
       const Pedestal pedestal = pedestal_of(frames[k], {x0, y0, width, height});
       out.exposures[k].pedestal_counts = pedestal.counts;
       out.exposures[k].pedestal_std_counts = pedestal.std_counts;
+      out.exposures[k].beside_counts = pedestal.beside_counts;
     }
     bracket.push_back(std::move(of_frame.samples));
   }

@@ -1,11 +1,14 @@
 #include "core/nuisances/nuisances.h"
 
+#include <algorithm>
 #include <numbers>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "core/camera/lens.h"
 #include "core/nuisances/even_light.h"
+#include "core/nuisances/halo.h"
 #include "core/nuisances/nuisance_columns.h"
 #include "core/scene/rough_surfaces.h"
 #include "core/scene/surroundings.h"
@@ -108,6 +111,30 @@ void SceneNuisances::add_even_light(const ObservedShot& shot, Columns& columns) 
   }
 }
 
+// The background beside the object tells how strong it may be: all of what is brighter there is one
+// deviation.
+void SceneNuisances::add_halo(const ObservedShot& shot, const ChannelObservation& observed,
+                              Columns& columns) const {
+  constexpr double kMost = 0.02;
+  if (shot.exposures.empty() || !(shot.exposures.front().beside_counts[channel_] > 0.0)) return;
+  const Lens lens(scene_.camera.intrinsics);
+  std::vector<Eigen::Vector2d> at_px;
+  Eigen::VectorXd counts(static_cast<Eigen::Index>(shot.seen->sites.size()));
+  for (std::size_t row = 0; row < shot.seen->sites.size(); ++row) {
+    at_px.push_back(lens.project(shot.pose.camera_from_world * shot.seen->sites[row].center_mm));
+    const double per_count = observed.l_per_count[row];
+    counts[static_cast<Eigen::Index>(row)] =
+        per_count > 0.0 ? std::max(0.0, observed.l[row] / per_count) : 0.0;
+  }
+  const Halo whole = halo(at_px, counts);
+  if (!(whole.beside_counts > 0.0)) return;
+  const double std =
+      std::min(kMost, shot.exposures.front().beside_counts[channel_] / whole.beside_counts);
+  const Eigen::VectorXd l = whole.counts.cwiseProduct(
+      Eigen::Map<const Eigen::VectorXd>(observed.l_per_count.data(), counts.size()));
+  columns.add("halo " + shot.stated->file, "halo", std, l(columns.rows()));
+}
+
 // Far from the mirror direction, gloss is in proportion to alpha^2: it varies as a whole.
 void SceneNuisances::add_gloss(const ObservedShot& shot, Columns& columns) const {
   const SceneObject& object = *shot.seen->object->stated;
@@ -159,6 +186,7 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
     if (std > 0.0) columns.add("plane albedo", "surroundings", std, by_albedo);
   }
   add_radiance(shot, observed, predicted, columns);
+  add_halo(shot, observed, columns);
   return columns.take();
 }
 

@@ -36,7 +36,8 @@ struct NuisanceColumn {
 // covariance); lens (as many as its calibration has parameters, common to all shots, each with the
 // resulting change of the pose fitted with that lens; its effect on calibrated LEDs and scale is
 // not included); eta; the gloss of a surface that is stated as smooth; the albedo of the plane
-// below the object; each file's black level, the pedestal, glare and the exposure times (common to
+// below the object; the halo of the lens, where the background shows light beside the object; each
+// file's black level, the pedestal, glare and the exposure times (common to
 // files of the same stated time; in a bracket each affects the part of a row that comes from it).
 // Those with a standard deviation of 0 are left out, but for eta, which is then tested against the
 // image.
@@ -85,6 +86,8 @@ class SceneNuisances {
   void add_blur(const ObservedShot& shot, Columns& columns) const;
   void add_even_light(const ObservedShot& shot, Columns& columns) const;
   void add_gloss(const ObservedShot& shot, Columns& columns) const;
+  void add_halo(const ObservedShot& shot, const ChannelObservation& observed,
+                Columns& columns) const;
   Eigen::VectorXd change_by_albedo(const ObservedShot& shot,
                                    const std::vector<Eigen::Index>& rows) const;
   void add_radiance(const ObservedShot& shot, const ChannelObservation& observed,

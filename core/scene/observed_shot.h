@@ -43,6 +43,9 @@ struct ShotExposure {
   // radiance calibration, which states its own.
   std::array<double, kRgb> pedestal_counts{};
   std::array<double, kRgb> pedestal_std_counts{};
+  // How much brighter the background is beside the object than where it is darkest: a halo of the
+  // lens, or a stand that is lit. 0 where that may be chance.
+  std::array<double, kRgb> beside_counts{};
 };
 
 // Blur of the object's outline.

@@ -45,6 +45,22 @@ TEST(BackgroundLevel, SeesVeilingLight) {
   for (std::size_t c = 0; c < kChannels; ++c) EXPECT_NEAR(b.darkest_counts[c], 2.8, 0.15);
 }
 
+TEST(BackgroundLevel, SeesLightBesideTheObject) {
+  RawFrame f = level_frame(0.0, 5);
+  const BackgroundLevel even = background_level(f, 100, 80, 100, 80);
+  // About the 7 x 5 blocks that touch the object, a ring of others.
+  EXPECT_EQ(even.blocks_beside, 9U * 7U - 7U * 5U);
+  for (std::size_t c = 0; c < kChannels; ++c) EXPECT_NEAR(even.beside_counts[c], 0.0, 0.1);
+  for (int y = 60; y < 180; ++y) {
+    for (int x = 80; x < 220; ++x) f.samples[static_cast<std::size_t>(y * f.width_px + x)] += 4;
+  }
+  const BackgroundLevel lit = background_level(f, 100, 80, 100, 80);
+  for (std::size_t c = 0; c < kChannels; ++c) {
+    EXPECT_NEAR(lit.beside_counts[c], 4.0, 0.8);
+    EXPECT_NEAR(lit.darkest_counts[c], even.darkest_counts[c], 0.1);
+  }
+}
+
 TEST(BackgroundLevel, NothingBesideTheObject) {
   EXPECT_EQ(background_level(level_frame(0.0, 3), 0, 0, 320, 240).blocks, 0U);
   RawFrame empty = level_frame(0.0, 4);

@@ -28,6 +28,9 @@ TEST(DecodedShot, KeepsEveryBit) {
   EXPECT_EQ(back->exposures[1].file, "b \xff.dng");
   EXPECT_TRUE(std::isnan(back->exposures[0].departure.log_ratio));
   EXPECT_EQ(back->exposures[1].departure.mean_counts, 0.3);
+  EXPECT_EQ(back->exposures[1].pedestal_counts, shot.exposures[1].pedestal_counts);
+  EXPECT_EQ(back->exposures[1].pedestal_std_counts, shot.exposures[1].pedestal_std_counts);
+  EXPECT_EQ(back->exposures[1].beside_counts, shot.exposures[1].beside_counts);
   EXPECT_EQ(back->frame_mean_counts, shot.frame_mean_counts);
   ASSERT_TRUE(back->edge_blur);
   EXPECT_EQ(back->edge_blur->mm2, shot.edge_blur->mm2);

@@ -1,5 +1,6 @@
 #include "capture/shots/pedestal.h"
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -35,9 +36,9 @@ TEST(Pedestal, IsSeenInADarkBackground) {
   for (const double level : {0.0, 6.0, 20.0}) {
     const Pedestal p = pedestal_of(frame_over([&](int) { return level; }), kBright);
     for (std::size_t c = 0; c < kRgb; ++c) {
-      EXPECT_NEAR(p.counts[c], 0.7 * level, 0.05);
-      // The whole of the level is about one deviation off, and so is none of it two to three.
-      EXPECT_NEAR(p.std_counts[c], std::hypot(0.3 * level, 0.1, 2e-3 * 104.0), 0.1 + 0.03 * level);
+      EXPECT_NEAR(p.counts[c], 0.5 * level, 0.05);
+      // All and none of the level are a little more than one deviation off.
+      EXPECT_NEAR(p.std_counts[c], std::hypot(0.4 * level, 0.1, 2e-3 * 104.0), 0.1 + 0.03 * level);
     }
   }
 }
@@ -53,7 +54,16 @@ TEST(Pedestal, BelowBlackIsCertain) {
 TEST(Pedestal, IsThatOfTheDarkestPart) {
   const Pedestal p =
       pedestal_of(frame_over([](int x) { return 2.0 + std::max(0.0, 0.5 * (x - 80)); }), kBright);
-  EXPECT_NEAR(p.counts[1], 0.7 * 2.0, 0.2);
+  EXPECT_NEAR(p.counts[1], 0.5 * 2.0, 0.2);
+}
+
+// What is brighter beside the object than elsewhere may be a halo; an even background is none.
+TEST(Pedestal, TellsWhatIsBrighterBesideTheObject) {
+  EXPECT_EQ(pedestal_of(frame_over([](int) { return 3.0; }), kBright).beside_counts,
+            (std::array<double, kRgb>{}));
+  const Pedestal p =
+      pedestal_of(frame_over([](int x) { return x > 80 && x < 220 ? 6.0 : 1.0; }), kBright);
+  for (const double beside : p.beside_counts) EXPECT_NEAR(beside, 4.5, 0.7);
 }
 
 TEST(Pedestal, IsGuessedWhereTheObjectFillsTheFrame) {
