@@ -12,7 +12,8 @@ namespace scattermeter::apps {
 namespace {
 
 const std::vector<std::string> kAddedWords = {
-    "even light", "background", "pedestal", "glare", "black", "ambient", "light from elsewhere"};
+    "even light", "background", "pedestal", "glare",
+    "halo",       "black",      "ambient",  "light from elsewhere"};
 
 // Irradiance of the shot's LED at the object, W/mm^2.
 Eigen::Array3d led_irradiance(const TrueShot& shot) {

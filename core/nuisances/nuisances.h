@@ -31,16 +31,14 @@ struct NuisanceColumn {
 
 // The uncertain quantities of the scene: those of every light in use (Light::nuisances()); the
 // objects' positions and sizes (seven, each object moved, turned and enlarged against camera and
-// lights); even light on
-// each shot; the shift of its picture; pose (six independent combinations of each pose's
-// covariance); lens (as many as its calibration has parameters, common to all shots, each with the
-// resulting change of the pose fitted with that lens; its effect on calibrated LEDs and scale is
-// not included); eta; the gloss of a surface that is stated as smooth; the albedo of the plane
-// below the object; the halo of the lens, where the background shows light beside the object; each
-// file's black level, the pedestal, glare and the exposure times (common to
-// files of the same stated time; in a bracket each affects the part of a row that comes from it).
-// Those with a standard deviation of 0 are left out, but for eta, which is then tested against the
-// image.
+// lights); even light on each shot; the shift of its picture; pose (six independent combinations of
+// each pose's covariance); lens (as many as its calibration has parameters, common to all shots,
+// each with the resulting change of the pose fitted with that lens; its effect on calibrated LEDs
+// and scale is not included); eta; the gloss of a surface that is stated as smooth; the albedo of
+// the plane below the object; the halo of the lens, where the background shows light beside the
+// object; each file's black level, the pedestal, glare and the exposure times (common to files of
+// the same stated time; in a bracket each affects the part of a row that comes from it). Those with
+// a standard deviation of 0 are left out, but for eta, which is then tested against the image.
 class SceneNuisances {
  public:
   // Of one channel. sensitivities: for every view and light of the shots passed to columns().

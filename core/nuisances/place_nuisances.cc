@@ -237,10 +237,9 @@ Eigen::VectorXd SceneNuisances::light_by_blur(const ObservedShot& shot,
   return change_by_blur(shot, rows, shot.edge_blur->mm2);
 }
 
-// What outlines tell of the point spread is off by a share of it, as its shape is not known (across
-// slanted edges, motion by 4 px looks like 0.8 px instead of 1.2), and by what the fit to a sharp
-// edge may yield. Where they tell nothing, it may be most of a pixel. Samples without frames are
-// sharp.
+// What outlines tell of the point spread is off by a share of it, as its shape is not known (motion
+// is no Gaussian), and by what the fit to a sharp edge may yield. Where they tell nothing, it may
+// be most of a pixel. Samples without frames are sharp.
 void SceneNuisances::add_blur(const ObservedShot& shot, Columns& columns) const {
   constexpr double kShare = 1.0;
   constexpr double kSharp_px2 = 0.05;

@@ -50,7 +50,7 @@ struct ShotExposure {
 
 // Blur of the object's outline.
 struct EdgeBlur {
-  bool is_measured = false;  // false: of a round body, or where too little of the outline is seen
+  bool is_measured = false;  // false: too little of the outline is seen
   // Covariance of the point spread beyond what a sharp edge may seem to have, along the picture's
   // axes (right, down), on the object.
   Eigen::Matrix2d mm2 = Eigen::Matrix2d::Zero();
