@@ -68,7 +68,7 @@ class Limb {
   double eta_;
 };
 
-// The mean of those that are not empty; empty: there is none.
+// The mean of those that are not empty. Precondition: there is one.
 std::vector<double> mean_of(const std::vector<std::vector<double>>& limbs) {
   std::vector<double> mean;
   std::size_t n = 0;
@@ -114,22 +114,23 @@ class SeenBlur {
     constexpr double kCounts = 1000.0;
     const Eigen::Vector2d outward(1.0, 0.0);
     const EdgeShape shape(outward, blur_px);
+    std::vector<float> row;
+    for (int inwards = kHalf; inwards >= -kHalf; --inwards) {
+      double share = 0.0, before = 0.0;
+      for (std::size_t k = 0; k < limb.size(); ++k) {
+        share += (limb[k] - before) * shape.at(inwards - kStep_px * static_cast<double>(k)).s[0];
+        before = limb[k];
+      }
+      row.push_back(static_cast<float>(kCounts * share));
+    }
     CfaSamples s;
     s.width = s.height = 2 * kHalf + 1;
     s.variance_per_count = like.variance_per_count;
     for (int y = 0; y < s.height; ++y) {
-      for (int x = 0; x < s.width; ++x) {
-        double share = 0.0, before = 0.0;
-        for (std::size_t k = 0; k < limb.size() && y == 0; ++k) {
-          share +=
-              (limb[k] - before) * shape.at(kHalf - x - kStep_px * static_cast<double>(k)).s[0];
-          before = limb[k];
-        }
-        s.signal_counts.push_back(y == 0 ? static_cast<float>(kCounts * share)
-                                         : s.signal_counts[static_cast<std::size_t>(x)]);
-        s.variance_counts2.push_back(1.0F + static_cast<float>(s.variance_per_count) *
-                                                s.signal_counts.back());
-      }
+      s.signal_counts.insert(s.signal_counts.end(), row.begin(), row.end());
+    }
+    for (const float counts : s.signal_counts) {
+      s.variance_counts2.push_back(1.0F + static_cast<float>(s.variance_per_count) * counts);
     }
     s.clipped.assign(s.signal_counts.size(), 0);
     return locate_edge(s, Eigen::Vector2d::Constant(kHalf), outward, strip_options()).blur_px;
@@ -158,6 +159,10 @@ std::optional<Eigen::Matrix2d> limb_blur_px2(const EdgeShot& shot,
     found[i] = locate_edge(shot.samples, p.at_px, p.outward, strip_options());
     if (found[i].found) limbs[i] = limb.at(p);
   });
+  if (static_cast<std::size_t>(std::count_if(
+          found.begin(), found.end(), [](const EdgeStrip& s) { return s.found; })) < kLeastPieces) {
+    return std::nullopt;
+  }
   std::vector<BlurAcross> blurs;
   const SeenBlur seen(mean_of(limbs), shot.samples);
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -165,7 +170,6 @@ std::optional<Eigen::Matrix2d> limb_blur_px2(const EdgeShot& shot,
       blurs.push_back({points[i * stride].outward, seen.true_px2(found[i].blur_px)});
     }
   }
-  if (blurs.size() < kLeastPieces) return std::nullopt;
   return point_spread_px2(blurs);
 }
 
