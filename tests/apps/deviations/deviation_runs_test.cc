@@ -3,6 +3,8 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -107,28 +109,48 @@ TEST(DeviationRuns, NoWrongOk) {
     if (result.run.kind->name == "LED intensity in another unit") {
       EXPECT_EQ(result.judged.verdict, DeviationVerdict::kRefused) << deviation_line(result);
     }
+    if (result.run.kind->name == "hot pixels" && result.run.size_idx == 2) {
+      EXPECT_EQ(result.judged.verdict, DeviationVerdict::kRefused) << deviation_line(result);
+      EXPECT_TRUE(result.judged.names_cause) << deviation_line(result);
+    }
   };
   const std::vector<DeviationResult> results = bench_deviations(options);
   EXPECT_EQ(results.size(), 3U * (1 + 1 + 3 + 3));
   EXPECT_EQ(seen, static_cast<int>(results.size()));
 }
 
-// Out of focus by 1.5 px or moved by 4 px, where the mean free path is 3 to 12 px.
-TEST(DeviationRuns, BlurredShotsAreMeasuredRight) {
-  DeviationOptions options;
-  options.image_width_px = 484;
-  options.runs = 0;
-  options.rendering = DeviationRendering::kDipole;
-  options.bodies = {"cube", "pyramid"};
-  options.kinds = {"out of focus", "motion blur"};
-  options.sizes = {1};
-  options.run_seed = 2;
-  int given = 0;
-  for (const DeviationResult& result : bench_deviations(options)) {
-    EXPECT_NE(result.judged.verdict, DeviationVerdict::kWrongOk) << deviation_line(result);
-    given += result.judged.verdict == DeviationVerdict::kRight ? 1 : 0;
+// Deviations that the estimate follows: at least three quarters of the answers are given, and none
+// of these is wrong.
+class DeviationsFollowed : public ::testing::Test {
+ protected:
+  static void expect_right(const std::vector<std::string>& kinds, int size,
+                           const std::vector<std::string>& bodies) {
+    DeviationOptions options;
+    options.image_width_px = 484;
+    options.runs = 0;
+    options.rendering = DeviationRendering::kDipole;
+    options.bodies = bodies;
+    options.kinds = kinds;
+    options.sizes = {size};
+    options.run_seed = 2;
+    int given = 0;
+    const std::vector<DeviationResult> results = bench_deviations(options);
+    for (const DeviationResult& result : results) {
+      EXPECT_NE(result.judged.verdict, DeviationVerdict::kWrongOk) << deviation_line(result);
+      given += result.judged.verdict == DeviationVerdict::kRight ? 1 : 0;
+    }
+    EXPECT_GE(4 * given, 3 * static_cast<int>(results.size()));
   }
-  EXPECT_GE(given, 2 * 2 * 2 * 3 * 3 / 4);
+};
+
+// Out of focus by 1.5 px or moved by 4 px, where the mean free path is 3 to 12 px.
+TEST_F(DeviationsFollowed, Blur) {
+  expect_right({"out of focus", "motion blur"}, 1, {"cube", "pyramid", "sphere"});
+}
+
+// By 0.09, and 5 % of the light about the object.
+TEST_F(DeviationsFollowed, EtaFarOffAndHalos) {
+  expect_right({"eta off", "halo of the lens"}, 2, {"cube", "pyramid"});
 }
 
 // A wrong answer would be noticed: the same answers, judged by another truth.
