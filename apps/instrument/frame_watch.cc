@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include <fmt/core.h>
@@ -68,46 +67,44 @@ double hot_share(const capture::RawFrame& frame) {
 }  // namespace
 
 void FrameWatch::look(std::size_t shot_idx, const capture::RawFrame& frame) {
-  const Seen seen{green_ratio(frame), hot_share(frame)};
+  const Seen seen{std::abs(green_ratio(frame) - 1.0), hot_share(frame)};
   const std::lock_guard lock(mutex_);
   seen_[shot_idx] = seen;
 }
 
 std::vector<Finding> FrameWatch::findings() const {
-  std::vector<Finding> out;
-  // Of the shots for which of(seen) is more than `most`; text: with its largest value.
-  const auto add = [&](const auto& of, double most, Finding finding, const auto& text) {
-    double worst = 0.0;
+  // The shots of which that is more than `most`, and its largest value.
+  const auto beyond = [&](double Seen::*of, double most) {
+    std::pair<std::vector<std::size_t>, double> out;
     for (const auto& [shot_idx, seen] : seen_) {
-      if (!(of(seen) > most)) continue;
-      worst = std::max(worst, of(seen));
-      finding.shots.push_back(shot_idx);
+      if (!(seen.*of > most)) continue;
+      out.first.push_back(shot_idx);
+      out.second = std::max(out.second, seen.*of);
     }
-    if (finding.shots.empty()) return;
-    finding.text = text(scene_.shots[finding.shots.front()].file, 100.0 * worst);
-    out.push_back(std::move(finding));
+    return out;
   };
-  add([](const Seen& seen) { return std::abs(seen.green_ratio - 1.0); }, kGreensDiffer,
-      {"colour filters",
-       "",
-       "the pattern that the file states is not that of the sensor; use raw files as "
-       "the camera wrote them",
-       {}},
-      [](const std::string& file, double percent) {
-        return fmt::format("colour filters exchanged: the two green sites of {} differ by {:.0f} %",
-                           file, percent);
-      });
-  add([](const Seen& seen) { return seen.hot_share; }, kMostHot,
-      {"hot pixels",
-       "",
-       "take shorter exposures with a cooler camera, or list its hot pixels by `scattermeter "
-       "calibrate radiance`",
-       {}},
-      [](const std::string& file, double percent) {
-        return fmt::format(
-            "hot pixels: {:.1f} % of the samples of {} are far brighter than their neighbours",
-            percent, file);
-      });
+  const auto first = [&](const std::vector<std::size_t>& shots) {
+    return scene_.shots[shots.front()].file;
+  };
+  std::vector<Finding> out;
+  if (const auto& [shots, worst] = beyond(&Seen::greens_differ, kGreensDiffer); !shots.empty()) {
+    out.push_back(
+        {"colour filters",
+         fmt::format("colour filters exchanged: the two green sites of {} differ by {:.0f} %",
+                     first(shots), 100.0 * worst),
+         "the pattern that the file states is not that of the sensor; use raw files as "
+         "the camera wrote them",
+         shots});
+  }
+  if (const auto& [shots, worst] = beyond(&Seen::hot_share, kMostHot); !shots.empty()) {
+    out.push_back({"hot pixels",
+                   fmt::format("hot pixels: {:.1f} % of the samples of {} are far brighter than "
+                               "their neighbours",
+                               100.0 * worst, first(shots)),
+                   "take shorter exposures with a cooler camera, or list its hot pixels by "
+                   "`scattermeter calibrate radiance`",
+                   shots});
+  }
   return out;
 }
 

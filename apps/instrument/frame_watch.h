@@ -33,7 +33,7 @@ class FrameWatch {
   const Scene& scene_;
   mutable std::mutex mutex_;
   struct Seen {
-    double green_ratio, hot_share;
+    double greens_differ, hot_share;
   };
   std::map<std::size_t, Seen> seen_;  // by index of the shot
 };

@@ -4,7 +4,9 @@
 
 namespace scattermeter::calib {
 
-Eigen::Matrix2d point_spread_px2(const std::vector<BlurAcross>& blurs) {
+std::optional<Eigen::Matrix2d> point_spread_px2(const std::vector<BlurAcross>& blurs) {
+  constexpr std::size_t kLeast = 8;
+  if (blurs.size() < kLeast) return std::nullopt;
   constexpr int kRounds = 20;
   constexpr double kLeast_px2 = 1e-3;
   const auto n = static_cast<Eigen::Index>(blurs.size());

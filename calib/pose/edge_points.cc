@@ -91,7 +91,6 @@ std::optional<Eigen::Matrix2d> edge_blur_px2(const EdgeShot& shot,
                                              const CameraIntrinsics& intrinsics,
                                              const Rigid3d& camera_from_world) {
   constexpr std::size_t kMostPieces = 24;
-  constexpr std::size_t kLeastPieces = 8;
   EdgePointOptions options;
   options.half_width_px = 12.0;
   options.search_px = 8.0;
@@ -112,7 +111,6 @@ std::optional<Eigen::Matrix2d> edge_blur_px2(const EdgeShot& shot,
       blurs.push_back({candidates[i * stride].point.outward, found[i].blur_px * found[i].blur_px});
     }
   }
-  if (blurs.size() < kLeastPieces) return std::nullopt;
   return point_spread_px2(blurs);
 }
 

@@ -68,7 +68,7 @@ class Limb {
   double eta_;
 };
 
-// The mean of those that are not empty. Precondition: there is one.
+// The mean of those that are not empty; empty: there is none.
 std::vector<double> mean_of(const std::vector<std::vector<double>>& limbs) {
   std::vector<double> mean;
   std::size_t n = 0;
@@ -147,7 +147,6 @@ std::optional<Eigen::Matrix2d> limb_blur_px2(const EdgeShot& shot,
                                              double eta_int_over_ext) {
   constexpr int kCell_px = 8;
   constexpr std::size_t kMostPieces = 48;
-  constexpr std::size_t kLeastPieces = 8;
   const std::vector<ContourPoint> points =
       contour_points(*shot.scene, intrinsics, camera_from_world, kCell_px);
   const std::size_t stride = 1 + points.size() / kMostPieces;
@@ -159,10 +158,6 @@ std::optional<Eigen::Matrix2d> limb_blur_px2(const EdgeShot& shot,
     found[i] = locate_edge(shot.samples, p.at_px, p.outward, strip_options());
     if (found[i].found) limbs[i] = limb.at(p);
   });
-  if (static_cast<std::size_t>(std::count_if(
-          found.begin(), found.end(), [](const EdgeStrip& s) { return s.found; })) < kLeastPieces) {
-    return std::nullopt;
-  }
   std::vector<BlurAcross> blurs;
   const SeenBlur seen(mean_of(limbs), shot.samples);
   for (std::size_t i = 0; i < found.size(); ++i) {

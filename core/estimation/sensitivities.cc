@@ -37,6 +37,12 @@ ChangedImages images_of(const Estimation& e, const LightKey& key,
   return changed_images(*seen, *kept, knots, media);
 }
 
+// The media of the channels under a light.
+struct Wanted {
+  std::vector<LitMedium> media;
+  std::vector<double> widths_mm, eta_offsets;  // of each, as in ChangesAt
+};
+
 // The light of an LED on an object above a plane that may change its image; else null. Not at the
 // same time as any other light.
 const IncidentLight* light_above_plane(const Estimation& e, const LightKey& key) {
@@ -60,25 +66,22 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
                                                    const std::vector<bool>& estimated,
                                                    const DistanceKnots& knots,
                                                    const ChangesAt& at) {
-  std::map<LightKey, std::vector<LitMedium>> media;
-  std::map<LightKey, std::vector<double>> widths_mm;    // of the chamfers, by medium
-  std::map<LightKey, std::vector<double>> far_offsets;  // of eta, by medium
+  std::map<LightKey, Wanted> wanted;
   std::vector<std::map<LightKey, Eigen::Index>> column(e.channels.size());
   for (std::size_t i = 0; i < e.channels.size(); ++i) {
     if (!estimated[i]) continue;
     const Estimate& first = e.results[i].estimate;
     const auto add = [&](const LightKey& key) {
-      const auto [it, is_new] =
-          column[i].try_emplace(key, static_cast<Eigen::Index>(media[key].size()));
-      if (is_new) {
-        media[key].push_back({{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
-                              first.scale.value});
-        const SceneObject& object = *std::get<0>(key)->object->stated;
-        const auto width = at.edge_widths_mm.find({e.channels[i].material, object.name});
-        widths_mm[key].push_back(width == at.edge_widths_mm.end() ? chamfer_width_mm(object)
-                                                                  : width->second);
-        far_offsets[key].push_back(at.eta_offsets.empty() ? 0.0 : at.eta_offsets[i]);
-      }
+      Wanted& of_light = wanted[key];
+      const auto n = static_cast<Eigen::Index>(of_light.media.size());
+      if (!column[i].try_emplace(key, n).second) return;
+      of_light.media.push_back(
+          {{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0}, first.scale.value});
+      const SceneObject& object = *std::get<0>(key)->object->stated;
+      const auto width = at.edge_widths_mm.find({e.channels[i].material, object.name});
+      of_light.widths_mm.push_back(width == at.edge_widths_mm.end() ? chamfer_width_mm(object)
+                                                                    : width->second);
+      of_light.eta_offsets.push_back(at.eta_offsets.empty() ? 0.0 : at.eta_offsets[i]);
     };
     for (const ObservedShot* shot : e.channels[i].shots) {
       for (const std::string& light : shot->stated->lights) {
@@ -89,43 +92,45 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
   }
   const auto made = std::make_shared<Sensitivities>();
   Sensitivities& all = *made;
-  ProgressStage stage(e.progress, "uncertainties", media.size());
+  ProgressStage stage(e.progress, "uncertainties", wanted.size());
   struct Item {
     const LightKey& key;
-    const std::vector<LitMedium>& media;
+    const Wanted& wanted;
     ChangedWeights* kept;
     LightSensitivity& out;
     const IncidentLight* direct;  // of an LED above a plane that matters; else null
   };
   std::vector<Item> alike, apart;  // in the channels
-  for (const auto& [key, list] : media) {
+  for (const auto& [key, of_light] : wanted) {
     const bool is_even = std::get<1>(key).empty();
     const bool is_one = is_even || e.scene.light(std::get<1>(key))->channels() == 1;
     (is_one ? alike : apart)
-        .push_back({key, list, !is_even && may_be_kept(key, knots) ? &e.kept.changed[key] : nullptr,
+        .push_back({key, of_light,
+                    !is_even && may_be_kept(key, knots) ? &e.kept.changed[key] : nullptr,
                     all.by_light[key], light_above_plane(e, key)});
   }
   const auto make = [&](const Item& item) {
     const SeenObject& seen = *std::get<0>(item.key);
+    const std::vector<LitMedium>& media = item.wanted.media;
     if (std::get<1>(item.key).empty()) {
-      item.out.l = even_light_images(seen, knots, item.media, e.kept.store.get());
+      item.out.l = even_light_images(seen, knots, media, e.kept.store.get());
       const auto by_axis =
-          light_from_axes_images(seen, knots, item.media, item.out.l, e.kept.store.get());
+          light_from_axes_images(seen, knots, media, item.out.l, e.kept.store.get());
       item.out.per_change.assign(by_axis.begin(), by_axis.end());
       return stage.step();
     }
     item.out = sensitivity(seen, e.kept.weights.at(item.key),
-                           images_of(e, item.key, item.media, knots, item.kept), item.media, knots);
+                           images_of(e, item.key, media, knots, item.kept), media, knots);
     const SceneLight& light = e.scene.light(std::get<1>(item.key));
-    set_far_per_eta(seen, light, std::get<2>(item.key), e.lit, knots, item.media,
-                    far_offsets.at(item.key), item.out);
+    set_far_per_eta(seen, light, std::get<2>(item.key), e.lit, knots, media,
+                    item.wanted.eta_offsets, item.out);
     if (const LedLight* led = light.led()) {
-      item.out.per_edge_mm = change_by_edges(seen, led->led, knots, item.media,
-                                             widths_mm.at(item.key), e.kept.store.get());
+      item.out.per_edge_mm =
+          change_by_edges(seen, led->led, knots, media, item.wanted.widths_mm, e.kept.store.get());
     }
     if (item.direct != nullptr) {
       item.out.per_albedo = change_by_plane(seen, light.led()->led, *item.direct,
-                                            plane_below(e.scene, *seen.object), knots, item.media);
+                                            plane_below(e.scene, *seen.object), knots, media);
     }
     stage.step();
   };

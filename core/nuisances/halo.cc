@@ -1,6 +1,5 @@
 #include "core/nuisances/halo.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -238,16 +238,19 @@ void set_far_per_eta(const SeenObject& seen, const SceneLight& light, std::size_
   const DistanceKnots few = coarse_knots(knots);
   const std::vector<ExitSite> sites = sites_at_centers(seen);
   const CoarseLight coarse(seen, light, channel, lit);
-  const auto image = [&](double eta_here, const std::vector<LitMedium>& some) {
-    return smooth_images(sites, coarse.nominal(eta_here), few, pairs,
-                         scaled_curves(some, few, eta_here));
+  const auto image = [&](const SourceCloud& sources, double eta_here,
+                         const std::vector<LitMedium>& some) {
+    return smooth_images(sites, sources, few, pairs, scaled_curves(some, few, eta_here));
   };
+  const SourceCloud nominal = coarse.nominal(eta);
   for (const auto& [offset, columns] : of_offset) {
     std::vector<LitMedium> some;
     for (const Eigen::Index m : columns) some.push_back(media[static_cast<std::size_t>(m)]);
     const Eigen::MatrixXd l = sensitivity.l(Eigen::all, columns);
-    Eigen::MatrixXd per_eta =
-        relative_change(image(eta + offset, some), image(eta, some), offset).cwiseProduct(l);
+    const double there = eta + offset;
+    Eigen::MatrixXd per_eta = relative_change(image(coarse.nominal(there), there, some),
+                                              image(nominal, eta, some), offset)
+                                  .cwiseProduct(l);
     subtract_observed(seen, l, offset, per_eta);
     sensitivity.per_eta(Eigen::all, columns) = per_eta;
   }
