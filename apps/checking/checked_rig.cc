@@ -195,8 +195,8 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   out.leds = checked_leds(rig, shots_folder);
   out.fit = fit_for_check(rig.scene, loose, source, seen, *geometry->lit, options.progress);
   out.shots = seen.whole();
-  find_displaced_round_bodies(loose, geometry->objects, out.shots, out.fit.findings, frames,
-                              *out.looks);
+  find_displaced_round_bodies(loose, geometry->objects, out.shots, shots_of(out.fit.findings),
+                              frames, *out.looks);
   out.outline = checked_outline(*geometry, source, out);
   if (!rig.scene.camera.responsivity) {
     out.notes.emplace_back(

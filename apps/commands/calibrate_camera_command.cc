@@ -125,7 +125,9 @@ void declare_options(CLI::App& command, CameraArguments& a) {
 }
 
 int run_calibrate_camera(CameraArguments a, CommandContext& context) {
-  capture::require_output_file(a.out);
+  std::vector<std::string> inputs = a.run.shots;
+  inputs.push_back(a.rig);
+  capture::require_output_file(a.out, inputs);
   if (a.rig.empty()) {
     complete_board(a);
   } else {

@@ -46,7 +46,7 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
     if (options->light.empty()) {
       capture::require_output_folder(options->out);
     } else {
-      capture::require_output_file(options->out);
+      capture::require_output_file(options->out, {options->rig, options->shots});
     }
     Rig rig = read_rig(options->rig);
     calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
@@ -54,6 +54,13 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
     const bool all = options->light.empty();
     const std::vector<std::string> lights =
         all ? input.shots.lights() : std::vector<std::string>{options->light};
+    const auto path_of = [&](const std::string& light) {
+      return all ? (std::filesystem::path(options->out) / (light + ".yaml")).string()
+                 : options->out;
+    };
+    for (const std::string& light : lights) {
+      capture::require_output_file(path_of(light), {options->rig});
+    }
     const calib::LedFrames frames = led_frames_in(rig, options->shots);
     bool refused = false;
     for (const std::string& light : lights) {
@@ -73,8 +80,7 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
         context.out << "the rig has no responsivity: intensities count for 1e10 counts mm2 sr / "
                        "(W s) in each channel\n";
       }
-      const std::string path =
-          all ? (std::filesystem::path(options->out) / (light + ".yaml")).string() : options->out;
+      const std::string path = path_of(light);
       capture::write_text_file(path, led_calibration_yaml(calibration));
       const std::string page = write_page_beside(
           path, calibration_page(

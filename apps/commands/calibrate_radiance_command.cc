@@ -62,7 +62,7 @@ void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context) {
   command->add_option("--rig", options->rig, "rig file (YAML)")->required();
   command->add_option("--out", options->out, "file to write")->capture_default_str();
   run_if_named(*command, context, [options, &context] {
-    capture::require_output_file(options->out);
+    capture::require_output_file(options->out, {options->rig, options->shots});
     Rig rig = read_rig(options->rig, false);
     // Only the white reference depends on the pose of the camera.
     if (rig.calibration.radiance && rig.calibration.radiance->white) {

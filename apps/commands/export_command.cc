@@ -50,7 +50,7 @@ void add_export_command(CLI::App& app, CommandContext& context) {
       ->check(CLI::Range(-0.99, 0.99))
       ->capture_default_str();
   run_if_named(*command, context, [options, &context] {
-    capture::require_output_file(options->out);
+    capture::require_output_file(options->out, {options->result});
     const ReadResult result = read_result(options->result);
     const std::vector<MeasuredMaterial> materials = materials_of(result, options->materials);
     const std::vector<std::string> refused = refusals(materials);

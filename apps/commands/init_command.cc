@@ -11,6 +11,7 @@
 #include "apps/commands/questions.h"
 #include "apps/drafting/drafted_body.h"
 #include "apps/drafting/rig_draft.h"
+#include "apps/instrument/open_objects.h"
 #include "apps/rig/rig.h"
 #include "capture/files/pending_file.h"
 #include "core/base/input_error.h"
@@ -63,7 +64,10 @@ DraftedObject object_of(const std::string& body, const fs::path& folder,
   const DraftedBody drafted = drafted_body(body);
   std::string mesh = drafted.name + ".obj";
   if (body.ends_with(".obj")) {
-    mesh = fs::relative(body, folder.empty() ? fs::path(".") : folder).string();
+    // The folder may have to be created.
+    mesh = fs::weakly_canonical(fs::absolute(body))
+               .lexically_relative(fs::weakly_canonical(fs::absolute(folder / ".")))
+               .string();
   } else {
     files.push_back({(folder / mesh).string(), obj_text(drafted.mesh)});
   }
@@ -75,6 +79,19 @@ void require_distinct(const std::vector<Named>& all, const char* option) {
   std::set<std::string> names;
   for (const Named& one : all) {
     if (!names.insert(one.name).second) throw InputError(option, "names " + one.name + " twice");
+  }
+}
+
+// Writes the rig, the last of the files, with its meshes. What cannot be measured with is not kept.
+void write_rig(const std::string& path, const std::vector<NewFile>& files) {
+  for (const NewFile& file : files) capture::write_text_file(file.path, file.text);
+  try {
+    open_objects(read_rig(path));
+  } catch (const InputError& error) {
+    for (const NewFile& file : files) fs::remove(file.path);
+    throw InputError(
+        "init",
+        std::string("what the options say makes no rig, nothing is written: ") + error.what());
   }
 }
 
@@ -151,13 +168,13 @@ int run_init(InitArguments a, const CLI::App& command, CommandContext& context) 
   require_free(draft.meshes);
   std::vector<NewFile> files = draft.meshes;
   files.push_back({a.out, draft.rig.yaml});
-  for (const NewFile& file : files) capture::write_text_file(file.path, file.text);
-  read_rig(a.out);  // what it does not accept is a defect, told as such
+  write_rig(a.out, files);
   for (const std::string& skipped : draft.listing.skipped) {
     context.err << "scattermeter: left out: " << skipped << "\n";
   }
   if (context.quiet) return 0;
-  context.out << draft.listing.shots.size() << " shots by a " << draft.listing.model << ", "
+  const std::size_t n = draft.listing.shots.size();
+  context.out << n << (n == 1 ? " shot" : " shots") << " by a " << draft.listing.model << ", "
               << draft.listing.width_px << " x " << draft.listing.height_px << " px\n";
   for (const NewFile& file : files) context.out << "written: " << file.path << "\n";
   if (draft.rig.to_measure.empty()) {

@@ -14,6 +14,7 @@
 #include "apps/pages/result_page.h"
 #include "apps/report/result_table.h"
 #include "apps/results/result_json.h"
+#include "capture/files/file_kind.h"
 #include "capture/files/pending_file.h"
 
 namespace scattermeter::apps {
@@ -98,6 +99,9 @@ void declare_options(CLI::App& command, MeasureArguments& a) {
 
 int run_measure(const MeasureArguments& a, CommandContext& context) {
   require_results_folder(a.out, a.shots);
+  if (capture::is_there(a.atlas) && !capture::is_folder(a.atlas)) {
+    throw InputError("--atlas", "is a file, a folder is needed, got " + a.atlas);
+  }
   MeasureOptions options = a.options;
   options.estimate.keep_rows = true;
   if (!a.no_cache) options.cache_folder = a.out + "/cache";

@@ -45,7 +45,9 @@ class Watching {
       std::this_thread::sleep_for(std::chrono::duration<double>(a_.interval_s));
     }
     if (shots_.still_awaited() > 0) {
-      say(fmt::format("{} shots are still awaited", shots_.still_awaited()), "dim");
+      const std::size_t n = shots_.still_awaited();
+      say(fmt::format("{} still awaited", n == 1 ? "1 shot is" : fmt::format("{} shots are", n)),
+          "dim");
       return 1;
     }
     say(fmt::format("all shots are there; next: scattermeter measure {} --rig {} --out {}",

@@ -129,7 +129,8 @@ Eigen::Vector3d board_beside(const calib::CharucoBoard& board, const Box3d& piec
 BoardSheet board_sheet(const calib::CharucoBoard& board, const std::optional<TriangleMesh>& piece,
                        const std::string& paper) {
   if (const std::string problem = calib::board_problem(board); !problem.empty()) {
-    throw InputError("--board", problem);
+    throw InputError(problem.find("dictionary") == std::string::npos ? "--board" : "--dictionary",
+                     problem);
   }
   const Paper& page = paper_of(paper);
   BoardSheet out;

@@ -48,10 +48,8 @@ std::optional<Finding> displaced_in(const Rig& rig, const ObjectScene& object,
 
 void find_displaced_round_bodies(const Rig& rig, const ObjectScenes& objects,
                                  const std::vector<ObservedShot>& shots,
-                                 const std::vector<Finding>& of_light,
+                                 const std::set<std::size_t>& doubtful,
                                  const capture::FrameSource& frames, OutlineFindings& outlines) {
-  std::set<std::size_t> doubtful;
-  for (const Finding& f : of_light) doubtful.insert(f.shots.begin(), f.shots.end());
   std::map<std::string, std::optional<Finding>> displaced;  // absent: a shot says otherwise
   for (const ObservedShot& shot : shots) {
     const std::size_t idx = rig.scene.index_of(*shot.stated);
@@ -65,6 +63,36 @@ void find_displaced_round_bodies(const Rig& rig, const ObjectScenes& objects,
   }
   for (auto& [object, finding] : displaced) {
     if (finding) outlines.findings.push_back(std::move(*finding));
+  }
+}
+
+void tell_of_displaced_round_bodies(const Rig& rig, const ObjectScenes& objects,
+                                    const std::vector<ObservedShot>& shots,
+                                    const capture::FrameSource& frames,
+                                    std::vector<ChannelResult>& results) {
+  const auto is_of = [](const ChannelResult& r, const std::string& file) {
+    return r.refused() && r.estimate.rows > 0 &&
+           std::find(r.shots.begin(), r.shots.end(), file) != r.shots.end();
+  };
+  OutlineFindings outlines;
+  std::set<std::size_t> doubtful;
+  for (const ObservedShot& shot : shots) {
+    if (!objects.at(shot.stated->object).is_round) continue;
+    outlines.unjudged.insert(shot.stated->object);
+    if (std::any_of(results.begin(), results.end(),
+                    [&](const ChannelResult& r) { return is_of(r, shot.stated->file); })) {
+      doubtful.insert(rig.scene.index_of(*shot.stated));
+    }
+  }
+  find_displaced_round_bodies(rig, objects, shots, doubtful, frames, outlines);
+  for (const Finding& f : outlines.findings) {
+    for (ChannelResult& r : results) {
+      if (std::none_of(f.shots.begin(), f.shots.end(),
+                       [&](std::size_t idx) { return is_of(r, rig.scene.shots[idx].file); })) {
+        continue;
+      }
+      r.estimate.reasons.insert(r.estimate.reasons.begin(), f.sentence());
+    }
   }
 }
 

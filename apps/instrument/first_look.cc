@@ -18,9 +18,14 @@ bool is_of_lights(const Finding& f) {
 
 }  // namespace
 
+std::set<std::size_t> shots_of(const std::vector<Finding>& findings) {
+  std::set<std::size_t> out;
+  for (const Finding& f : findings) out.insert(f.shots.begin(), f.shots.end());
+  return out;
+}
+
 std::vector<Finding> in_order(std::vector<Finding> of_outlines, std::vector<Finding> of_light) {
-  std::set<std::size_t> explained;
-  for (const Finding& f : of_outlines) explained.insert(f.shots.begin(), f.shots.end());
+  const std::set<std::size_t> explained = shots_of(of_outlines);
   std::vector<Finding> out = std::move(of_outlines);
   for (Finding& f : of_light) {
     const bool follows = std::all_of(f.shots.begin(), f.shots.end(),
@@ -47,7 +52,7 @@ void refuse(const Scene& scene, const std::vector<Finding>& findings, Estimation
 }
 
 bool is_fitted_and_refused(const ChannelResult& result) {
-  return result.refused() && result.estimate.sigma_s_prime_per_mm.value > 0.0;
+  return result.refused() && result.estimate.rows > 0;
 }
 
 void tell_of_outline(const std::string& shift, std::vector<ChannelResult>& results) {

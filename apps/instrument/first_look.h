@@ -2,7 +2,9 @@
 // refuse.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,9 @@ struct FirstLook {
 // The findings of the outlines, then those of the light that are not their consequences: the light
 // of a shot whose outline is wrong is judged only where the lights themselves are at fault.
 std::vector<Finding> in_order(std::vector<Finding> of_outlines, std::vector<Finding> of_light);
+
+// The shots that findings are about, as indices into the scene's.
+std::set<std::size_t> shots_of(const std::vector<Finding>& findings);
 
 // Adds the findings that concern a channel's shots to the reasons of its result, at most two: the
 // first is the most probable.

@@ -179,9 +179,9 @@ FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
   std::vector<Finding> of_light;
   if (smooth) {
     of_light = LightLook(rig_.scene, lit_, seen.shots(), seen.kept().weights).findings();
-    if (!outlines.unjudged.empty()) {
-      find_displaced_round_bodies(rig_, objects_, seen.shots(), of_light,
-                                  std::get<capture::FrameSource>(source.open), outlines);
+    if (const auto* frames = std::get_if<capture::FrameSource>(&source.open)) {
+      find_displaced_round_bodies(rig_, objects_, seen.shots(), shots_of(of_light), *frames,
+                                  outlines);
     }
     watch.lap("first look");
   }
@@ -233,9 +233,13 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     seen.choose(levels);
   }
   const auto* frames = std::get_if<capture::FrameSource>(&source.open);
-  if (view_ && !without_noise && frames != nullptr && look.findings.empty() &&
+  if (!without_noise && frames != nullptr && look.findings.empty() &&
       std::any_of(out.results.begin(), out.results.end(), is_fitted_and_refused)) {
-    tell_of_outline(outline_shift(rig_, objects_, *pose_, *frames, source.shot_idxs), out.results);
+    if (view_) {
+      tell_of_outline(outline_shift(rig_, objects_, *pose_, *frames, source.shot_idxs),
+                      out.results);
+    }
+    tell_of_displaced_round_bodies(rig_, objects_, seen.shots(), *frames, out.results);
   }
   if (atlas_ && !atlas_->problem().empty()) {
     out.notes.push_back("paths of transport are not kept: " + atlas_->problem());

@@ -254,6 +254,11 @@ void OutlineWatch::say_exactly(const capture::FrameSource& frames, OutlineFindin
 OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const {
   OutlineFindings out;
   const auto* frames = std::get_if<capture::FrameSource>(&source.open);
+  for (const std::string& name : names_) {
+    if (const auto object = objects_.find(name);
+        object != objects_.end() && object->second.is_round)
+      out.unjudged.insert(name);
+  }
   Looks looks = looks_;
   find_unseen(looks, out);
   if (looks.empty() || frames == nullptr) return out;

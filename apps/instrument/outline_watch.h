@@ -21,7 +21,7 @@ namespace scattermeter::apps {
 struct OutlineFindings {
   std::vector<Finding> findings;  // the most probable first
   std::vector<std::string> notes;
-  std::set<std::string> unjudged;  // objects whose outlines look_at_pieces() does not tell
+  std::set<std::string> unjudged;  // objects whose outlines have too few straight edges
   // By ObservedShot::view_name(), if the outlines show where the objects stand within the rig's
   // uncertainty: the shift of the pose relative to them. Empty otherwise.
   std::map<std::string, PoseShift> shifts;

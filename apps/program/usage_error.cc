@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <iomanip>
 #include <regex>
 #include <sstream>
 
@@ -106,14 +108,35 @@ std::string with_range(const std::string& message) {
   if (!std::regex_match(message, match, pattern)) return message;
   const double low = std::stod(match[3]), high = std::stod(match[4]);
   std::ostringstream out;
-  out << match[1] << ": expected a ";
+  out << std::setprecision(15) << match[1] << ": expected a ";
+  // An integer such as 1e6 lies within the range, and is not read as one.
+  char* end = nullptr;
+  const std::string word = match[2];
+  const double value = std::strtod(word.c_str(), &end);
+  const bool is_number = !word.empty() && *end == '\0';
+  const bool is_within = is_number && value >= low && value <= high;
   if (high < 1e300) {
-    out << "number from " << low << " to " << high;
+    out << (is_within ? "whole number, written in digits, from " : "number from ") << low << " to "
+        << high;
   } else {
     out << "positive number";
   }
   out << ", got " << match[2];
   return out.str();
+}
+
+// "--rig: 1 required TEXT missing", "--rig: At Most 1 required but received 2".
+std::string with_count(const std::string& message) {
+  static const std::regex missing(R"((.*): \d+ required .* missing)");
+  static const std::regex count(R"((.*): At ([Ll]east|[Mm]ost) (\d+) required but received (\d+))");
+  std::smatch match;
+  if (std::regex_match(message, match, missing)) return match[1].str() + ": needs a value";
+  if (!std::regex_match(message, match, count)) return message;
+  const std::string most = match[3];
+  const bool is_most = match[2].str().ends_with("ost");
+  if (is_most && most == "1") return match[1].str() + ": is given more than once";
+  return match[1].str() + ": needs at " + (is_most ? "most " : "least ") + most + " values, got " +
+         match[4].str();
 }
 
 // "--model: dipol not in {auto,dipole}" of CLI::IsMember, with the value that was probably meant.
@@ -138,7 +161,7 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error,
     command += (command.empty() ? "" : " ") + named->get_name();
   }
   std::string what =
-      reading.fault.empty() ? with_range(with_suggestion(error.what())) : reading.fault;
+      reading.fault.empty() ? with_count(with_range(with_suggestion(error.what()))) : reading.fault;
   return "scattermeter: " + what + "\nRun `" + command + " --help` for its options.\n";
 }
 

@@ -24,7 +24,7 @@ namespace {
 constexpr double kShortestLens = 0.1;
 
 CameraIntrinsics intrinsics_of(const YamlField& field, const std::string& rig_path) {
-  if (field.is_scalar()) return calib::read_intrinsics(beside(rig_path, field.text()));
+  if (field.is_scalar()) return calib::read_intrinsics(file_beside(rig_path, field));
   field.only({"fx_px", "fy_px", "cx_px", "cy_px", "distortion"});
   CameraIntrinsics k;
   k.fx_px = field.at("fx_px").positive();
@@ -73,7 +73,9 @@ SceneSensor read_sensor(const YamlField& field) {
       for (std::size_t i = 0; i < 4; ++i) s.black_counts[i] = f->items()[i].integer(0, 4094);
     }
     for (int black : s.black_counts) {
-      if (black >= s.white_counts) f->fail("expected black below white_counts");
+      if (black >= s.white_counts) {
+        f->fail(fmt::format("expected black below white_counts, {}", s.white_counts));
+      }
     }
   }
   if (const auto f = field.find("tone_curve")) {
@@ -98,7 +100,7 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
   const YamlField intrinsics = field.at("intrinsics");
   camera.intrinsics = intrinsics_of(intrinsics, rig.path);
   if (intrinsics.is_scalar()) {
-    rig.intrinsics_path = beside(rig.path, intrinsics.text());
+    rig.intrinsics_path = file_beside(rig.path, intrinsics);
     rig.lens = std::make_shared<const calib::CameraCalibrationFile>(
         calib::read_camera_calibration_file(rig.intrinsics_path));
     camera.lens_root = lens_root(rig.lens->parameters, rig.lens->covariance);
@@ -130,7 +132,7 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
     camera.responsivity_relative_std = f->number(0.0, 10.0);
   }
   if (const auto f = field.find("radiance"); f && with_radiance) {
-    const std::string file = beside(rig.path, f->text());
+    const std::string file = file_beside(rig.path, *f);
     auto radiance = std::make_shared<const capture::RadianceCalibration>(read_radiance_file(file));
     const capture::RadianceCorrection& c = radiance->correction;
     if (c.width_px != camera.intrinsics.width_px || c.height_px != camera.intrinsics.height_px) {

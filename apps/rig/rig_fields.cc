@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "capture/files/file_kind.h"
 #include "core/base/nearest_name.h"
 
 namespace scattermeter::apps {
@@ -11,6 +12,12 @@ namespace scattermeter::apps {
 std::string beside(const std::string& rig_path, const std::string& file) {
   const std::filesystem::path p(file);
   return p.is_absolute() ? file : (std::filesystem::path(rig_path).parent_path() / p).string();
+}
+
+std::string file_beside(const std::string& rig_path, const YamlField& field) {
+  std::string path = beside(rig_path, field.text());
+  if (!capture::is_there(path)) field.fail("there is no file " + path);
+  return path;
 }
 
 std::string file_in_folder(const YamlField& field) {

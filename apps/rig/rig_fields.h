@@ -15,6 +15,9 @@ namespace scattermeter::apps {
 // Path of a file named in the rig; relative names are relative to the rig's folder.
 std::string beside(const std::string& rig_path, const std::string& file);
 
+// The same for the file that a field names; the field fails if there is none.
+std::string file_beside(const std::string& rig_path, const YamlField& field);
+
 // All throw InputError naming file, line, field and value.
 std::string file_in_folder(const YamlField& field);  // the name of a file without a path
 std::array<int, 2> integer_pair(const YamlField& field, int min, int max);

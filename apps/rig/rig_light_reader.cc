@@ -41,7 +41,7 @@ void read_led(const LightEntry& entry, SceneLight& light) {
       if (key == "type" || key == "calibration") continue;
       value.fail("is given twice: here and in the calibration");
     }
-    light.files.push_back(beside(entry.rig_path, calibration->text()));
+    light.files.push_back(file_beside(entry.rig_path, *calibration));
     const CalibratedLed calibrated = read_led_calibration_file(light.files.back());
     led = calibrated.led;
     led_light.calibrated = calibrated.uncertainty;

@@ -14,6 +14,7 @@
 #include "capture/files/file_kind.h"
 #include "core/base/input_error.h"
 #include "core/base/nearest_name.h"
+#include "core/base/utf8.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -74,6 +75,12 @@ YamlField YamlField::load(const std::string& file) {
   text << in.rdbuf();
   if (text.str().find('\0') != std::string::npos) {
     throw InputError(file, "is not a text file; a rig is a YAML file, as `init` begins one");
+  }
+  if (const std::size_t at = first_no_utf8(text.str()); at < text.str().size()) {
+    const std::string before = text.str().substr(0, at);
+    throw InputError(
+        file + ":" + std::to_string(1 + std::count(before.begin(), before.end(), '\n')),
+        "has a letter that is not encoded in UTF-8; save the file as UTF-8");
   }
   try {
     YAML::Node node = YAML::Load(text.str());

@@ -1,5 +1,6 @@
 #include "calib/board/opencv_storage.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -35,12 +36,20 @@ bool has_one_document(const std::string& text) {
   return begins <= 1;
 }
 
+// The first line that is not blank.
+std::string first_line(const std::string& text) {
+  constexpr std::size_t kLongest = 60;
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  return text.substr(begin, std::min(kLongest, text.find_first_of("\r\n", begin) - begin));
+}
+
 cv::FileStorage parse_storage(const std::string& path, const std::string& text) {
-  const char* expected = "expected YAML (%YAML), XML or JSON as OpenCV's FileStorage writes it";
+  const std::string expected =
+      "expected YAML (%YAML), XML or JSON as OpenCV's FileStorage writes it";
   // FileStorage recognises the format by the first characters and fails an assertion on an empty
   // text.
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw InputError(path, std::string(expected) + ", got an empty file");
+    throw InputError(path, expected + ", got an empty file");
   }
   if (!has_one_document(text)) {
     throw InputError(path, "expected one document: one line of --- and nothing else in that line");
@@ -48,13 +57,11 @@ cv::FileStorage parse_storage(const std::string& path, const std::string& text) 
   try {
     cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
     if (storage.isOpened() && storage.root().isMap()) return storage;
-  } catch (const cv::Exception& error) {
-    throw InputError(path, std::string(expected) + ", got: " + error.err);
-  } catch (const std::logic_error& error) {
+  } catch (const cv::Exception&) {
+  } catch (const std::logic_error&) {
     // On some damaged lines its parser gets a negative number of characters.
-    throw InputError(path, std::string(expected) + ", got: " + error.what());
   }
-  throw InputError(path, expected);
+  throw InputError(path, expected + ", got a file that begins with: " + first_line(text));
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::string left_out_points(const PoseResult& pose) {
     if (pose.inlier[i]) continue;
     out += fmt::format("{}points[{}]", out.empty() ? "" : ", ", i);
     if (i < pose.residuals_px.size()) {
-      out += fmt::format(" ({:.2g} px off)", pose.residuals_px[i].norm());
+      out += fmt::format(" ({:.3g} px off)", pose.residuals_px[i].norm());
     }
   }
   return out;

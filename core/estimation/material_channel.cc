@@ -66,8 +66,10 @@ std::string shot_problem(const ObservedShot& shot, std::size_t channel) {
                        shot.exposure_s);
   }
   if (o.brightest_snr < kDarkSnr) {
-    return fmt::format("{}: channel {} is dark, brightest patch {:.1f} counts above black",
-                       shot.stated->file, name, o.brightest_counts);
+    return fmt::format(
+        "{}: channel {} is dark, brightest patch {:.1f} counts above black, {:.2g} times its noise "
+        "as camera.sensor states it",
+        shot.stated->file, name, o.brightest_counts, o.brightest_snr);
   }
   const double noise = std::sqrt(o.noise_excess);
   if (o.brightest_snr < kDarkSnr * noise) {

@@ -45,6 +45,36 @@ TEST(InitCommand, BeginsARigFromShots) {
   EXPECT_EQ(rig.scene.light("lamp").led()->led.position_mm, Eigen::Vector3d(10, -60, 80));
 }
 
+// A rig that cannot be measured with is not left in the way of the next attempt.
+TEST(InitCommand, KeepsNoRigThatIsRefused) {
+  const TemporaryFolder folder;
+  const std::string rig = folder / "a/rig.yaml";
+  const auto refused = [&](const std::string& option, const std::string& value) {
+    const Answer made = run({"init", "--example", "--out", rig, option, value});
+    EXPECT_EQ(made.status, 2);
+    EXPECT_FALSE(std::filesystem::exists(rig));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a/cube.obj"));
+    return made.err;
+  };
+  EXPECT_THAT(refused("--led", "left:-0.06,-0.08,12"), HasSubstr("lies inside object cube"));
+  EXPECT_THAT(refused("--led", "left:0,0,10"), HasSubstr("nothing is written"));
+  write_file(folder / "open.obj", std::string("v 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\n"
+                                              "f 1 3 2\nf 1 2 4\nf 1 4 3\n"));
+  EXPECT_THAT(refused("--body", folder / "open.obj"), HasSubstr("the mesh is open"));
+}
+
+// Of a mesh beside the folder that is to be made.
+TEST(InitCommand, NamesAMeshFromANewFolder) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run({"init", "--example", "--out", folder / "rig.yaml"}).status, 0);
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const Answer made = run({"init", "--example", "--out", "new/rig.yaml", "--body", "cube.obj"});
+  std::filesystem::current_path(before);
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(slurp(folder / "new/rig.yaml"), HasSubstr("../cube.obj"));
+}
+
 TEST(InitCommand, ReplacesNoFile) {
   const TemporaryFolder folder;
   write_file(folder / "cube.obj", std::string("mine"));

@@ -30,7 +30,7 @@ TEST(WatchCommand, TakesWhatIsThereAndSaysWhatIsMissing) {
   EXPECT_THAT(one.out, HasSubstr("the same as DSC_1"));
   EXPECT_THAT(one.out, HasSubstr("notes.txt: not taken"));
   EXPECT_THAT(one.out, HasSubstr("with PP_cube_2.dng"));
-  EXPECT_THAT(one.out, HasSubstr("1 shots are still awaited"));
+  EXPECT_THAT(one.out, HasSubstr("1 shot is still awaited"));
   const std::string page = slurp(files.out() + "/watch.html");
   EXPECT_EQ(html_problem(page), "");
   EXPECT_THAT(page, HasSubstr("http-equiv=\"refresh\""));

@@ -83,7 +83,7 @@ TEST(BoardSheet, SaysWhatDoesNotFit) {
   EXPECT_THAT([&] { board_sheet(sheet_board(), std::nullopt, "A0"); },
               ThrowsMessage<InputError>(HasSubstr("A4, A3, letter")));
   EXPECT_THAT([&] { board_sheet(sheet_board("DICT_3X3"), std::nullopt, "A4"); },
-              ThrowsMessage<InputError>(HasSubstr("--board")));
+              ThrowsMessage<InputError>(HasSubstr("--dictionary")));
 }
 
 }  // namespace

@@ -89,6 +89,11 @@ TEST(RigDraft, OptionsAreReadOrNamed) {
     EXPECT_THAT([&] { drafted_board(text); }, ThrowsMessage<InputError>(HasSubstr("--board")))
         << text;
   }
+  const auto refused = [](const char* text, const char* why) {
+    EXPECT_THAT([&] { drafted_board(text); }, ThrowsMessage<InputError>(HasSubstr(why))) << text;
+  };
+  refused("10x7:4.5:6", "markers that are smaller than the squares, got 10x7:4.5:6");
+  refused("10x7:0.006:0.0045", "lengths in mm");
 }
 
 }  // namespace

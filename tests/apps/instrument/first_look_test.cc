@@ -41,9 +41,9 @@ TEST(FirstLook, RefusesItsChannels) {
 // An outline that is off explains what the fit refused, and nothing else.
 TEST(FirstLook, OutlineIsTheFirstReasonOfWhatWasFitted) {
   std::vector<ChannelResult> results(3);
-  results[0].estimate.sigma_s_prime_per_mm.value = 1.0;
+  results[0].estimate.rows = 100;
   results[0].estimate.reasons = {"misfit"};
-  results[1].estimate.sigma_s_prime_per_mm.value = 1.0;
+  results[1].estimate.rows = 100;
   results[2].estimate.reasons = {"dark"};
   tell_of_outline("", results);
   EXPECT_EQ(results[0].estimate.reasons.size(), 1U);

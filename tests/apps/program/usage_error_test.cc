@@ -45,6 +45,18 @@ TEST(UsageError, SuggestsWhatWasMeant) {
               HasSubstr("--threads: expected a positive number, got 0"));
   EXPECT_THAT(told({"measure", "x", "--rig", "y", "--channels", "g"}),
               HasSubstr("did you mean G?"));
+  const auto measuring = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"measure", "x", "--rig", "y"});
+    return told(more);
+  };
+  EXPECT_THAT(measuring({"--paths", "1e6"}),
+              HasSubstr("--paths: expected a whole number, written in digits, from 300000 to "
+                        "1000000000000, got 1e6"));
+  EXPECT_THAT(measuring({"--paths", "1"}), HasSubstr("expected a number from 300000"));
+  EXPECT_THAT(measuring({"--patch-size"}), HasSubstr("--patch-size: needs a value"));
+  EXPECT_THAT(measuring({"--rig", "z"}), HasSubstr("--rig: is given more than once"));
+  EXPECT_THAT(told({"plan", "x", "--sigma-s-prime", "1"}),
+              HasSubstr("--sigma-s-prime: needs at least 2 values, got 1"));
   EXPECT_THAT(told({"calibrate"}), HasSubstr("name what to calibrate: camera, led, radiance"));
   // Negative numbers and what follows an option are no options.
   EXPECT_THAT(told({"export", "x", "--out", "--modle", "--g", "-2", "--format", "csv"}),

@@ -117,7 +117,7 @@ TEST_F(RigCameraReader, RadianceCalibration) {
 
 TEST_F(RigCameraReader, NamesWhatIsWrong) {
   EXPECT_THAT(refused("image_size_px: [484, 324]\nintrinsics: gone.yaml\n"),
-              HasSubstr(folder_ / "gone.yaml"));
+              HasSubstr("intrinsics: there is no file " + (folder_ / "gone.yaml")));
   EXPECT_THAT(refused("image_size_px: [484, 324]\nintrinsics: {fx_px: 1, fy_px: 1, cx_px: 2000, "
                       "cy_px: 1}\n"),
               HasSubstr("intrinsics"));

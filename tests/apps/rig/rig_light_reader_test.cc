@@ -128,7 +128,8 @@ TEST(RigLightReader, NamesWhatIsWrong) {
               HasSubstr("expected light in at least one channel"));
   EXPECT_THAT(light_refused(kLed + ", calibration: led.yaml"),
               HasSubstr("position_mm: is given twice"));
-  EXPECT_THAT(light_refused("type: led, calibration: gone.yaml"), HasSubstr("a/gone.yaml"));
+  EXPECT_THAT(light_refused("type: led, calibration: gone.yaml"),
+              HasSubstr("hall.calibration: there is no file"));
 }
 
 }  // namespace

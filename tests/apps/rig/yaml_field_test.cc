@@ -84,6 +84,13 @@ TEST(YamlField, TabsAndTheirLine) {
   EXPECT_EQ(load(folder, "a: [1,\n\t2]\nb:\t3\n").at("a").numbers(2)[1], 2);
 }
 
+TEST(YamlField, TextsInUtf8Only) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(load(folder, "material: Gr\u00F6\u00DFe\n").at("material").text(), "Gr\u00F6\u00DFe");
+  expect_message([&] { load(folder, "a: 1\nmaterial: Gr\xF6\n"); },
+                 "a.yaml:2: has a letter that is not encoded in UTF-8");
+}
+
 TEST(YamlField, DecimalCommas) {
   const TemporaryFolder folder;
   const YamlField top = load(folder, "a: 1,4\nb: [30,5, -60, 80]\nc: {eta: 1,4}\nd: -0,5e-3\n");

@@ -104,6 +104,7 @@ TEST(ReadIntrinsics, NoFileNoFormat) {
   EXPECT_THAT(error_of(""), HasSubstr("empty"));
   EXPECT_THAT(error_of("P6 3 3 255 not a text of that kind"), HasSubstr("expected YAML"));
   EXPECT_THAT(error_of("%YAML:1.0\n---\nK: [1, 2\n  : }"), HasSubstr("expected YAML"));
+  EXPECT_THAT(error_of("\nmaterial: PE\n- a\n"), HasSubstr("begins with: material: PE"));
   EXPECT_THAT(error_of("{\"K\": "), HasSubstr("expected YAML"));
   EXPECT_THAT(error_of("<?xml version=\"1.0\"?>\n<opencv_storage>\n<K"),
               HasSubstr("expected YAML"));

@@ -48,6 +48,33 @@ TEST(OutputPlace, AFileInTheWay) {
   EXPECT_THAT(refusal_of([&] { require_output_file(folder.path()); }), HasSubstr("is a folder"));
 }
 
+TEST(OutputPlace, NoInputIsReplaced) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "shots");
+  for (const char* name : {"rig.yaml", "shots/a.dng", "shots/camera.yaml"}) {
+    write_file(folder / name, std::string("text"));
+  }
+  const std::vector<std::string> inputs = {folder / "rig.yaml", folder / "shots", ""};
+  const auto refusal = [&](const std::string& out) {
+    return refusal_of([&] { require_output_file(out, inputs); });
+  };
+  for (const char* name : {"rig.yaml", "shots/../rig.yaml", "shots/a.dng"}) {
+    EXPECT_EQ(
+        refusal(folder / name),
+        "--out: is one of the files that are read, and would be replaced: " + (folder / name));
+  }
+  EXPECT_EQ(refusal(folder / "camera.yaml"), "");
+  EXPECT_EQ(refusal(folder / "shots/b.dng"), "");
+  EXPECT_EQ(refusal(folder / "shots/camera.yaml"), "");  // of a calibration before
+}
+
+TEST(OutputPlace, AnEmptyName) {
+  EXPECT_EQ(refusal_of([] { require_output_file(""); }),
+            "--out: is empty, the name of a file is needed");
+  EXPECT_EQ(refusal_of([] { require_output_folder(""); }),
+            "--out: is empty, the name of a folder is needed");
+}
+
 TEST(OutputPlace, AFolderThatCannotBeWritten) {
   // The superuser may write anywhere but into the kernel's own file systems.
   const std::string closed = ::geteuid() == 0 ? "/proc/1" : "/";

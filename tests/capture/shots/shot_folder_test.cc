@@ -58,11 +58,16 @@ TEST_F(ShotFolderTest, NamesEveryMissingFile) {
   EXPECT_THROW(match_shots(scene_, {}, folder_.path()), MissingFile);
   EXPECT_THAT(refusal(folder_.path()), HasSubstr("rig.yaml:9: shots.file"));
   EXPECT_THAT(refusal(folder_.path()), HasSubstr("a.dng, a2.dng"));
+  put("a.dng");
+  put("A2.DNG");
+  EXPECT_THAT(refusal(folder_.path()), HasSubstr(": a2.dng; did you mean A2.DNG?"));
 }
 
 TEST_F(ShotFolderTest, RefusesWhatIsNotAFolderOfShots) {
   EXPECT_THAT(refusal(folder_.path()), HasSubstr("is empty"));
   EXPECT_THAT(refusal(folder_ / "nowhere"), HasSubstr("does not exist"));
+  std::filesystem::create_directory(folder_ / "100NIKON");
+  EXPECT_THAT(refusal(folder_.path()), HasSubstr("holds no file, but the folder 100NIKON"));
   put("file");
   EXPECT_THAT(refusal(folder_ / "file"), HasSubstr("is a file"));
 }

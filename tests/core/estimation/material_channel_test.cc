@@ -78,8 +78,10 @@ TEST(MaterialChannel, StatesWhatMakesAShotUseless) {
   o.rows_clipped = 0;
   o.brightest_snr = 9.0;
   o.brightest_counts = 3.0;
-  EXPECT_EQ(shot_problem(shot, 1),
-            "a.dng: channel G is dark, brightest patch 3.0 counts above black");
+  EXPECT_EQ(
+      shot_problem(shot, 1),
+      "a.dng: channel G is dark, brightest patch 3.0 counts above black, 9 times its noise as "
+      "camera.sensor states it");
   o.brightest_snr = 50.0;
   o.noise_excess = 100.0;
   EXPECT_THAT(shot_problem(shot, 1), HasSubstr("a.dng: channel G is 10 times as noisy as the rig "
