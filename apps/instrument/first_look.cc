@@ -7,10 +7,16 @@
 
 #include <fmt/core.h>
 
+#include "capture/shots/pedestal.h"
+#include "core/camera/channel_index.h"
+
 namespace scattermeter::apps {
 namespace {
 
 constexpr std::size_t kMostReasons = 2;
+// Of the brightest patch: a background of this brightness scatters light onto the object, and shows
+// through where the mesh does not fit.
+constexpr double kBrightBackground = 0.05;
 
 bool is_of_lights(const Finding& f) {
   return f.cause == "LEDs exchanged" || f.cause.starts_with("unit");
@@ -53,6 +59,33 @@ void refuse(const Scene& scene, const std::vector<Finding>& findings, Estimation
 
 bool is_fitted_and_refused(const ChannelResult& result) {
   return result.refused() && result.estimate.rows > 0;
+}
+
+void tell_of_background(const std::vector<ObservedShot>& shots,
+                        std::vector<ChannelResult>& results) {
+  for (ChannelResult& r : results) {
+    if (!is_fitted_and_refused(r)) continue;
+    const std::size_t c = channel_index(r.channel);
+    double most = kBrightBackground, counts = 0.0;
+    std::string file;
+    for (const ObservedShot& shot : shots) {
+      if (std::find(r.shots.begin(), r.shots.end(), shot.stated->file) == r.shots.end()) continue;
+      if (shot.exposures.empty()) continue;
+      const double level = shot.exposures.front().pedestal_counts[c] / capture::kPedestalShare;
+      const double share = level / shot.observation.channel[c].brightest_counts;
+      if (!(share > most)) continue;
+      most = share;
+      counts = level;
+      file = shot.stated->file;
+    }
+    if (file.empty()) continue;
+    r.estimate.reasons.insert(
+        r.estimate.reasons.begin(),
+        fmt::format("background: beside the object it is as bright in {} as {:.0f} % of the "
+                    "brightest patch ({:.0f} counts above black); use a black backdrop, and keep "
+                    "other light off it and off the lens",
+                    file, 100.0 * most, counts));
+  }
 }
 
 void tell_of_outline(const std::string& shift, std::vector<ChannelResult>& results) {

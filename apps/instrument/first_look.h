@@ -41,6 +41,10 @@ void refuse(const Scene& scene, const std::vector<Finding>& findings, Estimation
 // Whether the result was refused by its fit, not for being dark or clipped.
 bool is_fitted_and_refused(const ChannelResult& result);
 
+// Makes a bright background of a result's shots the first reason where the fit refused it.
+void tell_of_background(const std::vector<ObservedShot>& shots,
+                        std::vector<ChannelResult>& results);
+
 // Makes a shift of the outlines (closer_look.h) the first reason of the results that the fit
 // refused, unless it is "".
 void tell_of_outline(const std::string& shift, std::vector<ChannelResult>& results);

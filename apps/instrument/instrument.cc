@@ -240,6 +240,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
                       out.results);
     }
     tell_of_displaced_round_bodies(rig_, objects_, seen.shots(), *frames, out.results);
+    tell_of_background(seen.shots(), out.results);
   }
   if (atlas_ && !atlas_->problem().empty()) {
     out.notes.push_back("paths of transport are not kept: " + atlas_->problem());

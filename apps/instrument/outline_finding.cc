@@ -21,7 +21,7 @@ std::string advice_for(const calib::OutlineExplanation& e, const std::string& ob
     default:
       return fmt::format(
           "put the object back or place the mesh of objects.{} where it stands; if the camera was "
-          "moved, take the pose points again",
+          "moved, take the pose points again; another piece needs its own mesh",
           object);
   }
 }

@@ -132,7 +132,7 @@ std::optional<Finding> misplaced(const ObjectScene& object, const calib::PiecePo
                   name, found.off[0], found.off[1], found.off[2], degrees(found.off.tail<3>()),
                   or_of_another_size(found.off.head<3>(), to_camera_mm)),
       fmt::format("put the object back, or have it found by its outline "
-                  "(objects.{}.pose: {{from: silhouette}}){}",
+                  "(objects.{}.pose: {{from: silhouette}}){}; another piece needs its own mesh",
                   name, by_points ? "; if the camera was moved, take the pose points again" : ""),
       {}};
 }

@@ -49,7 +49,7 @@ Pedestal pedestal_of(const RawFrame& frame, const PixelRect& object) {
     const double by_chance = kByChance * background.block_std_counts[c] /
                              std::sqrt(static_cast<double>(background.blocks_beside));
     out.beside_counts[c] = background.blocks_beside > 0 && beside > by_chance ? beside : 0.0;
-    out.counts[c] = level > 0.0 ? 0.5 * level : level;
+    out.counts[c] = level > 0.0 ? kPedestalShare * level : level;
     const double own = level > 0.0 ? 0.4 * level : 0.0;
     out.std_counts[c] = std::sqrt(own * own + 0.01 + 1e-6 * mean[c] * mean[c] +
                                   background.block_std_counts[c] * background.block_std_counts[c] /

@@ -9,6 +9,9 @@
 
 namespace scattermeter::capture {
 
+// Of a background that is brighter than black: the part that is taken for pedestal.
+inline constexpr double kPedestalShare = 0.5;
+
 // Counts above the file's black level, R G B, common to all samples of a channel.
 struct Pedestal {
   std::array<double, kRgb> counts{};

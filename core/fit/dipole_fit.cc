@@ -104,38 +104,38 @@ std::string why_not_explained(const Estimate& e, const DipoleFitOptions& options
 // not_explained: as by why_not_explained().
 void add_refusals(const DistanceKnots& knots, const Point& p, const std::string& not_explained,
                   Estimate& e) {
+  const auto say = [&](const auto&... words) { e.reasons.push_back(sentence(words...)); };
+  if (!e.converged) {  // its values say nothing about patches or material
+    if (!not_explained.empty()) say(not_explained);
+    return say("the fit did not converge");
+  }
   const double mfp_mm = std::exp(-p.u);
-  if (!e.converged) e.reasons.push_back("the fit did not converge");
   // Knots are a sixteenth of the patch apart at the source; over patches longer than three mean
   // free paths the light bends more than their quadrature follows.
   if (mfp_mm < 5.0 * knots.resolution_mm()) {
-    e.reasons.push_back(sentence("the mean free path, ", mfp_mm,
-                                 " mm, is too short for the patches: choose a patch size below ",
-                                 3.0 * mfp_mm, " mm"));
+    say("the mean free path, ", mfp_mm,
+        " mm, is too short for the patches: choose a patch size below ", 3.0 * mfp_mm, " mm");
   }
   // Beyond, light is absorbed within a patch: with 1 / sigma_tr of three quarters of it and less,
   // the error was up to 6 % in sigma_s' (tests/core/fit/dipole_stress_test.cc).
   const double decay_mm = mfp_mm / std::sqrt(3.0 * p.q);
   if (decay_mm < 12.0 * knots.resolution_mm() && mfp_mm >= 5.0 * knots.resolution_mm()) {
-    e.reasons.push_back(sentence("the light dies off within ", decay_mm,
-                                 " mm, too short for the patches: choose a patch size below ",
-                                 decay_mm / 0.75, " mm"));
+    say("the light dies off within ", decay_mm,
+        " mm, too short for the patches: choose a patch size below ", decay_mm / 0.75, " mm");
   }
   if (mfp_mm > 0.5 * knots.max_distance_mm()) {
-    e.reasons.push_back(
-        sentence("the mean free path, ", mfp_mm,
-                 " mm, is not small against the object: the dipole does not apply"));
+    say("the mean free path, ", mfp_mm,
+        " mm, is not small against the object: the dipole does not apply");
   }
   if (p.q > 0.7) {
-    e.reasons.push_back(sentence("the albedo alpha' = ", 1.0 - p.q,
-                                 " is too low for the dipole, which requires alpha' near 1"));
+    say("the albedo alpha' = ", 1.0 - p.q,
+        " is too low for the dipole, which requires alpha' near 1");
   }
   refuse_undetermined(e);
-  if (!not_explained.empty()) e.reasons.push_back(not_explained);
+  if (!not_explained.empty()) say(not_explained);
 }
 
-// How much of the image the recovered r explains and the dipole does not.
-// Returns its chi-square per degree of freedom, over the noise's.
+// How much of the image only r explains; returns its reduced chi-square over the noise's.
 double set_misfit(const RecoveredReflectance& recovered, double l2,
                   const std::vector<Nuisance>& fitted, const ScalePrior& scale, const Point& p,
                   bool without_noise, Estimate& estimate) {

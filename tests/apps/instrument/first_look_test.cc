@@ -54,5 +54,39 @@ TEST(FirstLook, OutlineIsTheFirstReasonOfWhatWasFitted) {
   EXPECT_EQ(results[2].estimate.reasons.size(), 1U);
 }
 
+// A bright background explains what the fit refused of its own shots.
+TEST(FirstLook, ABrightBackgroundIsTheFirstReason) {
+  SceneShot bright_stated, dark_stated;
+  bright_stated.file = "bright.dng";
+  dark_stated.file = "dark.dng";
+  std::vector<ObservedShot> shots(2);
+  shots[0].stated = &bright_stated;
+  shots[1].stated = &dark_stated;
+  for (ObservedShot& shot : shots) {
+    shot.exposures.resize(1);
+    for (ChannelObservation& o : shot.observation.channel) o.brightest_counts = 1000.0;
+  }
+  shots[0].exposures[0].pedestal_counts[1] = 100.0;  // half of the background
+  shots[1].exposures[0].pedestal_counts[1] = 20.0;
+  std::vector<ChannelResult> results(4);
+  for (ChannelResult& r : results) {
+    r.channel = 'G';
+    r.shots = {"dark.dng", "bright.dng"};
+    r.estimate.rows = 100;
+    r.estimate.reasons = {"misfit"};
+  }
+  results[1].channel = 'R';
+  results[2].shots = {"dark.dng"};
+  results[3].estimate.reasons.clear();
+  tell_of_background(shots, results);
+  ASSERT_EQ(results[0].estimate.reasons.size(), 2U);
+  EXPECT_THAT(results[0].estimate.reasons[0],
+              testing::HasSubstr("as bright in bright.dng as 20 % of the brightest patch (200 "
+                                 "counts above black)"));
+  EXPECT_EQ(results[1].estimate.reasons.size(), 1U);
+  EXPECT_EQ(results[2].estimate.reasons.size(), 1U);
+  EXPECT_TRUE(results[3].estimate.reasons.empty());
+}
+
 }  // namespace
 }  // namespace scattermeter::apps
