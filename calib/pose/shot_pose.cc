@@ -94,12 +94,18 @@ PoseResult refined(const Scene& scene, const PoseSource& source, const PoseResul
   options.line_std_px = source.edge_std_px;
   options.pose_is_near = source.charuco.has_value();
   const std::string where = scene.at(source.line) + ": pose.refine";
-  const Silhouette silhouette =
+  Silhouette silhouette =
       find_silhouette(shots, scene.camera.intrinsics, prior.camera_from_world, options);
   if (silhouette.status != SilhouetteStatus::kOk) {
     throw InputError(where, name + ": " + silhouette.message);
   }
   PoseResult pose = combine(silhouette, scene.camera.intrinsics, prior);
+  if (pose.status == PoseStatus::kNoConsensus) {
+    if (auto others = without_strays(silhouette)) {
+      silhouette = std::move(*others);
+      pose = combine(silhouette, scene.camera.intrinsics, prior);
+    }
+  }
   if (pose.status != PoseStatus::kOk) throw InputError(where, name + ": " + pose.message);
   pose.per_lens_parameter = combined_per_lens_parameter(silhouette, scene.camera.intrinsics, prior,
                                                         scene.camera.lens_root.rowwise().norm());

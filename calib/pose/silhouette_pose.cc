@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "calib/pose/pose_prior.h"
 #include "core/base/chi_square.h"
 #include "core/base/cross_matrix.h"
 #include "core/base/dense_solve.h"
+#include "core/base/median.h"
 
 namespace scattermeter::calib {
 
@@ -22,6 +25,22 @@ EdgeFitOptions options_of(const Silhouette& silhouette) {
 }
 
 }  // namespace
+
+std::optional<Silhouette> without_strays(const Silhouette& silhouette) {
+  constexpr double kStray = 4.0;
+  constexpr double kMostStrays = 0.2;
+  std::vector<double> offsets;
+  for (const EdgePoint& p : silhouette.points) offsets.push_back(p.offset_px);
+  const double std = kStdPerMad * median_absolute_deviation(std::move(offsets), 0.0);
+  Silhouette out = silhouette;
+  const std::size_t strays = std::erase_if(out.points, [&](const EdgePoint& p) {
+    return std::abs(p.offset_px) > kStray * std::hypot(std, p.std_px);
+  });
+  const double share = static_cast<double>(strays) / static_cast<double>(silhouette.points.size());
+  if (strays == 0 || share > kMostStrays) return std::nullopt;
+  out.pieces_left_out += strays;
+  return out;
+}
 
 EdgeFit fit_alone(const Silhouette& silhouette, const CameraIntrinsics& intrinsics,
                   double distance_mm) {

@@ -73,5 +73,30 @@ TEST(SilhouettePose, FitsExactPoints) {
   EXPECT_GT(both.center_std_mm.minCoeff(), 0.0);
 }
 
+// Of twenty pieces, those far off where the others stand are strays; where most are off, the pose
+// is, and nothing is left out.
+TEST(SilhouettePose, StraysStandApart) {
+  Silhouette s;
+  for (int i = 0; i < 20; ++i) {
+    EdgePoint p;
+    p.offset_px = i % 2 == 0 ? 0.05 : -0.05;
+    p.std_px = 0.05;
+    s.points.push_back(p);
+  }
+  EXPECT_FALSE(without_strays(s).has_value());
+  for (const std::size_t i : {3U, 4U, 5U}) s.points[i].offset_px = 1.0;
+  const std::optional<Silhouette> others = without_strays(s);
+  ASSERT_TRUE(others.has_value());
+  EXPECT_EQ(others->points.size(), 17U);
+  EXPECT_EQ(others->pieces_left_out, 3U);
+  for (const EdgePoint& p : others->points) EXPECT_LT(p.offset_px, 0.1);
+  s.points[3].std_px = 0.3;  // one that knows no better
+  EXPECT_EQ(without_strays(s)->points.size(), 18U);
+  for (const std::size_t i : {6U, 7U, 8U}) s.points[i].offset_px = -1.0;
+  EXPECT_FALSE(without_strays(s).has_value());
+  for (EdgePoint& p : s.points) p.offset_px = 1.0;
+  EXPECT_FALSE(without_strays(s).has_value());
+}
+
 }  // namespace
 }  // namespace scattermeter::calib
