@@ -20,7 +20,7 @@ struct DrawnPart {
 namespace stated = default_uncertainty;
 // The deviation of the rig's first LED.
 constexpr double kAsTheRigSays = -1.0;
-constexpr std::array<DrawnPart, 19> kParts = {{
+constexpr std::array<DrawnPart, 20> kParts = {{
     {"mesh displaced in x", stated::kObjectPosition_mm},
     {"mesh displaced in y", stated::kObjectPosition_mm},
     {"mesh displaced in z", stated::kObjectPosition_mm},
@@ -40,6 +40,7 @@ constexpr std::array<DrawnPart, 19> kParts = {{
     {"principal point off", 100.0 * stated::kPrincipalPoint},
     {"pixels not square", 100.0 * stated::kPixelAspect},
     {"lens distortion off", stated::kDistortion, true},
+    {"vignetting", 100.0 * stated::kVignetting},
 }};
 
 void draw_all(TrueSetup& t, const DeviationDraw& d) {

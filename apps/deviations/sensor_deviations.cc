@@ -160,7 +160,7 @@ std::vector<Deviation> sensor_deviations() {
        .words = {"vignetting", "fall-off", "gradient", "flat"},
        .unit = "% in corners",
        .sizes = {1, 10, 40},
-       .within = 1,
+       .within = 2,
        .truth = darken_corners},
       {.name = "noise underestimated",
        .words = {"noise"},

@@ -91,7 +91,7 @@ SceneSensor read_sensor(const YamlField& field) {
 void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
   field.only({"model", "image_size_px", "intrinsics", "intrinsics_std",
               "responsivity_counts_mm2_sr_per_W_s", "responsivity_relative_std", "radiance",
-              "sensor", "exposure_s", "iso", "f_number"});
+              "vignetting_std", "sensor", "exposure_s", "iso", "f_number"});
   SceneCamera& camera = rig.scene.camera;
   if (const auto f = field.find("model")) camera.model = f->text();
   const YamlField image_size_px = field.at("image_size_px");
@@ -131,7 +131,12 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
     if (!camera.responsivity) f->fail("is given without responsivity_counts_mm2_sr_per_W_s");
     camera.responsivity_relative_std = f->number(0.0, 10.0);
   }
+  camera.vignetting_std =
+      field.number_or("vignetting_std", default_uncertainty::kVignetting, 0.0, 1.0);
   if (const auto f = field.find("radiance"); f && with_radiance) {
+    if (const auto given = field.find("vignetting_std")) {
+      given->fail("the file of camera.radiance corrects the vignetting");
+    }
     const std::string file = file_beside(rig.path, *f);
     auto radiance = std::make_shared<const capture::RadianceCalibration>(read_radiance_file(file));
     const capture::RadianceCorrection& c = radiance->correction;

@@ -10,10 +10,10 @@
 
 namespace scattermeter::calib {
 
-// Without the pieces that stand apart from where the given pose puts them, by four robust deviations
-// of all pieces' offsets from there: where a step between two bright faces lies near another edge,
-// some may be a px off, and few lines give the silhouette alone no means to tell. Absent if there
-// are none, or if more than a fifth of the pieces are.
+// Without the pieces that stand apart from where the given pose puts them, by four robust
+// deviations of all pieces' offsets from there: where a step between two bright faces lies near
+// another edge, some may be a px off, and few lines give the silhouette alone no means to tell.
+// Absent if there are none, or if more than a fifth of the pieces are.
 std::optional<Silhouette> without_strays(const Silhouette& silhouette);
 
 // Least squares of the silhouette's pieces alone, with the errors that find_silhouette() estimated,

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "core/camera/lens.h"
+#include "core/camera/vignetting.h"
 #include "core/nuisances/even_light.h"
 #include "core/nuisances/halo.h"
 #include "core/nuisances/nuisance_columns.h"
@@ -111,6 +112,30 @@ void SceneNuisances::add_even_light(const ObservedShot& shot, Columns& columns) 
   }
 }
 
+namespace {
+
+Eigen::Vector2d pixel_of(const Lens& lens, const ObservedShot& shot, std::size_t row) {
+  return lens.project(shot.pose.camera_from_world * shot.seen->sites[row].center_mm);
+}
+
+}  // namespace
+
+void SceneNuisances::add_vignetting(const ObservedShot& shot, const Eigen::VectorXd& predicted,
+                                    Columns& columns) const {
+  const double std = scene_.camera.vignetting_std;
+  if (!(std > 0.0)) return;
+  const CameraIntrinsics& k = scene_.camera.intrinsics;
+  const Lens lens(k);
+  const Vignetting frame = vignetting_of_frame(k.width_px, k.height_px);
+  Eigen::VectorXd change = predicted;
+  for (Eigen::Index i = 0; i < change.size(); ++i) {
+    const auto row = static_cast<std::size_t>(columns.rows()[static_cast<std::size_t>(i)]);
+    change[i] *= (pixel_of(lens, shot, row) - frame.center_px).squaredNorm() /
+                 (frame.half_diagonal_px * frame.half_diagonal_px);
+  }
+  columns.add("vignetting", "vignetting", std, change);
+}
+
 // The background beside the object tells how strong it may be: all of what is brighter there is one
 // deviation.
 void SceneNuisances::add_halo(const ObservedShot& shot, const ChannelObservation& observed,
@@ -121,7 +146,7 @@ void SceneNuisances::add_halo(const ObservedShot& shot, const ChannelObservation
   std::vector<Eigen::Vector2d> at_px;
   Eigen::VectorXd counts(static_cast<Eigen::Index>(shot.seen->sites.size()));
   for (std::size_t row = 0; row < shot.seen->sites.size(); ++row) {
-    at_px.push_back(lens.project(shot.pose.camera_from_world * shot.seen->sites[row].center_mm));
+    at_px.push_back(pixel_of(lens, shot, row));
     const double per_count = observed.l_per_count[row];
     counts[static_cast<Eigen::Index>(row)] =
         per_count > 0.0 ? std::max(0.0, observed.l[row] / per_count) : 0.0;
@@ -186,6 +211,7 @@ std::vector<NuisanceColumn> SceneNuisances::columns(const ObservedShot& shot,
     if (std > 0.0) columns.add("plane albedo", "surroundings", std, by_albedo);
   }
   add_radiance(shot, observed, predicted, columns);
+  add_vignetting(shot, predicted, columns);
   add_halo(shot, observed, columns);
   return columns.take();
 }

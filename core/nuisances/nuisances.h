@@ -36,9 +36,10 @@ struct NuisanceColumn {
 // each with the resulting change of the pose fitted with that lens; its effect on calibrated LEDs
 // and scale is not included); eta; the gloss of a surface that is stated as smooth; the albedo of
 // the plane below the object; the halo of the lens, where the background shows light beside the
-// object; each file's black level, the pedestal, glare and the exposure times (common to files of
-// the same stated time; in a bracket each affects the part of a row that comes from it). Those with
-// a standard deviation of 0 are left out, but for eta, which is then tested against the image.
+// object; the fall-off of light towards the frame's corners; each file's black level, the pedestal,
+// glare and the exposure times (common to files of the same stated time; in a bracket each affects
+// the part of a row that comes from it). Those with a standard deviation of 0 are left out, but for
+// eta, which is then tested against the image.
 class SceneNuisances {
  public:
   // Of one channel. sensitivities: for every view and light of the shots passed to columns().
@@ -84,6 +85,8 @@ class SceneNuisances {
   void add_blur(const ObservedShot& shot, Columns& columns) const;
   void add_even_light(const ObservedShot& shot, Columns& columns) const;
   void add_gloss(const ObservedShot& shot, Columns& columns) const;
+  void add_vignetting(const ObservedShot& shot, const Eigen::VectorXd& predicted,
+                      Columns& columns) const;
   void add_halo(const ObservedShot& shot, const ChannelObservation& observed,
                 Columns& columns) const;
   Eigen::VectorXd change_by_albedo(const ObservedShot& shot,

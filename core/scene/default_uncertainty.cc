@@ -31,6 +31,7 @@ void take_where_none(Scene& scene) {
   take(scene.even_light_share_std, kEvenLight);
   take(scene.shot_shift_std_px, kShotShift_px);
   SceneCamera& camera = scene.camera;
+  take(camera.vignetting_std, kVignetting);
   if (camera.lens_root.cols() == 0) {
     camera.lens_root = lens_root(camera.intrinsics, lens(camera.intrinsics));
   }

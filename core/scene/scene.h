@@ -45,6 +45,9 @@ struct SceneCamera {
   // Standard deviation of the veiling glare left in the samples, as a share of the frame's mean in
   // the same channel.
   std::array<double, kRgb> glare_std{};
+  // Standard deviation of the share of the light that is lost from the frame's centre to its
+  // corners, in proportion to the distance squared.
+  double vignetting_std = 0;
   SceneSensor sensor;
   std::optional<double> exposure_s;  // for simulated shots; absent: so that nothing clips
   int iso = 100;

@@ -5,6 +5,7 @@
 
 #include "apps/rig/radiance_file.h"
 #include "capture/sensor/radiance_calibration.h"
+#include "core/scene/default_uncertainty.h"
 #include "tests/fixtures/apps/yaml_text.h"
 
 namespace scattermeter::apps {
@@ -108,6 +109,11 @@ TEST_F(RigCameraReader, RadianceCalibration) {
   EXPECT_EQ(rig.scene.camera.responsivity_relative_std, 0.02);
   EXPECT_EQ(rig.scene.camera.glare_std[1], 0.001);
   EXPECT_EQ(camera(text, false).decoding.radiance, nullptr);
+  EXPECT_EQ(rig.scene.camera.vignetting_std, 0.0);
+  EXPECT_EQ(camera(kCamera).scene.camera.vignetting_std, default_uncertainty::kVignetting);
+  EXPECT_EQ(camera(kCamera + "vignetting_std: 0.03\n").scene.camera.vignetting_std, 0.03);
+  EXPECT_THAT(refused(text + "vignetting_std: 0.03\n"),
+              HasSubstr("vignetting_std: the file of camera.radiance corrects the vignetting"));
   EXPECT_THAT(refused(text + "responsivity_counts_mm2_sr_per_W_s: [1, 1, 1]\n"),
               HasSubstr("radiance: contains a responsivity"));
   made.correction.width_px = 480;

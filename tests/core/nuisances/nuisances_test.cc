@@ -1,6 +1,9 @@
 #include "core/nuisances/nuisances.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +70,41 @@ TEST_F(CalibratedNuisances, AgreeWithTheSingleDeviations) {
     light.led()->calibrated->covariance(3, 3) = light.led()->calibrated->covariance(4, 4) = 0.01;
   }
   EXPECT_GT(measured(joint).sigma_s_prime_per_mm.std, b.sigma_s_prime_per_mm.std);
+}
+
+// Shots through a lens whose corners are darker are told from those of a flat frame, and the value
+// moves with what is found.
+TEST_F(CalibratedNuisances, LightFallsOffTowardsTheCorners) {
+  constexpr double kLost = 0.2;
+  Rig dark = exact_;
+  for (std::vector<double>& radial : dark.truth.sensor.vignetting_radial) radial = {-kLost};
+  const VirtualShots shots(dark, scenes_, {.noise = true});
+  const auto measured_by = [&](double std) {
+    Rig rig = exact_;
+    rig.scene.camera.vignetting_std = std;
+    MeasureOptions options;
+    options.estimate.model = "dipole";
+    Instrument instrument(rig, scenes_, options);
+    const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
+      return shots.frame(i, 1, k);
+    };
+    return instrument.measure(capture::shots_from(rig.scene, {0}, frames)).results.at(1).estimate;
+  };
+  const Estimate flat = measured_by(0.0), open = measured_by(0.2), unlit = measured(exact_);
+  const auto of_vignetting = [](const Estimate& e) {
+    return std::find_if(e.pulls.begin(), e.pulls.end(),
+                        [](const PriorPull& p) { return p.name == "vignetting"; });
+  };
+  EXPECT_EQ(of_vignetting(flat), flat.pulls.end());
+  EXPECT_EQ(part(flat, "vignetting"), 0.0);
+  ASSERT_NE(of_vignetting(open), open.pulls.end());
+  EXPECT_NEAR(of_vignetting(open)->offset, -kLost, 0.25 * kLost);
+  EXPECT_GT(part(open, "vignetting"), 0.0);
+  const auto error = [&](const Estimate& e) {
+    return std::abs(e.sigma_a_per_mm.value - unlit.sigma_a_per_mm.value);
+  };
+  EXPECT_LT(error(open), 0.5 * error(flat));
+  EXPECT_LT(error(open), 3.0 * open.sigma_a_per_mm.std);
 }
 
 // Distance and power that are known together only: far less is lost than if both were open.
