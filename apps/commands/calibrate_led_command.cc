@@ -58,8 +58,10 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
       return all ? (std::filesystem::path(options->out) / (light + ".yaml")).string()
                  : options->out;
     };
-    for (const std::string& light : lights) {
-      capture::require_output_file(path_of(light), {options->rig});
+    if (all) {
+      for (const std::string& light : lights) {
+        capture::require_output_file(path_of(light), {options->rig});
+      }
     }
     const calib::LedFrames frames = led_frames_in(rig, options->shots);
     bool refused = false;

@@ -207,17 +207,17 @@ calib::CharucoBoard drafted_board(const std::string& text) {
           : listed_numbers(std::string_view(text).substr(colon + 1), ':', "--board", text);
   const auto is_count = [](double n) { return n >= 2.0 && n <= 1000.0 && n == std::floor(n); };
   constexpr double kLeast_mm = 0.5;
-  if (sizes.size() == 2 && sizes[1] > 0.0 && !(sizes[1] < sizes[0])) {
-    throw InputError("--board", "needs markers that are smaller than the squares, got " + text);
-  }
-  if (sizes.size() == 2 && sizes[1] > 0.0 && sizes[0] < kLeast_mm) {
-    throw InputError("--board", "needs lengths in mm (squares of 0.5 mm or more), got " + text);
-  }
   if (squares.size() != 2 || sizes.size() != 2 || !is_count(squares[0]) || !is_count(squares[1]) ||
       !(sizes[1] > 0.0)) {
     throw InputError(
         "--board",
         "needs squares, their size and that of the markers in mm, as in 10x7:6:4.5, got " + text);
+  }
+  if (!(sizes[1] < sizes[0])) {
+    throw InputError("--board", "needs markers that are smaller than the squares, got " + text);
+  }
+  if (sizes[0] < kLeast_mm) {
+    throw InputError("--board", "needs lengths in mm (squares of 0.5 mm or more), got " + text);
   }
   calib::CharucoBoard out;
   out.squares_x = static_cast<int>(squares[0]);

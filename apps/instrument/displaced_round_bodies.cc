@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "apps/instrument/first_look.h"
 #include "apps/instrument/outline_finding.h"
 #include "calib/pose/outline_causes.h"
 #include "calib/pose/outline_contour.h"
@@ -71,8 +72,7 @@ void tell_of_displaced_round_bodies(const Rig& rig, const ObjectScenes& objects,
                                     const capture::FrameSource& frames,
                                     std::vector<ChannelResult>& results) {
   const auto is_of = [](const ChannelResult& r, const std::string& file) {
-    return r.refused() && r.estimate.rows > 0 &&
-           std::find(r.shots.begin(), r.shots.end(), file) != r.shots.end();
+    return is_fitted_and_refused(r) && uses(r, file);
   };
   OutlineFindings outlines;
   std::set<std::size_t> doubtful;
@@ -87,11 +87,10 @@ void tell_of_displaced_round_bodies(const Rig& rig, const ObjectScenes& objects,
   find_displaced_round_bodies(rig, objects, shots, doubtful, frames, outlines);
   for (const Finding& f : outlines.findings) {
     for (ChannelResult& r : results) {
-      if (std::none_of(f.shots.begin(), f.shots.end(),
-                       [&](std::size_t idx) { return is_of(r, rig.scene.shots[idx].file); })) {
-        continue;
+      if (std::any_of(f.shots.begin(), f.shots.end(),
+                      [&](std::size_t idx) { return is_of(r, rig.scene.shots[idx].file); })) {
+        add_first_reason(f.sentence(), r);
       }
-      r.estimate.reasons.insert(r.estimate.reasons.begin(), f.sentence());
     }
   }
 }

@@ -61,6 +61,15 @@ bool is_fitted_and_refused(const ChannelResult& result) {
   return result.refused() && result.estimate.rows > 0;
 }
 
+bool uses(const ChannelResult& result, const std::string& file) {
+  return std::find(result.shots.begin(), result.shots.end(), file) != result.shots.end();
+}
+
+void add_first_reason(std::string reason, ChannelResult& result) {
+  std::vector<std::string>& reasons = result.estimate.reasons;
+  reasons.insert(reasons.begin(), std::move(reason));
+}
+
 void tell_of_background(const std::vector<ObservedShot>& shots,
                         std::vector<ChannelResult>& results) {
   for (ChannelResult& r : results) {
@@ -69,8 +78,7 @@ void tell_of_background(const std::vector<ObservedShot>& shots,
     double most = kBrightBackground, counts = 0.0;
     std::string file;
     for (const ObservedShot& shot : shots) {
-      if (std::find(r.shots.begin(), r.shots.end(), shot.stated->file) == r.shots.end()) continue;
-      if (shot.exposures.empty()) continue;
+      if (!uses(r, shot.stated->file) || shot.exposures.empty()) continue;
       const double level = shot.exposures.front().pedestal_counts[c] / capture::kPedestalShare;
       const double share = level / shot.observation.channel[c].brightest_counts;
       if (!(share > most)) continue;
@@ -79,12 +87,12 @@ void tell_of_background(const std::vector<ObservedShot>& shots,
       file = shot.stated->file;
     }
     if (file.empty()) continue;
-    r.estimate.reasons.insert(
-        r.estimate.reasons.begin(),
+    add_first_reason(
         fmt::format("background: beside the object it is as bright in {} as {:.0f} % of the "
                     "brightest patch ({:.0f} counts above black); use a black backdrop, and keep "
                     "other light off it and off the lens",
-                    file, 100.0 * most, counts));
+                    file, 100.0 * most, counts),
+        r);
   }
 }
 
@@ -92,12 +100,12 @@ void tell_of_outline(const std::string& shift, std::vector<ChannelResult>& resul
   if (shift.empty()) return;
   for (ChannelResult& r : results) {
     if (!is_fitted_and_refused(r)) continue;
-    std::vector<std::string>& reasons = r.estimate.reasons;
-    reasons.insert(reasons.begin(),
-                   fmt::format("pose or position: the outlines stand {} of where pose and mesh put "
-                               "them; take the pose points again, or place the mesh where the "
-                               "object stands",
-                               shift));
+    add_first_reason(
+        fmt::format("pose or position: the outlines stand {} of where pose and mesh put "
+                    "them; take the pose points again, or place the mesh where the "
+                    "object stands",
+                    shift),
+        r);
   }
 }
 

@@ -40,6 +40,9 @@ void refuse(const Scene& scene, const std::vector<Finding>& findings, Estimation
 
 // Whether the result was refused by its fit, not for being dark or clipped.
 bool is_fitted_and_refused(const ChannelResult& result);
+// Whether the shot of this name is one of the result's.
+bool uses(const ChannelResult& result, const std::string& file);
+void add_first_reason(std::string reason, ChannelResult& result);
 
 // Makes a bright background of a result's shots the first reason where the fit refused it.
 void tell_of_background(const std::vector<ObservedShot>& shots,

@@ -71,25 +71,25 @@ YamlField YamlField::load(const std::string& file) {
   if (capture::is_folder(file)) throw InputError(file, "is a folder, not a rig file");
   std::ifstream in(file, std::ios::binary);
   if (!in) throw MissingFile(file, "the rig file cannot be opened");
-  std::stringstream text;
-  text << in.rdbuf();
-  if (text.str().find('\0') != std::string::npos) {
+  std::stringstream stream;
+  stream << in.rdbuf();
+  const std::string text = stream.str();
+  if (text.find('\0') != std::string::npos) {
     throw InputError(file, "is not a text file; a rig is a YAML file, as `init` begins one");
   }
-  if (const std::size_t at = first_no_utf8(text.str()); at < text.str().size()) {
-    const std::string before = text.str().substr(0, at);
-    throw InputError(
-        file + ":" + std::to_string(1 + std::count(before.begin(), before.end(), '\n')),
-        "has a letter that is not encoded in UTF-8; save the file as UTF-8");
+  if (const std::size_t at = first_no_utf8(text); at < text.size()) {
+    const auto line = 1 + std::count(text.data(), text.data() + at, '\n');
+    throw InputError(file + ":" + std::to_string(line),
+                     "has a letter that is not encoded in UTF-8; save the file as UTF-8");
   }
   try {
-    YAML::Node node = YAML::Load(text.str());
+    YAML::Node node = YAML::Load(text);
     if (!node.IsMap()) throw InputError(file, "is not a rig: expected a YAML map at the top");
     return {node, file, ""};
   } catch (const YAML::Exception& e) {
     const int line = e.mark.line + 1;
     // The parser notices a wrong indentation only in the line after it.
-    if (const int tab = line_with_tab(text.str(), line + 1); tab > 0) {
+    if (const int tab = line_with_tab(text, line + 1); tab > 0) {
       throw InputError(file + ":" + std::to_string(tab),
                        "the line is indented by a tab, which YAML does not allow; use spaces");
     }

@@ -126,12 +126,13 @@ void SceneNuisances::add_vignetting(const ObservedShot& shot, const Eigen::Vecto
   if (!(std > 0.0)) return;
   const CameraIntrinsics& k = scene_.camera.intrinsics;
   const Lens lens(k);
-  const Vignetting frame = vignetting_of_frame(k.width_px, k.height_px);
+  Vignetting frame = vignetting_of_frame(k.width_px, k.height_px);
+  frame.radial[channel_] = {1.0};
   Eigen::VectorXd change = predicted;
   for (Eigen::Index i = 0; i < change.size(); ++i) {
     const auto row = static_cast<std::size_t>(columns.rows()[static_cast<std::size_t>(i)]);
-    change[i] *= (pixel_of(lens, shot, row) - frame.center_px).squaredNorm() /
-                 (frame.half_diagonal_px * frame.half_diagonal_px);
+    const Eigen::Vector2d at_px = pixel_of(lens, shot, row);
+    change[i] *= frame.share(at_px.x(), at_px.y(), channel_) - 1.0;
   }
   columns.add("vignetting", "vignetting", std, change);
 }
