@@ -2,11 +2,12 @@
 
 #include <array>
 #include <charconv>
-#include <fstream>
+#include <sstream>
 #include <string_view>
 
 #include <fmt/core.h>
 
+#include "capture/files/file_text.h"
 #include "core/base/input_error.h"
 #include "core/material/published_media.h"
 
@@ -44,9 +45,9 @@ double number(const std::string& where, const char* column, const std::string& t
 }  // namespace
 
 std::vector<ListedMaterial> read_materials(const std::string& path) {
-  std::ifstream in(path);
+  std::istringstream in(capture::file_text(path, "a table of materials is expected"));
   std::string line;
-  if (!in || !std::getline(in, line)) throw InputError(path, "cannot be read, or is empty");
+  if (!std::getline(in, line)) throw InputError(path, "is empty");
   const std::vector<std::string> header = fields_of(line);
   std::array<std::size_t, kColumns.size()> place{};
   for (std::size_t c = 0; c < kColumns.size(); ++c) {

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "capture/files/file_kind.h"
+#include "capture/files/file_text.h"
 #include "core/base/input_error.h"
 #include "core/base/nearest_name.h"
 
@@ -144,14 +142,8 @@ ReadChannel read_channel(const JsonField& field) {
 }  // namespace
 
 ReadResult read_result(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  if (capture::is_folder(path)) {
-    throw InputError(path, "is a folder; give the result.json that `measure` has written");
-  }
-  if (!in || !text) throw InputError(path, "cannot be read");
-  const ParsedJson json = parse(text.str(), path);
+  const ParsedJson json = parse(
+      capture::file_text(path, "the result.json that `measure` has written is expected"), path);
   if (json.is_object() && !json.contains("results")) {
     throw InputError(path, "has no results; give the result.json that `measure` has written");
   }

@@ -4,14 +4,12 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <utility>
 
-#include "capture/files/file_kind.h"
+#include "capture/files/file_text.h"
 #include "core/base/input_error.h"
 #include "core/base/nearest_name.h"
 #include "core/base/utf8.h"
@@ -68,12 +66,7 @@ YamlField::YamlField(const YAML::Node& node, std::string file, std::string path)
     : node_(node), file_(std::move(file)), path_(std::move(path)) {}
 
 YamlField YamlField::load(const std::string& file) {
-  if (capture::is_folder(file)) throw InputError(file, "is a folder, not a rig file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw MissingFile(file, "the rig file cannot be opened");
-  std::stringstream stream;
-  stream << in.rdbuf();
-  const std::string text = stream.str();
+  const std::string text = capture::file_text(file, "a rig file is expected");
   if (text.find('\0') != std::string::npos) {
     throw InputError(file, "is not a text file; a rig is a YAML file, as `init` begins one");
   }

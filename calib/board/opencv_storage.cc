@@ -1,28 +1,14 @@
 #include "calib/board/opencv_storage.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
+#include "capture/files/file_text.h"
 #include "core/base/input_error.h"
 
 namespace scattermeter::calib {
 namespace {
-
-// The text of the file. cv::FileStorage would log to stderr when it cannot open a file.
-std::string storage_text(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path, "cannot open the intrinsics file");
-  try {
-    // Opening a folder succeeds, but the first read throws.
-    std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    if (!in.bad()) return text;
-  } catch (const std::ios_base::failure&) {
-  }
-  throw InputError(path, "cannot read the intrinsics file");
-}
 
 // OpenCV 4.6 never returns from some texts with more than one document start marker.
 bool has_one_document(const std::string& text) {
@@ -67,7 +53,8 @@ cv::FileStorage parse_storage(const std::string& path, const std::string& text) 
 }  // namespace
 
 cv::FileStorage open_storage(const std::string& path) {
-  return parse_storage(path, storage_text(path));
+  return parse_storage(path,
+                       capture::file_text(path, "the file of a camera's intrinsics is expected"));
 }
 
 cv::Mat read_storage_matrix(const std::string& where, const cv::FileNode& node) {

@@ -1,7 +1,5 @@
 #include "capture/files/obj_reader.h"
 
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -10,28 +8,13 @@
 #include <Eigen/Core>
 #include <tiny_obj_loader.h>
 
+#include "capture/files/file_text.h"
 #include "capture/files/obj_syntax.h"
 #include "capture/files/polygon_triangulation.h"
 #include "core/base/input_error.h"
 
 namespace scattermeter::capture {
 namespace {
-
-std::string read_text(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw MissingFile(path, "no such file");
-  if (std::filesystem::is_directory(status)) {
-    throw InputError(path, "is a folder, an OBJ file is expected");
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  // Only the state of the source is checked: copying an empty file sets the fail bit of the sink.
-  if (!stream || ((text << stream.rdbuf()), stream.bad())) {
-    throw InputError(path, "cannot be read");
-  }
-  return std::move(text).str();
-}
 
 // Receives the parser's callbacks. tinyobjloader's own triangulation is not used: it stores corner
 // counts in a byte and cuts every quadrilateral along its shorter diagonal, which lies outside some
@@ -72,7 +55,7 @@ struct Collector {
 }  // namespace
 
 TriangleMesh read_obj(const std::string& path, std::size_t max_triangles) {
-  std::istringstream stream(read_text(path));
+  std::istringstream stream(file_text(path, "an OBJ file is expected"));
   const ObjCounts counts = check_obj_syntax(path, stream.view(), max_triangles);
   if (counts.faces == 0) throw InputError(path, "contains no faces");
 

@@ -1,35 +1,14 @@
 #include "capture/files/probe_reader.h"
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <utility>
-
 #include "capture/files/exr_file.h"
+#include "capture/files/file_text.h"
 #include "capture/files/hdr_file.h"
 #include "core/base/input_error.h"
 #include "core/light/environment.h"
 
 namespace scattermeter::capture {
-namespace {
-
-std::string read_bytes(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw MissingFile(path, "no such file");
-  if (!std::filesystem::is_regular_file(status)) throw InputError(path, "is not a file");
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream bytes;
-  if (!stream || ((bytes << stream.rdbuf()), stream.bad())) {
-    throw InputError(path, "cannot be read");
-  }
-  return std::move(bytes).str();
-}
-
-}  // namespace
-
 ProbeImage read_probe(const std::string& path, const ProbeLimits& limits) {
-  const std::string bytes = read_bytes(path);
+  const std::string bytes = file_text(path, "the image of a light probe is expected");
   ProbeImage image;
   if (is_exr(bytes)) {
     image = decode_exr(path, bytes, limits);

@@ -94,7 +94,7 @@ TEST(ReadIntrinsics, NoFileNoFormat) {
         try {
           read_intrinsics("/nowhere/camera.yaml");
         } catch (const InputError& error) {
-          EXPECT_THAT(error.what(), StartsWith("/nowhere/camera.yaml: cannot open"));
+          EXPECT_THAT(error.what(), StartsWith("/nowhere/camera.yaml: no such file"));
           throw;
         }
       },

@@ -104,7 +104,7 @@ TEST_F(ProbeReader, NamesTheBadPixel) {
 
 TEST_F(ProbeReader, RefusesOtherFiles) {
   EXPECT_THAT(refusal_of(folder_ / "gone.hdr"), HasSubstr("gone.hdr: no such file"));
-  EXPECT_THAT(refusal_of(folder_.path()), HasSubstr("is not a file"));
+  EXPECT_THAT(refusal_of(folder_.path()), HasSubstr("is a folder, the image"));
   EXPECT_THAT(refusal("hello"), HasSubstr("neither"));
   EXPECT_THAT(refusal(""), HasSubstr("neither"));
   EXPECT_THAT(refusal(hdr_bytes({8, 8, std::vector<float>(192, 0.0F)})), HasSubstr("black"));
