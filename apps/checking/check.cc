@@ -32,6 +32,9 @@ CheckReport check_report(const CheckedRig& checked) {
     report.notes.push_back(fmt::format(
         "camera centre known to {:.3f}, {:.3f}, {:.3f} mm (std in x, y, z)", s.x(), s.y(), s.z()));
   }
+  if (std::string quiet = quiet_note(checked); !quiet.empty()) {
+    report.notes.push_back(std::move(quiet));
+  }
   std::set<std::string> judged_materials;
   for (const CheckedChannel& fitted : checked.fit.channels) {
     if (fitted.departures) judged_materials.insert(fitted.material);

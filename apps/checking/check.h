@@ -36,6 +36,9 @@ std::vector<CheckItem> check_exposure(const CheckedRig& checked);
 std::vector<CheckItem> check_bracket(const CheckedRig& checked);
 // Scatter of the samples relative to the noise model.
 std::vector<CheckItem> check_noise(const CheckedRig& checked);
+// Of samples that scatter far less than the noise model says, which fails no check but widens the
+// results; "": there are none.
+std::string quiet_note(const CheckedRig& checked);
 // The darkest background against the black level of the file, and its drift over the shots.
 std::vector<CheckItem> check_black(const CheckedRig& checked);
 // The light and the material that each shot looks like.

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+
+#include <fmt/core.h>
 
 #include "apps/checking/check.h"
 
@@ -9,9 +12,8 @@ namespace {
 // samples, once in 10^5 shots.
 constexpr double kNoiseStds = 6.0;
 
-}  // namespace
-
-std::vector<CheckItem> check_noise(const CheckedRig& checked) {
+// Of each shot and channel: the scatter of its samples, % above the model.
+std::vector<CheckDetail> excess_of(const CheckedRig& checked) {
   std::vector<CheckDetail> excess;
   for (std::size_t i = 0; i < checked.shots.size(); ++i) {
     for (std::size_t c = 0; c < kRgb; ++c) {
@@ -30,9 +32,32 @@ std::vector<CheckItem> check_noise(const CheckedRig& checked) {
       excess.push_back(d);
     }
   }
+  return excess;
+}
+
+}  // namespace
+
+std::vector<CheckItem> check_noise(const CheckedRig& checked) {
   return {judged("noise", "% above the model",
                  {checked.options.max_noise_percent, false, true, kNoiseStds},
-                 "set camera.sensor gain and read noise for this ISO", excess)};
+                 "set camera.sensor gain and read noise for this ISO", excess_of(checked))};
+}
+
+std::string quiet_note(const CheckedRig& checked) {
+  constexpr double kQuiet = -75.0;  // half the stated deviation
+  std::vector<CheckDetail> quiet = excess_of(checked);
+  std::erase_if(quiet, [](const CheckDetail& d) {
+    return !(d.value < kQuiet) || !(-d.value > kNoiseStds * d.std);
+  });
+  if (quiet.empty()) return "";
+  const CheckDetail& most = *std::min_element(
+      quiet.begin(), quiet.end(),
+      [](const CheckDetail& a, const CheckDetail& b) { return a.value < b.value; });
+  return fmt::format(
+      "noise: {} channels of shots scatter less than half as much as camera.sensor states, {} the "
+      "least ({:.2g} of the variance): the results' deviations are too wide, and errors of the rig "
+      "harder to see; set camera.sensor gain_e_per_count and read_noise_counts for this ISO",
+      quiet.size(), most.where, std::max(0.0, 1.0 + most.value / 100.0));
 }
 
 }  // namespace scattermeter::apps

@@ -23,9 +23,15 @@ TEST(CheckNoise, SamplesAgainstTheModel) {
   EXPECT_EQ(item.where, "a.dng G");
   EXPECT_NEAR(item.details[0].std, 100.0 * std::hypot(30.0, 40.0) / 5000.0, 1e-9);
   EXPECT_FALSE(item.passed);  // 32 % above, with 1 % by chance
-  // Less noise than the model passes, and what may be chance does.
+  // Less noise than the model passes, but is told; and what may be chance passes.
+  EXPECT_EQ(quiet_note(made.checked), "");
   made.checked.frames[0].noise[1] = {{100, 1.0, 0.01, 10.0, 300}};
   EXPECT_TRUE(check_noise(made.checked)[0].passed);
+  EXPECT_THAT(quiet_note(made.checked), HasSubstr("a.dng G the least (0.1 of the variance)"));
+  made.checked.frames[0].noise[1] = {{100, 3.0, 0.01, 10.0, 300}};
+  EXPECT_EQ(quiet_note(made.checked), "");
+  made.checked.frames[0].noise[1] = {{100, 1.0, 0.2, 10.0, 300}};
+  EXPECT_EQ(quiet_note(made.checked), "");
   made.checked.frames[0].noise[1] = {{100, 15.0, 0.1, 10.0, 300}};
   EXPECT_TRUE(check_noise(made.checked)[0].passed);
   made.checked.frames[0].noise[1] = {{100, 17.0, 0.1, 10.0, 300}};
