@@ -182,18 +182,17 @@ JointJudgement joint_pulls_of(const std::vector<ChannelResult>& results,
 
 void refuse_contradicted(std::vector<ChannelResult>& results) {
   // By material: the channel that contradicts the rig, as it stands without the others. That of a
-  // channel whose model misses its image counts if a second channel contradicts the rig as well.
-  std::map<std::string, std::string> contradicted;
-  std::set<std::string> doubtful;
+  // channel whose model misses its image counts if a second channel contradicts the rig as well,
+  // and for channels that nearly do.
+  constexpr double kNearly = 3.0;
+  std::map<std::string, std::string> contradicted, doubtful;
   for (const ChannelResult& r : results) {
     const PriorPull* worst = contradiction(r.estimate.pulls, kMostPull, kLeastPullImage);
     if (worst == nullptr || !r.estimate.converged) continue;
-    const bool is_second = !doubtful.insert(r.material).second;
-    if (explains_its_image(r) || is_second) {
-      contradicted.try_emplace(r.material,
-                               fmt::format("channel {} of these shots: {}", r.channel,
-                                           contradiction_sentence(*worst, r.estimate.pulls)));
-    }
+    const std::string text = fmt::format("channel {} of these shots: {}", r.channel,
+                                         contradiction_sentence(*worst, r.estimate.pulls));
+    const bool is_second = !doubtful.try_emplace(r.material, text).second;
+    if (explains_its_image(r) || is_second) contradicted.try_emplace(r.material, text);
   }
   const JointJudgement joint = joint_pulls_of(results);
   see_with_all_channels(joint, results);
@@ -207,8 +206,9 @@ void refuse_contradicted(std::vector<ChannelResult>& results) {
   }
   refuse_beside_others(results);
   for (ChannelResult& r : results) {
-    const auto by = contradicted.find(r.material);
-    if (by != contradicted.end()) refuse_as_another(by->second, r);
+    const bool nearly = contradiction(r.estimate.pulls, kNearly, kLeastPullImage) != nullptr;
+    const auto& by = nearly && !contradicted.contains(r.material) ? doubtful : contradicted;
+    if (const auto it = by.find(r.material); it != by.end()) refuse_as_another(it->second, r);
   }
 }
 

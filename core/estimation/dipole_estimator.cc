@@ -135,6 +135,10 @@ class DipoleEstimator {
     own.eta_int_over_ext = e_.channels[i].eta_int_over_ext;
     own.joint_pulls = work_[i].joint_pulls;
     own.all_rows = e_.options.all_rows;
+    if (e_.results[i].estimate.converged) {
+      const LitMedium first = lit_medium(e_.results[i].estimate);
+      own.near = DipoleSolver::Point::of(first.medium, first.scale);
+    }
     return own;
   }
 
@@ -196,9 +200,7 @@ class DipoleEstimator {
   void final_fit(std::size_t i) {
     const MaterialChannel& channel = e_.channels[i];
     ChannelResult& result = e_.results[i];
-    const Estimate& first = result.estimate;
-    const LitMedium medium{{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0},
-                           first.scale.value};
+    const LitMedium medium = lit_medium(result.estimate);
     if (systems_ != nullptr) remember(i, medium);
     if (transport_follows_ && work_[i].far_off && some_rows_refuse(i, medium)) return;
     const ChannelImage image(e_.scene, channel, work_[i].rows, e_.kept.weights, knots_, medium,

@@ -75,8 +75,7 @@ std::shared_ptr<const Sensitivities> sensitivities(const Estimation& e,
       Wanted& of_light = wanted[key];
       const auto n = static_cast<Eigen::Index>(of_light.media.size());
       if (!column[i].try_emplace(key, n).second) return;
-      of_light.media.push_back(
-          {{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0}, first.scale.value});
+      of_light.media.push_back(lit_medium(first));
       const SceneObject& object = *std::get<0>(key)->object->stated;
       const auto width = at.edge_widths_mm.find({e.channels[i].material, object.name});
       of_light.widths_mm.push_back(width == at.edge_widths_mm.end() ? chamfer_width_mm(object)

@@ -154,8 +154,8 @@ double set_misfit(const RecoveredReflectance& recovered, double l2,
   return cost / dof;
 }
 
-// The optimum under the rig's priors, once more with wider ones where the image doubts them. The
-// judgement is on the priors as stated.
+// The optimum under the rig's priors, and from there that with wider ones where the image doubts
+// them, which elsewhere may stand for the medium. The judgement is on the priors as stated.
 struct Solved {
   RigPriors priors;
   std::vector<Nuisance> fitted;
@@ -164,21 +164,21 @@ struct Solved {
   ModelJudgement judgement;
 };
 
-void solve(const RecoveredReflectance& recovered, const DistanceKnots& knots, double eta,
-           Solved& out) {
+void set_solver(const RecoveredReflectance& recovered, const DistanceKnots& knots, double eta,
+                Solved& out) {
   out.fitted = out.priors.fitted();
   out.solver = std::make_unique<DipoleSolver>(recovered, knots, out.fitted, eta, out.priors.scale);
-  out.optimum = out.solver->best();
 }
 
 void solve_with_doubt(const RecoveredReflectance& recovered, const DistanceKnots& knots,
                       const DipoleFitOptions& options, Solved& out) {
   const double eta = options.eta_int_over_ext;
-  solve(recovered, knots, eta, out);
-  const Point& p = out.optimum;
+  set_solver(recovered, knots, eta, out);
+  const Point p = out.optimum = out.solver->best(options.near);
   out.judgement = judgement_of(out.priors, recovered, dipole_curve(knots, p.u, p.q, eta), p);
   if (widen_doubtful(out.judgement.pulls, options.joint_pulls, out.priors)) {
-    solve(recovered, knots, eta, out);
+    set_solver(recovered, knots, eta, out);
+    out.optimum = out.solver->nearest(p);
   }
 }
 

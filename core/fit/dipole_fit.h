@@ -1,6 +1,7 @@
 // Fit of the dipole to the recovered reflectance of an image.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -42,7 +43,8 @@ struct DipoleFitOptions {
   // widening of errors by it, and verdicts are then those expected with that noise (chi-square
   // increased by one per degree of freedom).
   bool without_noise = false;
-  JointPulls joint_pulls = {};  // known from other channels
+  JointPulls joint_pulls = {};                             // known from other channels
+  std::optional<DipoleSolver::Point> near = std::nullopt;  // one more start of the search
   // All rows over those of the image, at least 1; above 1, DipoleFit::more_rows is filled.
   double all_rows = 1;
   void Check() const;  // std::invalid_argument naming the field

@@ -33,9 +33,11 @@ class RecoveredCost final : public ceres::SizedCostFunction<ceres::DYNAMIC, 1, 1
     const double u = parameters[0][0];
     const double q = parameters[1][0];
     const double s = std::exp(parameters[2][0]);
-    // Six orders of magnitude beyond the knots R overflows or vanishes.
+    // Six orders of magnitude below the knots R overflows. Where light goes much farther than the
+    // object is large, R fades, and the change of the image by an LED's power, which resembles the
+    // image, would stand for all of it.
     const bool far = !(std::exp(-u) > 1e-6 * knots_.resolution_mm()) ||
-                     !(std::exp(-u) < 1e6 * knots_.max_distance_mm());
+                     !(std::exp(-u) < knots_.max_distance_mm());
     if (!std::isfinite(s) || far || !(q >= 0.0) || !(q < 1.0)) return false;
     const DipoleCurve c = dipole_curve(knots_, u, q, eta_);
     const Eigen::Index n = whitened_.size();
@@ -140,6 +142,14 @@ void solve(ceres::Problem& problem, const ScalePrior& scale, DipoleSolver::Point
 
 }  // namespace
 
+DipoleSolver::Point DipoleSolver::Point::of(const Medium& medium, double scale) {
+  Point p;
+  p.u = std::log(medium.sigma_t_prime_per_mm());
+  p.q = medium.sigma_a_per_mm / medium.sigma_t_prime_per_mm();
+  p.log_s = std::log(scale);
+  return p;
+}
+
 double DipoleSolver::Point::sigma_t_prime_per_mm() const { return std::exp(u); }
 double DipoleSolver::Point::sigma_s_prime_per_mm() const { return (1.0 - q) * std::exp(u); }
 double DipoleSolver::Point::sigma_a_per_mm() const { return q * std::exp(u); }
@@ -150,7 +160,7 @@ double DipoleSolver::Point::sigma_a_per_mm() const { return q * std::exp(u); }
 DipoleSolver::DipoleSolver(const RecoveredReflectance& recovered, const DistanceKnots& knots,
                            const std::vector<Nuisance>& fitted, double eta_int_over_ext,
                            const ScalePrior& scale)
-    : recovered_(recovered), knots_(knots), eta_(eta_int_over_ext), scale_(scale) {
+    : knots_(knots), eta_(eta_int_over_ext), scale_(scale) {
   const Eigen::Index n = recovered.whitened.size();
   const auto m = static_cast<Eigen::Index>(fitted.size());
   kernel_ = recovered.sqrt_information.leftCols(knots.size());
@@ -175,13 +185,32 @@ DipoleSolver::DipoleSolver(const RecoveredReflectance& recovered, const Distance
   whitened_ = left.rightCols(1);
 }
 
-DipoleSolver::Point DipoleSolver::best() const {
+DipoleSolver::Point DipoleSolver::best(const std::optional<Point>& near) const {
   Point p;
   p.cost = std::numeric_limits<double>::infinity();
-  for (const Point& start : dipole_starts(recovered_, knots_, eta_, scale_)) {
+  // A medium that absorbs so much that it reflects less than 2 % is the answer only if there is no
+  // other: nuisances far beyond the range in which they are linear can stand for the light it
+  // lacks.
+  const auto is_black = [](const Point& point) {
+    constexpr double kBlack = 0.8;
+    return point.q > kBlack;
+  };
+  std::vector<Point> starts = dipole_starts(kernel_, whitened_, knots_, eta_, scale_);
+  if (near) starts.push_back(*near);
+  for (const Point& start : starts) {
     const Point q = freed(start);
-    if (q.cost < p.cost || !std::isfinite(p.cost)) p = q;
+    const bool better =
+        std::isfinite(q.cost) && std::pair(is_black(q), q.cost) < std::pair(is_black(p), p.cost);
+    if (better || !std::isfinite(p.cost)) p = q;
   }
+  return beside_bound(p);
+}
+
+DipoleSolver::Point DipoleSolver::nearest(const Point& from) const {
+  return beside_bound(freed(from));
+}
+
+DipoleSolver::Point DipoleSolver::beside_bound(Point p) const {
   // Steps that are cut off at q = 0 may end the search early (chi-square 0.3 too high was seen):
   // the optimum on the bound is searched for separately and tested for being one off the bound,
   // too.

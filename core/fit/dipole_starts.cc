@@ -9,33 +9,35 @@
 
 namespace scattermeter {
 
-std::vector<DipoleSolver::Point> dipole_starts(const RecoveredReflectance& recovered,
+std::vector<DipoleSolver::Point> dipole_starts(const Eigen::MatrixXd& kernel,
+                                               const Eigen::VectorXd& whitened,
                                                const DistanceKnots& knots, double eta_int_over_ext,
                                                const ScalePrior& scale) {
   using Start = DipoleSolver::Point;
   std::vector<Start> line;
   const int steps =
-      4 + static_cast<int>(2.0 * std::log2(knots.max_distance_mm() / knots.resolution_mm()));
+      1 + static_cast<int>(2.0 * std::log2(knots.max_distance_mm() / knots.resolution_mm()));
   for (int k = 0; k < steps; ++k) {
     Start best;
     best.u = -std::log(knots.resolution_mm()) - 0.5 * k * std::numbers::ln2;
     best.cost = std::numeric_limits<double>::infinity();
     for (double q : {1e-5, 1e-3, 0.01, 0.05, 0.15, 0.3, 0.5, 0.75}) {
-      const Eigen::VectorXd p = recovered.sqrt_information.leftCols(knots.size()) *
-                                dipole_curve(knots, best.u, q, eta_int_over_ext).r;
-      double s = 1.0;
-      if (scale.relative_std > 0.0) {
-        // Weighted by the prior, linear in s.
-        const double prior = 1.0 / (scale.relative_std * scale.relative_std);
-        s = (p.dot(recovered.whitened) + prior) / (p.squaredNorm() + prior);
-        if (!(s > 0.0)) continue;
-      }
-      const double cost = (s * p - recovered.whitened).squaredNorm();
-      if (cost < best.cost) {
+      const Eigen::VectorXd p = kernel * dipole_curve(knots, best.u, q, eta_int_over_ext).r;
+      const auto offer = [&](double log_s) {
+        // A scale without a prior costs nothing; an exact one is 0 here.
+        const double pull = log_s == 0.0 ? 0.0 : log_s / scale.relative_std;
+        const double cost = (std::exp(log_s) * p - whitened).squaredNorm() + pull * pull;
+        if (!(cost < best.cost)) return;
         best.cost = cost;
         best.q = q;
-        best.log_s = std::log(s);
-      }
+        best.log_s = log_s;
+      };
+      if (!scale.is_free()) offer(0.0);
+      if (!(scale.relative_std > 0.0)) continue;
+      // Linear in s, weighted by its prior.
+      const double prior = 1.0 / (scale.relative_std * scale.relative_std);
+      const double s = (p.dot(whitened) + prior) / (p.squaredNorm() + prior);
+      if (s > 0.0) offer(std::log(s));
     }
     line.push_back(best);
   }

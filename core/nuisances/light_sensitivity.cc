@@ -109,6 +109,10 @@ Changed<Each> changed(const SeenObject& seen, const SceneLight& light, std::size
 
 }  // namespace
 
+LitMedium lit_medium(const Estimate& first) {
+  return {{first.sigma_s_prime_per_mm.value, first.sigma_a_per_mm.value, 1.0}, first.scale.value};
+}
+
 Eigen::MatrixXd scaled_curves(const std::vector<LitMedium>& media, const DistanceKnots& knots,
                               double eta) {
   Eigen::MatrixXd r(knots.size(), static_cast<Eigen::Index>(media.size()));

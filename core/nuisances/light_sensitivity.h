@@ -9,6 +9,7 @@
 
 #include "core/diffusion/distance_weights.h"
 #include "core/diffusion/weight_store.h"
+#include "core/fit/estimate.h"
 #include "core/material/medium.h"
 #include "core/scene/lit_objects.h"
 #include "core/scene/seen_object.h"
@@ -21,6 +22,8 @@ struct LitMedium {
   Medium medium;
   double scale = 1;  // measured over predicted, of the first estimate
 };
+
+LitMedium lit_medium(const Estimate& first);  // with an eta of 1
 
 // Change of l (per unit of the light's power) on the rows of a view for each medium: rows x media.
 // Those by the light's quantities that are stated as exact are left out.

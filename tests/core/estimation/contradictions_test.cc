@@ -245,6 +245,29 @@ TEST(Contradictions, TwoChannelsThatAreMissedRefuseTheThird) {
             "channel R of these shots: the dipole misses the image");
 }
 
+// A channel that misses its image and contradicts the rig casts doubt on those that nearly do.
+TEST(Contradictions, AMissedChannelRefusesThoseInDoubt) {
+  std::vector<ChannelResult> results = three_channels_and_one();
+  const auto pull = [&](std::size_t i, double size) {
+    PriorPull& p = results[i].estimate.pulls.emplace_back(PriorPull{"led1.power", "LED power"});
+    p.pull = size;
+    p.image_relative = p.explained_relative = 0.01;
+  };
+  pull(0, 5.0);
+  pull(1, 2.9);
+  pull(2, -3.1);
+  pull(3, 3.1);
+  results[0].estimate.misfit_p_value = 1e-9;
+  results[0].estimate.misfit_relative = 0.02;
+  results[0].estimate.reasons = {"the dipole misses the image"};
+  refuse_contradicted(results);
+  EXPECT_TRUE(results[1].estimate.reasons.empty());
+  ASSERT_EQ(results[2].estimate.reasons.size(), 1U);
+  EXPECT_THAT(results[2].estimate.reasons[0],
+              HasSubstr("channel R of these shots: the shots contradict the LED power"));
+  EXPECT_TRUE(results[3].estimate.reasons.empty());  // another material
+}
+
 // A model that misses the image says nothing about the rig.
 TEST(Contradictions, ChannelsThatTheModelMissesDoNotCount) {
   std::vector<ChannelResult> results(1);

@@ -133,6 +133,31 @@ TEST(DipoleSolver, HeldAtTheOptimumIsTheOptimum) {
   }
 }
 
+// An LED twice as bright as stated, without any medium, is five deviations of its power: nearer to
+// the image than a medium under even light that is three deviations off. It is not the answer.
+TEST(DipoleSolver, DoesNotTakeTheLightForTheMedium) {
+  for (double sigma_t : {0.5, 2.0}) {
+    for (double q : {1e-3, 0.02}) {
+      const Medium truth{(1.0 - q) * sigma_t, q * sigma_t, kEta};
+      for (double even : {-0.15, 0.5, 1.5}) {
+        DenseSystem system = noisy_system(plate().w, plate().image(truth), 1e-2, 1);
+        const Eigen::VectorXd image = system.l;
+        system.nuisances = {{"even light", 0.5, true}, {"power", 0.2, true}};
+        system.nuisance_columns.resize(image.size(), 2);
+        system.nuisance_columns << Eigen::VectorXd::Constant(image.size(), image.mean()), image;
+        system.l += even * system.nuisance_columns.col(0);
+        const RecoveredReflectance recovered = recover_reflectance(system);
+        const DipoleSolver solver(recovered, plate().knots, system.nuisances, kEta, {0.02});
+        const Point p = solver.best(
+            Point::of({1.3 * truth.sigma_s_prime_per_mm, 2.0 * truth.sigma_a_per_mm, kEta}, 1.0));
+        EXPECT_TRUE(p.converged);
+        EXPECT_NEAR(p.sigma_s_prime_per_mm() / truth.sigma_s_prime_per_mm, 1.0, 0.05)
+            << sigma_t << ' ' << q << ' ' << even << ' ' << p.cost;
+      }
+    }
+  }
+}
+
 // Away from the optimum: the value is held, the rest is a minimum, and the profile's slope is the
 // partial derivative by the held value alone (envelope theorem), all by the test's own cost.
 TEST(DipoleSolver, ProfileIsTheMinimumOverTheRest) {

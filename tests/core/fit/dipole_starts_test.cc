@@ -23,7 +23,8 @@ TEST(DipoleStarts, AreNearEveryMaterial) {
       const RecoveredReflectance recovered =
           recover_reflectance(test_support::noisy_system(w, l, 1e-3, 1));
       for (double scale_std : {0.0, 0.02, std::numeric_limits<double>::infinity()}) {
-        const auto starts = dipole_starts(recovered, knots, 1.3, {scale_std});
+        const auto starts =
+            dipole_starts(recovered.sqrt_information, recovered.whitened, knots, 1.3, {scale_std});
         ASSERT_FALSE(starts.empty());
         EXPECT_LE(starts.size(), 3U);
         bool near = false;
