@@ -69,7 +69,7 @@ std::string probable_cause(const CheckedRig& checked, const std::vector<CheckIte
                        [](const auto& a, const auto& b) { return a.second.drop < b.second.drop; });
   constexpr double kLeastShare = 0.5;
   if (best == totals.end() || best->second.share < kLeastShare * channels) return "";
-  return fmt::format("{}, which explains {:.0f} % of what the joint model leaves of the images; {}",
+  return fmt::format("{}, which explains {:.0f} % of what the joint model leaves unexplained; {}",
                      best->first, 100.0 * best->second.share / channels, best->second.advice);
 }
 

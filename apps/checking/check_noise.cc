@@ -55,8 +55,9 @@ std::string quiet_note(const CheckedRig& checked) {
       [](const CheckDetail& a, const CheckDetail& b) { return a.value < b.value; });
   return fmt::format(
       "noise: {} channels of shots scatter less than half as much as camera.sensor states, {} the "
-      "least ({:.2g} of the variance): the results' deviations are too wide, and errors of the rig "
-      "harder to see; set camera.sensor gain_e_per_count and read_noise_counts for this ISO",
+      "least ({:.2g} of the variance): the stated uncertainties are too large, and errors of the "
+      "rig are harder to detect; set camera.sensor gain_e_per_count and read_noise_counts for this "
+      "ISO",
       quiet.size(), most.where, std::max(0.0, 1.0 + most.value / 100.0));
 }
 

@@ -40,13 +40,15 @@ struct Draft {
 // Throws InputError for a file that there is already.
 void require_free(const std::string& path, const std::string& otherwise) {
   if (fs::exists(path)) {
-    throw InputError(path, "exists already; init replaces no file: " + otherwise);
+    throw InputError(path, "exists already; init does not overwrite files: " + otherwise);
   }
 }
 
 void require_free(const std::vector<NewFile>& meshes) {
   for (const NewFile& mesh : meshes) {
-    require_free(mesh.path, "name it as the piece, if it is its mesh, or choose another --out");
+    require_free(
+        mesh.path,
+        "if it is the mesh of the piece, pass it to --body; otherwise choose another --out");
   }
 }
 
@@ -89,9 +91,9 @@ void write_rig(const std::string& path, const std::vector<NewFile>& files) {
     open_objects(read_rig(path));
   } catch (const InputError& error) {
     for (const NewFile& file : files) fs::remove(file.path);
-    throw InputError(
-        "init",
-        std::string("what the options say makes no rig, nothing is written: ") + error.what());
+    throw InputError("init",
+                     std::string("the options do not describe a valid rig; nothing is written: ") +
+                         error.what());
   }
 }
 

@@ -76,8 +76,9 @@ void declare_options(CLI::App& command, MeasureArguments& a) {
       .add_option_function<std::string>(
           "--precision", [&a](const std::string& text) { a.options.goal = goal_of(text); },
           "full: all patches; a number: the standard deviation that suffices, in per cent of "
-          "sigma_s' (of sigma_a five times that): where the dipole reaches it with fewer patches, "
-          "evenly spread, the others are skipped, unless anything speaks against the answer")
+          "sigma_s' (of sigma_a, five times as much): where the dipole reaches it with fewer "
+          "patches, evenly spread, the others are skipped, unless something casts doubt on the "
+          "result")
       ->type_name("full|PERCENT")
       ->default_str("full");
   command.add_option("--material", a.options.materials,

@@ -81,8 +81,8 @@ class Watching {
     } else if (n.event == FolderEvent::kDoubled) {
       say(fmt::format("{}: the same as {}, left out", n.name, n.other), "dim");
     } else if (const std::string shot = shots_.keep(path); !shot.empty()) {
-      say(fmt::format("{}: is gone; what was taken as {} is kept (to take it again, put a file of "
-                      "that name there)",
+      say(fmt::format("{}: has been removed; the copy accepted as {} is kept (to replace it, put a "
+                      "file of that name into the folder)",
                       n.name, shot),
           "dim");
     }
@@ -145,13 +145,13 @@ void add_watch_command(CLI::App& app, CommandContext& context) {
   const auto a = std::make_shared<WatchArguments>();
   CLI::App* command = app.add_subcommand(
       "watch",
-      "Look at shots while they are taken.\n"
+      "Check shots while they are being taken.\n"
       "Follows a folder that a tethering program or a card reader fills, says which shot of the "
-      "rig "
-      "comes next, and of each that arrives whether it will do: exposure, focus, outline, light. "
-      "Files of other names than the rig's are taken in its order. Accepted shots stand in "
-      "DIR/shots under the rig's names, DIR/watch.html shows the state and reloads itself. After "
-      "each shot: what the shots so far say, and what the next would add.\n"
+      "rig comes next, and reports for each one that arrives whether it is usable: exposure, "
+      "focus, outline, light. Files whose names are not in the rig are taken in the rig's order. "
+      "Accepted shots are kept in DIR/shots under the rig's names; DIR/watch.html shows the state "
+      "and reloads itself. After each shot, the result so far is printed, and what the next shot "
+      "would add.\n"
       "Exit status: 0 all shots are there, 1 some are missing (--once), 2 bad input.");
   command->add_option("FOLDER", a->folder, "folder into which the shots are put")->required();
   command->add_option("--rig", a->rig, "rig file (YAML)")->required();

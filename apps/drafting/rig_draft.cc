@@ -117,8 +117,8 @@ class Writer {
     add("\nobjects:");
     for (const DraftedObject& o : draft_.objects) {
       const std::string marked = mark(fmt::format(
-          "eta of {}, and that {} stands in the world as the piece on the board, or, by "
-          "`pose: {{from: silhouette, on_plane: true}}`, to about 5 mm",
+          "eta of {}, and the position of {}: that of the piece relative to the board or, with "
+          "`pose: {{from: silhouette, on_plane: true}}`, within about 5 mm of it",
           o.name, o.mesh));
       add(fmt::format("  {}: {{mesh: {}, eta: 1.49}}{}", checked_name(o.name, "--body"),
                       quoted(o.mesh), marked));

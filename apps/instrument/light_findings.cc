@@ -127,7 +127,7 @@ void LightLook::find_covered(const std::vector<ShotLikeness>& likeness,
     } else if (likeness[i].own > kUnexplained) {
       finding.cause = "image not explained";
       finding.text = fmt::format(
-          "image not explained: {:.0f} % of {} is that of no material on this object under {}",
+          "image not explained: {:.0f} % of {} does not fit any material on this object under {}",
           100.0 * likeness[i].own, file, joined(shots_[i].stated->lights));
       finding.advice = "compare the shot with mesh, pose and lights of the rig (`check`)";
     } else {
@@ -195,10 +195,11 @@ void LightLook::find_factors(const std::vector<ShotLikeness>& likeness,
   const bool thousand = std::abs(std::abs(std::log10(factor)) - 3.0) < kPower;
   finding.cause = thousand ? "unit: mW for W" : "light off by a factor";
   finding.text = fmt::format(
-      "{}: {} {} times {} light than intensities and responsivity state for any material",
+      "{}: {} {} times {} light than the stated intensities and responsivity allow for any "
+      "material",
       thousand ? (factor < 1.0 ? "unit (mW for W?)" : "unit (W for mW?)") : "light off by a factor",
-      all ? "the shots hold"
-          : "the shots lit by " + fmt::format("{}", fmt::join(off, ", ")) + " hold",
+      all ? "the shots contain"
+          : "the shots lit by " + fmt::format("{}", fmt::join(off, ", ")) + " contain",
       number(std::max(factor, 1.0 / factor)), factor < 1.0 ? "less" : "more");
   finding.advice = all ? "correct lights.intensity_W_per_sr (in W/sr) or "
                          "camera.responsivity_counts_mm2_sr_per_W_s"

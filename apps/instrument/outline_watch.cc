@@ -208,8 +208,9 @@ void OutlineWatch::conclude(const Looks& looks, OutlineFindings& out) const {
   }
   if (share < kLeastShare) {
     out.notes.push_back(fmt::format(
-        "outlines are not judged: only {:.0f} % of their points are seen where any place of the "
-        "objects would put them; use a darker background, and light the objects from more sides",
+        "outlines are not judged: only {:.0f} % of their points are found where some position of "
+        "the objects would put them; use a darker background, and light the objects from more "
+        "sides",
         100.0 * share));
     return;
   }
@@ -218,8 +219,7 @@ void OutlineWatch::conclude(const Looks& looks, OutlineFindings& out) const {
     for (std::size_t b = 0; b < names_.size(); ++b) out.shifts[names_[b]] = d.shifts[b];
     out.notes.push_back(
         fmt::format("outline {} of where the pose puts it (± {:.1f}), within the stated "
-                    "uncertainty: the search "
-                    "for where the object stands begins there",
+                    "uncertainty: the search for the object's position begins there",
                     shift_phrase(d.shift_px), d.shift_std_px));
     return;
   }

@@ -54,9 +54,10 @@ Html budget_details(char channel, const Estimate& e) {
                           number_cell(fmt::format("{:.2g}", line.std_sigma_a_per_mm)),
                           {meter(share_of_a(line, e)), false, ""}});
   }
-  return html_details(fmt::format("{}: most of sigma_s' is due to {}, of sigma_a to {}", channel,
-                                  largest(e, share_of_s), largest(e, share_of_a)),
-                      html_table(table));
+  return html_details(
+      fmt::format("{}: the uncertainty of sigma_s' is mainly due to {}, that of sigma_a to {}",
+                  channel, largest(e, share_of_s), largest(e, share_of_a)),
+      html_table(table));
 }
 
 }  // namespace scattermeter::apps

@@ -221,8 +221,8 @@ std::vector<PagePlot> led_fit_plots(const calib::LedCalibration& c) {
        map_plots(maps,
                  "Measured light on the plane over that of the fitted LED, mean of the channels. "
                  "What is not even is not explained by one LED of this lobe: a spot is dust or a "
-                 "shadow, a slope or a bowl other light or a plane that stands elsewhere. Grey: no "
-                 "usable cell.")) {
+                 "shadow; a slope or a bowl is other light or a plane in another position. Grey: "
+                 "no usable cell.")) {
     out.push_back(std::move(plot));
   }
   return out;

@@ -135,8 +135,9 @@ Html plan_section(const Plan& plan, const std::vector<const PlannedChannel*>& ch
     out += html_element("h3", html_text("What would help"));
     out += html_element(
         "p",
-        html_text(fmt::format("For channel {}, whose sigma_a is the least certain: to {}.",
-                              o.channel, percent_text(o.planned))),
+        html_text(fmt::format(
+            "Channel {} has the least certain sigma_a: the planned shots determine it to {}.",
+            o.channel, percent_text(o.planned))),
         "dim");
     out += gain_table(o, channels);
     std::vector<PagePlot> plots;

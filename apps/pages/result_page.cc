@@ -117,7 +117,7 @@ Html skipped(const Skipped& s) {
   if (s.rows > 0) {
     out += line(
         fmt::format("{} patches in the shots were left out, as the others reach the precision that "
-                    "was asked for; in maps, each of these stands for its neighbours.",
+                    "was asked for; in maps, each patch in use stands for its neighbours.",
                     s.rows));
   }
   return out;

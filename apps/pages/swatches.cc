@@ -33,11 +33,12 @@ constexpr const char* kPlatesCaption =
     "included, by the diffusion of light in a plate with smooth faces. ";
 constexpr const char* kCubeCaption =
     "Cube, without the gloss of its surface: the middle of the upper face, and the face in shadow "
-    "2 mm behind its lit edge, by the dipole, which knows no edges: it shows both too dark, by up "
+    "2 mm behind its lit edge, by the dipole, which ignores edges and shows both too dark, by up "
     "to 15 % and by up to 60 %. ";
 constexpr const char* kColoursCaption =
     "One standard deviation, of the coefficients and of the approximation. The camera's R, G, B "
-    "stand for those of the screen (sRGB): a colour is as right as the camera's filters are like "
+    "stand for those of the screen (sRGB): a colour is as accurate as the camera's filters are "
+    "like "
     "them.";
 
 struct Plate {

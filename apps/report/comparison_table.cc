@@ -29,8 +29,8 @@ std::string seen(const MaterialComparison& m) {
     absorption_per_mm = std::max(absorption_per_mm, c.sigma_a_per_mm.std);
   }
   return fmt::format(
-      "one of {:.2g} % in sigma_s' or {:.2g} /mm in sigma_a would have shown in every "
-      "channel",
+      "a difference of {:.2g} % in sigma_s' or {:.2g} /mm in sigma_a would have been seen in "
+      "every channel",
       300.0 * scattering, 3.0 * absorption_per_mm);
 }
 

@@ -46,8 +46,8 @@ std::string exposure_lines(const Plan& plan) {
 std::string gain_lines(const Plan& plan) {
   std::string out;
   for (const SuggestedShots& o : plan.suggested_shots) {
-    out += fmt::format("{} {}: sigma_a is known to {}; it would be to\n", o.material, o.channel,
-                       percent_text(o.planned));
+    out += fmt::format("{} {}: sigma_a will be known to {}; this would improve to\n", o.material,
+                       o.channel, percent_text(o.planned));
     for (const PlannedChannel& c : plan.channels) {
       if (c.result.material != o.material || c.result.channel != o.channel) continue;
       const Quantity& a = c.result.estimate.sigma_a_per_mm;

@@ -71,7 +71,8 @@ SceneObject read_object(const std::string& name, const YamlField& field,
   if (const auto f = field.find("pose")) read_place(*f, object);
   const auto stated = field.find("position_std_mm");
   if (object.to_be_found && stated) {
-    stated->fail("a piece that is found by its silhouette has the uncertainty of that");
+    stated->fail(
+        "must not be given for a piece that is found by its silhouette, which determines it");
   }
   return object;
 }

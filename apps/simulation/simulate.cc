@@ -50,9 +50,9 @@ Rig with_format(Rig rig, capture::RawFormat format) {
   const std::string file = rig.scene.source;
   if (const std::string d80 = capture::RawMetadata{}.model;
       !camera.model.empty() && camera.model != d80) {
-    throw InputError(file + ": camera.model", "is " + camera.model +
-                                                  ", but NEF files are made as a " + d80 +
-                                                  " makes them; write DNG files, or " + d80);
+    throw InputError(file + ": camera.model",
+                     "is " + camera.model + ", but NEF files are only written as those of a " +
+                         d80 + "; write DNG files, or set camera.model to " + d80);
   }
   if (camera.sensor.white_counts != capture::RawMetadata{}.white_counts) {
     throw InputError(

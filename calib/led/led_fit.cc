@@ -202,8 +202,8 @@ class LedFitter {
         led_covariance(scene_, what_, solution_, fit_.highlight_inflation, fit_.plane_inflation);
     fit_.ambient = fitted_ambient(scene_, what_, solution_, found.covariance);
     if (!found.determined) {
-      refuse(LedStatus::kUndetermined, "the shots do not determine " +
-                                           combination_name(found.open_combination) + " apart; " +
+      refuse(LedStatus::kUndetermined, "the shots do not determine these separately: " +
+                                           combination_name(found.open_combination) + "; " +
                                            layout_advice(what_));
       return;
     }
@@ -265,8 +265,9 @@ LedFit fit_led(const LedScene& scene, const Led& start, const LedFitOptions& opt
     with.message = seen + ", and with that " + with.message;
   } else {
     with.warnings.push_back(fmt::format(
-        "{}: fitted as a constant of each shot, the distance is known to {:.3g} mm, and to {:.3g} "
-        "mm if there were none; a shot of the plane with the LED off would determine it",
+        "{}; it is fitted as a constant of each shot, so that the distance is known to {:.3g} mm "
+        "instead of {:.3g} mm; a shot of the plane with the LED off would determine the ambient "
+        "light",
         seen, with.distance_std_mm, without.distance_std_mm));
   }
   return with;

@@ -48,7 +48,7 @@ void add_warnings(const LedFitOptions& options, const std::string& tied, LedFit&
         "covariance is widened {:.3g} times{}",
         100.0 * fit.plane_rms, fit.plane_inflation,
         options.ambient == AmbientModel::kNone
-            ? "; if the room was not dark, do not declare it dark"
+            ? "; if the room was not dark, do not set calibration.led.ambient to none"
             : ""));
   }
 }

@@ -153,8 +153,8 @@ void Selection::leave_out_views() {
     if (!(*worst > kBadView * typical_px_)) return;
     const auto at = states_.begin() + (worst - medians.begin());
     out_.left_out.push_back(
-        {at->all->name, say("its corners are %.2f px (median) from where the other views, "
-                            "with %.2f px, put them",
+        {at->all->name, say("its corners are %.2f px (median) from where the other views put "
+                            "them, which are off by %.2f px themselves",
                             *worst, typical_px_)});
     states_.erase(at);
     fit(2 * typical_px_);

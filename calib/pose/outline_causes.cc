@@ -60,19 +60,19 @@ std::string text_of(const OutlineExplanation& e, const std::vector<std::string>&
     case OutlineCause::kNone:
       return "the outline agrees with pose and mesh";
     case OutlineCause::kMeshDisplaced:
-      return fmt::format("mesh of {} displaced: the object stands away from it {}", names[e.which],
+      return fmt::format("mesh of {} displaced: the object is offset from it {}", names[e.which],
                          displaced(at(0), c(0)));
     case OutlineCause::kMeshTurned:
-      return fmt::format("mesh of {} turned: the object stands turned against it {}",
+      return fmt::format("mesh of {} turned: the object is turned relative to it {}",
                          names[e.which], turned(at(0), c(0)));
     case OutlineCause::kMeshScale:
-      return fmt::format("mesh of {} scaled: the object is {:.2f} ± {:.2f} % {} than it",
+      return fmt::format("mesh of {} scaled: the object is {:.2f} ± {:.2f} % {} than its mesh",
                          names[e.which], 100 * std::abs(std::expm1(e.value[0])),
                          100 * std::max(1e-4, std::sqrt(e.covariance(0, 0))),
                          e.value[0] > 0 ? "larger" : "smaller");
     case OutlineCause::kMeshMisplaced:
       return fmt::format(
-          "mesh of {} displaced and turned: the object stands away from it {} and turned {}",
+          "mesh of {} displaced and turned: the object is offset from it {} and turned {}",
           names[e.which], displaced(at(0), c(0)), turned(at(3), c(3)));
     case OutlineCause::kCamera:
       return fmt::format("camera moved since its pose was taken: turned {} and moved {}",

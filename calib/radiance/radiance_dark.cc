@@ -95,8 +95,8 @@ void find_dark(RadianceSteps& steps) {
   correction.black_std_counts = fit.black_std_counts;
   if (!fit.rate_known) {
     calibration.notes.emplace_back(
-        "dark frames of one exposure time: dark current is taken for black, and does not grow with "
-        "time; shoot some twice as long or longer");
+        "all dark frames have the same exposure time: dark current counts as black level and is "
+        "assumed not to grow with time; take some that are at least twice as long");
   }
   if (!fit.scatter_known) {
     calibration.notes.emplace_back(

@@ -36,8 +36,8 @@ Transfer transfer_of(const RadianceSteps& steps, const FlatFrames& flats,
     if (!out[c].ok) {
       throw InputError(
           steps.input.shots.at(steps.input.shots.line) + ": calibration.radiance.flats",
-          fmt::format("channel {}: the noise of {} blocks does not grow with the light; are the "
-                      "pairs two exposures, and raws?",
+          fmt::format("channel {}: the noise of {} blocks does not grow with the light; is "
+                      "each pair two separate exposures, and are the files raws?",
                       kRgbName[c], points[c].size()));
     }
   }

@@ -111,7 +111,7 @@ void refuse_beside_others(std::vector<ChannelResult>& results) {
     const std::vector<PriorPull> own = own_pulls_beside(r.evidence, evidence);
     const PriorPull* worst = contradiction(own, kMostPull, kLeastPullImage);
     if (worst == nullptr) continue;
-    r.estimate.reasons.push_back("beside the other channels: " +
+    r.estimate.reasons.push_back("in view of the other channels: " +
                                  contradiction_sentence(*worst, own));
   }
 }

@@ -191,8 +191,8 @@ std::optional<ResidualLook> residual_look(const std::vector<ShotRows>& rows,
     const char* side =
         is_across ? (x[0] > 0.0 ? "right" : "left") : (x[1] > 0.0 ? "lower side" : "upper side");
     return fmt::format(
-        "a gradient over the image: towards the {} {}, as by light from elsewhere or an LED that "
-        "stands or points elsewhere",
+        "a gradient over the image: towards the {} {}, as by light from elsewhere or an LED in "
+        "another position or direction",
         side, brighter(x.norm()));
   });
   best.offer(image.predicted.cwiseProduct(image.off_axis), [](const Eigen::VectorXd& x) {
@@ -204,7 +204,7 @@ std::optional<ResidualLook> residual_look(const std::vector<ShotRows>& rows,
       [](const Eigen::VectorXd& x) {
         return fmt::format(
             "bright parts too {}: the camera's response is not linear, or "
-            "the medium is another than the rig allows",
+            "the medium lies outside what the rig allows",
             x[0] < 0.0 ? "dark" : "bright");
       });
   best.offer_spots([&](std::size_t n) {
@@ -224,7 +224,7 @@ std::optional<ResidualLook> residual_look(const std::vector<ShotRows>& rows,
                [&](const Eigen::VectorXd& x) {
                  return fmt::format(
                      "one face (normal [{:.2f}, {:.2f}, {:.2f}]), {}, as by a lamp that is not "
-                     "listed or a face that is not as its mesh",
+                     "listed or a face that differs from its mesh",
                      face.x(), face.y(), face.z(), brighter(x[0]));
                });
   }

@@ -168,8 +168,8 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
   }
   if (unexplained > kUnexplained) {
     estimate.reasons.push_back(
-        fmt::format("transport does not explain the shots: the residual is {:.2g} %, of which "
-                    "neither noise nor Monte Carlo explains {:.2g} %",
+        fmt::format("transport does not explain the shots: the residual is {:.2g} %, and noise and "
+                    "Monte Carlo errors leave {:.2g} % unexplained",
                     100.0 * estimate.rms_relative, 100.0 * unexplained));
   }
   if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {

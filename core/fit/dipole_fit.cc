@@ -88,8 +88,8 @@ std::string why_not_explained(const Estimate& e, const DipoleFitOptions& options
   const auto rows = static_cast<double>(e.rows);
   if (unexplained > options.max_unexplained_relative &&
       chi_square_tail(rows * e.reduced_chi2, rows) < options.misfit_p_value) {
-    return sentence("the dipole does not explain the shots: residual ", 100.0 * e.rms_relative,
-                    " %, of which noise explains all but ", 100.0 * unexplained, " %");
+    return sentence("the dipole does not explain the shots: residual of ", 100.0 * e.rms_relative,
+                    " %, of which noise leaves ", 100.0 * unexplained, " % unexplained");
   }
   if (e.misfit_p_value < options.misfit_p_value &&
       e.misfit_relative > options.max_misfit_relative) {

@@ -279,9 +279,8 @@ std::string far_eta(const std::vector<PriorPull>& pulls, double eta_int_over_ext
   for (const PriorPull& p : pulls) {
     if (p.group != "eta" || !(std::abs(p.offset) > kFarthest)) continue;
     return fmt::format(
-        "the shots put eta at {:.2f}, farther from the {:g} that the rig states than tables are "
-        "off "
-        "({:g}): measure the refractive index, and check the focus",
+        "the shots put eta at {:.2f}, which differs from the {:g} that the rig states by more than "
+        "tables are off ({:g}): measure the refractive index, and check the focus",
         eta_int_over_ext + p.offset, eta_int_over_ext, kFarthest);
   }
   return "";

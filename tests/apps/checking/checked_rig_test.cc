@@ -92,7 +92,7 @@ TEST(CheckedRig, TellsThatARoundPieceBesideABoardIsDisplaced) {
       open_checked_rig(read_rig(files.rig()), files.shots(), {}).findings();
   ASSERT_FALSE(findings.empty());
   EXPECT_THAT(findings.front().text,
-              HasSubstr("mesh of pyramid displaced: the object stands away from it by "));
+              HasSubstr("mesh of pyramid displaced: the object is offset from it by "));
   EXPECT_THAT(files.measure().out, HasSubstr("mesh of pyramid displaced: "));
 }
 

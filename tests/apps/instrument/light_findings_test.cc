@@ -48,7 +48,7 @@ TEST_F(LightFindings, MilliwattsForWatts) {
   const auto found = findings();
   ASSERT_EQ(found.size(), 1U);
   EXPECT_THAT(found[0].text, HasSubstr("mW for W"));
-  EXPECT_THAT(found[0].text, HasSubstr("the shots hold 1000 times less"));
+  EXPECT_THAT(found[0].text, HasSubstr("the shots contain 1000 times less"));
   // One of them alone.
   scale_light(0, 1e-3);
   EXPECT_THAT(findings().at(0).text, HasSubstr("lit by led2"));

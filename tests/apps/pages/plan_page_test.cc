@@ -19,7 +19,8 @@ TEST(PlanPage, HoldsThePlansNumbers) {
        {"1 of 2 values would be refused.", "scattermeter plan &lt;rig&gt; (1.5 s",
         "POM G at 2 / 0.01 per mm would be refused: a.dng: channel G is dark.",
         "1 of 2 need another exposure time.", "3000 of 4031", "25 % of the object is clipped",
-        "0.01, 0.04", "For channel R, whose sigma_a is the least certain: to 50 %.",
+        "0.01, 0.04",
+        "Channel R has the least certain sigma_a: the planned shots determine it to 50 %.",
         "one more shot", "scale known exactly", "value=\"0.6400\">64 %<", "value=\"0.3600\">36 %<",
         "data-widget=\"plot\"", "Best: 40 % with the LED at (0, 0, 110) mm",
         "The materials are the rig&#39;s truth.materials."}) {

@@ -28,8 +28,8 @@ TEST(ComparisonTable, HoldsDifferencesAndAVerdict) {
 
 TEST(ComparisonTable, SaysWhatWouldHaveBeenSeen) {
   EXPECT_THAT(comparison_table({made("PP", 0.3)}),
-              HasSubstr("PP: no difference found (p = 0.3); one of 7.5 % in sigma_s' or 0.0015 /mm "
-                        "in sigma_a would have shown in every channel"));
+              HasSubstr("PP: no difference found (p = 0.3); a difference of 7.5 % in sigma_s' or "
+                        "0.0015 /mm in sigma_a would have been seen in every channel"));
   MaterialComparison none = made("PP", 1.0);
   none.channels.clear();
   EXPECT_THAT(comparison_table({none}), HasSubstr("PP: no channel is measured in both"));

@@ -21,7 +21,7 @@ TEST(PlanTable, IsThisText) {
       "refused\n"
       "refused: POM G: a.dng: channel G is dark\n"
       "exposure: a.dng G: 25 % of the object is clipped\n"
-      "POM R: sigma_a is known to 50 %; it would be to\n"
+      "POM R: sigma_a will be known to 50 %; this would improve to\n"
       "     30 %  with scale known exactly\n"
       "     30 %  with one more shot\n"
       "     50 %  with twice the light\n");

@@ -43,7 +43,7 @@ TEST(RigLedLobe, NamesMistakes) {
   EXPECT_THAT(lobe_refused("angle_deg: [0, 60], relative: [1, 0.5]"),
               HasSubstr("rig.yaml:1: lobe: expected angles up to 90 degrees"));
   EXPECT_THAT(lobe_refused("angle_deg: [0, 90], relative: [1, 0], x_axis: [1, 0, 0]"),
-              HasSubstr("lobe.x_axis: belongs to two planes"));
+              HasSubstr("lobe.x_axis: is for a lobe in two planes"));
   EXPECT_THAT(lobe_refused("angle_deg: [0, 90], relative_x: [1, 0], relative_y: [1, 0], "
                            "x_axis: [0, 0.01, 1]"),
               HasSubstr("lobe.x_axis: expected a direction across the LED's axis"));

@@ -46,7 +46,7 @@ TEST(RadianceDark, OneExposureTimeLeavesTheDarkCurrentInTheBlack) {
   EXPECT_EQ(bench.calibration.correction.dark_counts_per_s[0], 0.0);
   EXPECT_NEAR(bench.calibration.correction.black_counts[0], 70.0, 0.2);
   ASSERT_FALSE(bench.calibration.notes.empty());
-  EXPECT_THAT(bench.calibration.notes[0], HasSubstr("one exposure time"));
+  EXPECT_THAT(bench.calibration.notes[0], HasSubstr("the same exposure time"));
 }
 
 TEST(RadianceDark, RefusesLightOnAFrame) {

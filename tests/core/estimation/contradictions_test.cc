@@ -47,7 +47,7 @@ TEST(Contradictions, RefusesTheChannelThatNeedsAnotherPosition) {
   EXPECT_TRUE(results[0].estimate.reasons.empty());
   ASSERT_EQ(results[1].estimate.reasons.size(), 1U);
   EXPECT_THAT(results[1].estimate.reasons[0],
-              HasSubstr("beside the other channels: the shots contradict the LED power"));
+              HasSubstr("in view of the other channels: the shots contradict the LED power"));
 }
 
 // What one channel shows of the LED's position from 40 deviations on, all together show from

@@ -73,7 +73,7 @@ TEST_F(ResidualLookTest, OneFace) {
   EXPECT_EQ(
       found->phrase,
       "one face (normal [0.00, 0.00, 1.00]), 2 % brighter than predicted, as by a lamp that is "
-      "not listed or a face that is not as its mesh");
+      "not listed or a face that differs from its mesh");
 }
 
 TEST_F(ResidualLookTest, Pedestal) {

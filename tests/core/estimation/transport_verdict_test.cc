@@ -171,8 +171,8 @@ TEST(TransportVerdict, UnexplainedResidualsAndContradictionsAreReasons) {
   // What is named comes first.
   EXPECT_NE(estimate.reasons[0].find("LED position (led1.position0)"), std::string::npos);
   EXPECT_EQ(estimate.reasons[1],
-            "transport does not explain the shots: the residual is 7 %, of which neither noise nor "
-            "Monte Carlo explains 6 %");
+            "transport does not explain the shots: the residual is 7 %, and noise and Monte Carlo "
+            "errors leave 6 % unexplained");
   EXPECT_EQ(estimate.pulls.size(), 2U);
 }
 

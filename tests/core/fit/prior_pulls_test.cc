@@ -271,7 +271,7 @@ TEST(PriorPulls, EtaFartherThanTablesAreOff) {
   EXPECT_EQ(far_eta(pulls, 1.49), "");
   pulls[1].offset = -0.125;
   EXPECT_THAT(far_eta(pulls, 1.49),
-              ::testing::HasSubstr("the shots put eta at 1.36, farther from the 1.49 that"));
+              ::testing::HasSubstr("the shots put eta at 1.36, which differs from the 1.49 that"));
   pulls[1].offset = 0.13;
   EXPECT_THAT(far_eta(pulls, 1.49), ::testing::HasSubstr("eta at 1.62"));
 }
