@@ -17,8 +17,7 @@ namespace {
 
 constexpr const char* kUnsettledReason =
     "the shots do not determine from where the object is seen: its position changes from fit to "
-    "fit; "
-    "check the pose points and the position of its mesh, or add shots under another LED";
+    "fit; check the pose points and the position of its mesh, or add shots under another LED";
 
 // Of the channel nearest to its image, as a share of it; 0 if one explains its image.
 double least_misfit(const std::vector<ChannelResult>& results) {

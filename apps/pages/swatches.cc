@@ -38,8 +38,7 @@ constexpr const char* kCubeCaption =
 constexpr const char* kColoursCaption =
     "One standard deviation, of the coefficients and of the approximation. The camera's R, G, B "
     "stand for those of the screen (sRGB): a colour is as accurate as the camera's filters are "
-    "like "
-    "them.";
+    "like them.";
 
 struct Plate {
   const char* what;

@@ -27,8 +27,9 @@ std::shared_ptr<const LobeTable> read_lobe(const YamlField& field, const Eigen::
   try {
     if (const auto relative = field.find("relative")) {
       for (const char* key : {"relative_x", "relative_y", "x_axis"}) {
-        if (const auto f = field.find(key))
+        if (const auto f = field.find(key)) {
           f->fail("is for a lobe in two planes; relative is for one that is round about its axis");
+        }
       }
       return std::make_shared<LobeTable>(std::move(angles_rad), list(*relative, 0.0, kMost));
     }

@@ -9,9 +9,13 @@
 
 namespace scattermeter::capture {
 
-std::string file_text(const std::string& path, const std::string& expected) {
+void require_file(const std::string& path, const std::string& expected) {
   if (!is_there(path)) throw MissingFile(path, "no such file");
   if (is_folder(path)) throw InputError(path, "is a folder, " + expected);
+}
+
+std::string file_text(const std::string& path, const std::string& expected) {
+  require_file(path, expected);
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
   // Only the state of the source is checked: copying an empty file sets the fail bit of the sink.

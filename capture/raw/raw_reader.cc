@@ -12,6 +12,7 @@
 
 #include <libraw/libraw.h>
 
+#include "capture/files/file_text.h"
 #include "capture/files/picture_claim.h"
 #include "capture/raw/curve_levels.h"
 #include "capture/raw/refused_make.h"
@@ -30,13 +31,10 @@ std::string text_of(double value) {
 }
 
 void check_is_plain_file(const std::string& path) {
+  require_file(path, "a raw file is expected");
   std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) throw MissingFile(path, "no such file");
-  if (std::filesystem::is_directory(status)) {
-    throw InputError(path, "is a folder, a raw file is expected");
-  }
-  if (std::filesystem::is_regular_file(status) && std::filesystem::file_size(path, error) == 0) {
+  if (std::filesystem::is_regular_file(path, error) &&
+      std::filesystem::file_size(path, error) == 0) {
     throw InputError(path, "is empty (0 bytes), a raw file is expected");
   }
   if (!std::ifstream(path)) throw InputError(path, "cannot be opened for reading");
