@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "core/base/chi_square.h"
@@ -41,7 +42,12 @@ ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
   const DipoleCurve curve = dipole_curve(knots, joint.u, joint.q, eta_int_over_ext);
   const bool scale_moves = scale.relative_std > 0.0;
   const Eigen::Index first_nuisance = scale_moves ? 1 : 0;
-  const Eigen::Index shared = first_nuisance + static_cast<Eigen::Index>(nuisances.size());
+  // By nuisance, which of the shared unknowns it is. Exact ones do not move.
+  std::vector<std::optional<Eigen::Index>> shared_of(nuisances.size());
+  Eigen::Index shared = first_nuisance;
+  for (std::size_t v = 0; v < nuisances.size(); ++v) {
+    if (nuisances[v].std > 0.0) shared_of[v] = shared++;
+  }
   Normal together(2 + shared);
   Normal apart(2 * n_shots + shared);
   const Eigen::Index n_knots = curve.r.size();
@@ -50,7 +56,13 @@ ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
     const auto own = static_cast<Eigen::Index>(shot.nuisances.size());
     // The shot's unknowns (r on the knots, nuisances) by those that move here, and where those
     // are among the shared ones.
-    Eigen::MatrixXd by = Eigen::MatrixXd::Zero(n_knots + own, 2 + first_nuisance + own);
+    std::vector<Eigen::Index> moving;
+    for (Eigen::Index k = 0; k < own; ++k) {
+      const auto v = static_cast<std::size_t>(shot.nuisances[static_cast<std::size_t>(k)]);
+      if (shared_of[v]) moving.push_back(k);
+    }
+    const auto n_moving = static_cast<Eigen::Index>(moving.size());
+    Eigen::MatrixXd by = Eigen::MatrixXd::Zero(n_knots + own, 2 + first_nuisance + n_moving);
     by.col(0).head(n_knots) = s * curve.d_u;
     by.col(1).head(n_knots) = s * curve.d_q;
     std::vector<Eigen::Index> indices;
@@ -58,15 +70,14 @@ ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
       by.col(2).head(n_knots) = s * curve.r;
       indices.push_back(0);
     }
-    by.bottomRightCorner(own, own).setIdentity();
     Eigen::VectorXd at = Eigen::VectorXd::Zero(n_knots + own);
     at.head(n_knots) = s * curve.r;
-    for (Eigen::Index k = 0; k < own; ++k) {
-      const Eigen::Index v = shot.nuisances[static_cast<std::size_t>(k)];
-      indices.push_back(first_nuisance + v);
-      if (static_cast<std::size_t>(v) < joint.v.size()) {
-        at[n_knots + k] = joint.v[static_cast<std::size_t>(v)];
-      }
+    for (Eigen::Index m = 0; m < n_moving; ++m) {
+      const Eigen::Index k = moving[static_cast<std::size_t>(m)];
+      const auto v = static_cast<std::size_t>(shot.nuisances[static_cast<std::size_t>(k)]);
+      by(n_knots + k, 2 + first_nuisance + m) = 1.0;
+      indices.push_back(*shared_of[v]);
+      if (v < joint.v.size()) at[n_knots + k] = joint.v[v];
     }
     const Eigen::MatrixXd moved = shot.image.information * by;
     const Eigen::MatrixXd jj = by.transpose() * moved / noise_inflation;
@@ -92,10 +103,10 @@ ShotAgreement shot_agreement(const std::vector<ShotInformation>& shots,
   };
   if (scale_moves) prior(0, joint.log_s, scale.relative_std);
   for (std::size_t v = 0; v < nuisances.size(); ++v) {
-    prior(first_nuisance + static_cast<Eigen::Index>(v), v < joint.v.size() ? joint.v[v] : 0.0,
-          nuisances[v].std);
+    if (!shared_of[v]) continue;
+    prior(*shared_of[v], v < joint.v.size() ? joint.v[v] : 0.0, nuisances[v].std);
   }
-  out.chi2 = std::max(0.0, apart.fall() - together.fall());
+  out.chi2 = as_chi_square(apart.fall() - together.fall());
   out.dof = static_cast<int>(2 * (n_shots - 1));
   out.p_value = chi_square_tail(out.chi2, out.dof);
   return out;
@@ -121,7 +132,7 @@ ShotAgreement agreement_of(const Eigen::VectorXd& estimates, const Eigen::Matrix
   const Eigen::Vector2d best =
       SymmetricSolver(common.transpose() * weighed).solve(weighed.transpose() * x);
   const Eigen::VectorXd rest = x - common * best;
-  out.chi2 = std::max(0.0, rest.dot(solver.solve(rest)));
+  out.chi2 = as_chi_square(rest.dot(solver.solve(rest)));
   out.p_value = chi_square_tail(out.chi2, out.dof);
   return out;
 }

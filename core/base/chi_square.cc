@@ -1,6 +1,8 @@
 #include "core/base/chi_square.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +17,10 @@ double chi_square_tail(double chi2, double dof) {
   }
   if (std::isinf(chi2)) return 0.0;
   return Eigen::numext::igammac(0.5 * dof, 0.5 * chi2);
+}
+
+double as_chi_square(double sum) {
+  return std::isnan(sum) ? std::numeric_limits<double>::infinity() : std::max(0.0, sum);
 }
 
 }  // namespace scattermeter

@@ -8,4 +8,8 @@ namespace scattermeter {
 // dof > 0, else std::invalid_argument; infinite chi2 gives 0.
 double chi_square_tail(double chi2, double dof);
 
+// A computed sum of squares as a chi-square: 0 where rounding has made it negative, and infinite
+// where it is not a number, so that a failed computation never passes for a perfect fit.
+double as_chi_square(double sum);
+
 }  // namespace scattermeter

@@ -56,7 +56,8 @@ std::vector<Effect> effects(const SceneNuisances& nuisances, const ObservedShot&
   return out;
 }
 
-// The effects summed over all shots, in the order of their first occurrence.
+// The effects summed over all shots, in the order of their first occurrence. Objects may state one
+// quantity, such as eta, with different deviations: the largest counts.
 std::vector<Effect> summed(const std::vector<std::vector<Effect>>& of_shot) {
   std::vector<Effect> all;
   std::map<std::string, std::size_t> known;
@@ -64,7 +65,9 @@ std::vector<Effect> summed(const std::vector<std::vector<Effect>>& of_shot) {
     for (const Effect& e : list) {
       const auto [it, is_new] = known.try_emplace(e.nuisance.name, all.size());
       if (is_new) all.push_back({e.nuisance, 0.0});
-      all[it->second].square += e.square;
+      Effect& effect = all[it->second];
+      if (e.nuisance.std > effect.nuisance.std) effect.nuisance = e.nuisance;
+      effect.square += e.square;
     }
   }
   return all;
@@ -197,7 +200,7 @@ ShotSystem ChannelImage::shot(std::size_t shot) const {
   for (const NuisanceColumn& c : own) in_order[index_.at(c.nuisance.name)] = &c;
   for (const auto& [index, c] : in_order) {
     columns.col(static_cast<Eigen::Index>(nuisances.size())) = c->change;
-    nuisances.push_back(c->nuisance);
+    nuisances.push_back(nuisances_[static_cast<std::size_t>(index)]);
     out.nuisances.push_back(index);
   }
   columns.rightCols(system->nuisance_columns.cols()) = system->nuisance_columns;

@@ -283,6 +283,7 @@ ModelJudgement TransportRound::judgement() const {
   for (PriorPull& pull : out.pulls) {
     const auto of_pull = std::find_if(model.nuisances.begin(), model.nuisances.end(),
                                       [&](const Nuisance& v) { return v.name == pull.name; });
+    if (of_pull - model.nuisances.begin() >= step_.common_causes.cols()) continue;  // exact scale
     set_unseen(step_.common_causes.col(of_pull - model.nuisances.begin()), at_.sigma_s_per_mm,
                pull);
   }

@@ -1,5 +1,6 @@
 #include "core/fit/marginal_information.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -24,12 +25,17 @@ MarginalInformation marginal_information(const RecoveredReflectance& recovered,
     const bool moves = nuisances[i].fitted || use == NuisanceUse::kAll;
     (moves ? moving : held).push_back(static_cast<Eigen::Index>(i));
   }
+  const auto is_free = [&](Eigen::Index i) {
+    return !std::isfinite(nuisances[static_cast<std::size_t>(i)].std);
+  };
   const auto column = [&](Eigen::Index i) {
-    return Eigen::VectorXd(a.col(n_knots + i) * nuisances[static_cast<std::size_t>(i)].std);
+    const double unit = is_free(i) ? 1.0 : nuisances[static_cast<std::size_t>(i)].std;
+    return Eigen::VectorXd(a.col(n_knots + i) * unit);
   };
   const auto n = static_cast<Eigen::Index>(moving.size());
   const auto n_held = static_cast<Eigen::Index>(held.size());
-  // Rows: the image's, then the priors' of those that move, in units of their deviations.
+  // Rows: the image's, then the priors' of those that move, in units of their deviations; what is
+  // free has none.
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows + n, n_knots + 1 + n_held);
   all.topLeftCorner(rows, n_knots) = a.leftCols(n_knots);
   all.col(n_knots).head(rows) = recovered.whitened;
@@ -39,8 +45,9 @@ MarginalInformation marginal_information(const RecoveredReflectance& recovered,
   if (n > 0) {
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows + n, n);
     for (Eigen::Index i = 0; i < n; ++i) {
-      columns.col(i).head(rows) = column(moving[static_cast<std::size_t>(i)]);
-      columns(rows + i, i) = 1.0;
+      const Eigen::Index nuisance = moving[static_cast<std::size_t>(i)];
+      columns.col(i).head(rows) = column(nuisance);
+      columns(rows + i, i) = is_free(nuisance) ? 0.0 : 1.0;
     }
     all = HouseholderSolver(columns).rotate_columns(all);
   }

@@ -147,7 +147,7 @@ ModelJudgement judge(const WhitenedModel& model) {
           : Eigen::MatrixXd(0, 0);
   const Eigen::VectorXd v = posterior * (b.transpose() * rest.residual);
   const Eigen::VectorXd settled = rest.residual - b * v;
-  out.chi2 = std::max(0.0, rest.residual.dot(settled));
+  out.chi2 = as_chi_square(rest.residual.dot(settled));
   out.p_value = chi_square_tail(out.chi2, out.dof);
   const Eigen::MatrixXd told = information * posterior;
   constexpr double kRounding = 1e-12;
@@ -278,6 +278,9 @@ std::string far_eta(const std::vector<PriorPull>& pulls, double eta_int_over_ext
   constexpr double kFarthest = 0.12;
   for (const PriorPull& p : pulls) {
     if (p.group != "eta" || !(std::abs(p.offset) > kFarthest)) continue;
+    // Where eta is stated as exact, its offset is what the image alone says, however little.
+    const bool is_exact = p.least_seen_in_std == 0.0;
+    if (is_exact && !(std::abs(p.pull) > kDoubtfulPull)) continue;
     return fmt::format(
         "the shots put eta at {:.2f}, which differs from the {:g} that the rig states by more than "
         "tables are off ({:g}): measure the refractive index, and check the focus",

@@ -57,6 +57,8 @@ ModelJudgement judge(const WhitenedModel& model);
 // what the rig states was above 2.8; those of one that was 50 % off reached 4.8.
 inline constexpr double kMostPull = 4.0;
 inline constexpr double kLeastPullImage = 1e-3;
+// A pull beyond this casts doubt on the stated deviation; 4.6 % of all pulls are by chance.
+inline constexpr double kDoubtfulPull = 2.0;
 // From here on, whatever it changes: something looks like it. Of 1709 answers of rigs within what
 // they state (`bench deviations`, dipole), none had a pull above 4.2; an LED with a narrow beam of
 // 5 % looks like a lobe 4.8 deviations off, which changes the image by less than 1e-3.

@@ -25,9 +25,6 @@ struct RigPriors {
 ModelJudgement judgement_of(const RigPriors& priors, const RecoveredReflectance& recovered,
                             const DipoleCurve& curve, const DipoleSolver::Point& optimum);
 
-// A pull beyond this casts doubt on the stated deviation; 4.6 % of all pulls are by chance.
-inline constexpr double kDoubtfulPull = 2.0;
-
 // Pulls of nuisances by name, from all channels together.
 using JointPulls = std::map<std::string, double>;
 

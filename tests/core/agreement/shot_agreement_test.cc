@@ -126,8 +126,12 @@ TEST(ShotAgreement, SharedNuisancesAreForgiven) {
   EXPECT_GE(disagree, 12);
 }
 
+// A nuisance stated as exact is listed, to be tested, and does not move.
+TEST(ShotAgreement, ExactNuisancesAreHeld) { expect_even({0.05, 0.0, 0.02}, {kMedium, kMedium}); }
+
 TEST(ShotAgreement, FindsTheShotOfAnotherMaterial) {
-  for (const Shots& shots : {Shots{}, Shots{0.05, 0.05, 0.02}, Shots{0.0, 0.0, kFree}}) {
+  for (const Shots& shots :
+       {Shots{}, Shots{0.05, 0.05, 0.02}, Shots{0.05, 0.0, 0.02}, Shots{0.0, 0.0, kFree}}) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
       const DenseSystem drawn =
           shots.draw({kMedium, {1.05 * kMedium.sigma_s_prime_per_mm, 0.004, kEta}}, seed);

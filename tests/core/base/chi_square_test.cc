@@ -33,5 +33,11 @@ TEST(ChiSquareTail, FallsByItsDensity) {
   EXPECT_THROW(chi_square_tail(1.0, 0.0), std::invalid_argument);
 }
 
+TEST(ChiSquareTail, WhatIsNotANumberIsNoFit) {
+  EXPECT_EQ(as_chi_square(2.5), 2.5);
+  EXPECT_EQ(as_chi_square(-1e-9), 0.0);
+  EXPECT_EQ(chi_square_tail(as_chi_square(std::numeric_limits<double>::quiet_NaN()), 3.0), 0.0);
+}
+
 }  // namespace
 }  // namespace scattermeter

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,32 @@ TEST_F(ImageOfTheCube, ShotsHaveTheirRowsAndTheNuisancesOfTheirLight) {
       EXPECT_NEAR(shot.system->nuisance_columns(at++, 0), per_mm, 1e-12 * std::abs(per_mm));
     }
     EXPECT_EQ(at, shot.system->l.size());
+  }
+}
+
+// An eta that one object states as exact, and another does not, is uncertain.
+TEST_F(ImageOfTheCube, TheLargestStatedDeviationOfAQuantityCounts) {
+  find_sensitivities();
+  Scene uncertain = cube_.scene;
+  uncertain.objects.front().eta_std = 0.02;
+  const ObjectScenes objects = test_support::cube_objects(uncertain);
+  auto other = std::make_shared<SeenObject>(seen());
+  other->object = &objects.at("cube");
+  const std::shared_ptr<const SeenObject> first = cube_.shots[0].seen;
+  for (const SceneLight& light : cube_.scene.lights) {
+    sensitivities_[{other.get(), light.name, 0}] = sensitivities_.at({first.get(), light.name, 0});
+    cube_.weights[{other.get(), light.name, 0}] = cube_.weights.at({first.get(), light.name, 0});
+  }
+  cube_.shots[1].seen = other;
+  const ChannelImage image(cube_.scene, channel_, rows_, cube_.weights, knots_, medium_,
+                           sensitivities_);
+  for (std::size_t s = 0; s < 2; ++s) {
+    const std::vector<Nuisance>& own = image.shot(s).system->nuisances;
+    const auto eta =
+        std::find_if(own.begin(), own.end(), [](const Nuisance& n) { return n.name == "eta"; });
+    ASSERT_NE(eta, own.end());
+    EXPECT_EQ(eta->std, 0.02);
+    EXPECT_TRUE(eta->fitted);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "core/fit/marginal_information.h"
 
+#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -43,6 +44,19 @@ TEST(MarginalInformation, AreAddedNoise) {
     EXPECT_NEAR((image.kernel * c.r - image.data).squaredNorm(), e.dot(noise.inverse() * e), 1e-6);
     EXPECT_EQ(image.held.cols(), 3 - n);
   }
+}
+
+// What is free takes its column out of the image, as a very wide prior does.
+TEST(MarginalInformation, FreeOnesHaveNoPrior) {
+  NuisanceCase c = random_case();
+  const auto chi2 = [&](double std) {
+    c.nuisances[1].std = std;
+    const MarginalInformation image =
+        marginal_information(c.recovered, c.nuisances, 5, NuisanceUse::kAll);
+    return (image.kernel * c.r - image.data).squaredNorm();
+  };
+  const double wide = chi2(1e7);
+  EXPECT_NEAR(chi2(std::numeric_limits<double>::infinity()), wide, 1e-6 * wide);
 }
 
 TEST(MarginalInformation, OfNoWidthDoNotMove) {

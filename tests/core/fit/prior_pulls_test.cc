@@ -267,6 +267,7 @@ TEST(PriorPulls, EtaFartherThanTablesAreOff) {
   pulls[0].group = "scale";
   pulls[0].offset = 0.3;
   pulls[1].group = "eta";
+  pulls[1].least_seen_in_std = 1.0;
   pulls[1].offset = -0.115;
   EXPECT_EQ(far_eta(pulls, 1.49), "");
   pulls[1].offset = -0.125;
@@ -274,6 +275,20 @@ TEST(PriorPulls, EtaFartherThanTablesAreOff) {
               ::testing::HasSubstr("the shots put eta at 1.36, which differs from the 1.49 that"));
   pulls[1].offset = 0.13;
   EXPECT_THAT(far_eta(pulls, 1.49), ::testing::HasSubstr("eta at 1.62"));
+}
+
+// Its offset is not held by a prior: noise alone may make it large.
+TEST(PriorPulls, AnExactEtaIsFarOnlyIfTheImageTellsIt) {
+  std::vector<PriorPull> pulls(1);
+  pulls[0].group = "eta";
+  pulls[0].offset = 0.2;
+  pulls[0].pull = 0.8;
+  EXPECT_EQ(far_eta(pulls, 1.49), "");
+  pulls[0].pull = 2.2;
+  EXPECT_NE(far_eta(pulls, 1.49), "");
+  pulls[0].pull = 0.8;
+  pulls[0].least_seen_in_std = 1.0;  // with a prior
+  EXPECT_NE(far_eta(pulls, 1.49), "");
 }
 
 }  // namespace
