@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t kNodes = 4096;
 constexpr std::uint64_t kLights = 1024;
 // Raised whenever the same seed gives other paths, or paths other scores.
-constexpr double kPathsVersion = 1.0;
+constexpr double kPathsVersion = 2.0;
 
 bool same(const DiffusePlane& a, const DiffusePlane& b) {
   return a.z_mm == b.z_mm && a.albedo == b.albedo && a.contact == b.contact;
@@ -28,6 +28,21 @@ std::uint64_t index_in(const Scene& scene, const SceneLight& light) {
 bool are_near(const ObjectScene& object, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d from = object.box.center_mm();
   return (a - b).norm() <= TransportAtlas::kNearViews * (a - from).norm();
+}
+
+// Of the paths seen from a direction: views that do not share nodes must not share random numbers
+// either, as the errors of different nodes count as independent. From the direction in steps well
+// above rounding, so that the same view has the same paths on every machine.
+std::uint64_t seed_of_view(std::uint64_t seed, const ObjectScene& object,
+                           const Eigen::Vector3d& camera_mm) {
+  constexpr double kStep = TransportAtlas::kNearViews / 2.0;
+  constexpr std::uint64_t kSteps = 4096;  // from -1 to 1
+  static_assert(2.0 / kStep < kSteps);
+  std::uint64_t view = 0;
+  for (const double d : (camera_mm - object.box.center_mm()).normalized()) {
+    view = view * kSteps + static_cast<std::uint64_t>(std::llround((d + 1.0) / kStep));
+  }
+  return RandomStream(seed, view).bits();
 }
 
 // Those exactly from the side included, as rounding may show them.
@@ -146,6 +161,7 @@ TransportAtlas::LitView& TransportAtlas::lit_view(const Scene& scene, const Seen
     v.view_ = &view(seen, center, medium);
     if (v.view_->shows(seen, medium)) break;
   }
+  v.seed_ = seed_of_view(v.seed_, *seen.object, v.view_->center_mm);
   return lit_.emplace_back(std::move(v));
 }
 

@@ -11,6 +11,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "core/base/progress.h"
+#include "core/estimation/channel_simulation.h"
 #include "core/estimation/estimation.h"
 #include "core/estimation/model_choice.h"
 #include "core/estimation/transport_search.h"
@@ -44,6 +45,8 @@ void search_all(Estimation& e, const Systems& systems, std::vector<std::size_t> 
       return j < i && e.channels[j].material == e.channels[i].material;
     });
   };
+  // The atlas takes the first of views that are near each other: not by chance of the threads.
+  for (const std::size_t i : wanted) ChannelSimulation(e.scene, e.channels[i], *e.kept.atlas);
   std::vector<char> is_found(e.channels.size(), 0);
   for (const bool first : {true, false}) {
     const std::vector<ChannelResult> others = first ? std::vector<ChannelResult>() : e.results;

@@ -23,6 +23,13 @@ class AtlasOfTheCube : public ::testing::Test {
     return atlas.lit_view(cube_.scene, *cube_.shots[0].seen, cube_.scene.lights[light], channel,
                           {1.3});
   }
+  // Under the first light, from `rad` aside as seen from the cube.
+  TransportAtlas::LitView& aside_of(TransportAtlas& atlas, double rad) {
+    SeenObject seen = *cube_.shots[0].seen;
+    const Eigen::Vector3d to = seen.camera_center_mm - seen.object->box.center_mm();
+    seen.camera_center_mm += rad * to.norm() * to.unitOrthogonal();
+    return atlas.lit_view(cube_.scene, seen, cube_.scene.lights[0], 0, {1.3});
+  }
   test_support::DipoleCube cube_{2, 5.0};
 };
 
@@ -122,17 +129,11 @@ TEST_F(AtlasOfTheCube, GoesOnFromTheStore) {
 // off, it sees its own. The light differs by 3e-4 at most (core/atlas/transport_atlas.h).
 TEST_F(AtlasOfTheCube, NearViewsShareTheirNodes) {
   TransportAtlas atlas(std::make_shared<ListedNodes>());
-  SeenObject seen = *cube_.shots[0].seen;
-  const auto from = [&](double rad) -> TransportAtlas::LitView& {
-    const Eigen::Vector3d to = cube_.shots[0].seen->camera_center_mm - seen.object->box.center_mm();
-    seen.camera_center_mm =
-        cube_.shots[0].seen->camera_center_mm + rad * to.norm() * to.unitOrthogonal();
-    return atlas.lit_view(cube_.scene, seen, cube_.scene.lights[0], 0, {1.3});
-  };
-  TransportAtlas::LitView& straight = from(0.0);
-  EXPECT_EQ(&from(0.9 * TransportAtlas::kNearViews), &straight);
-  TransportAtlas::LitView& aside = from(30.0 * TransportAtlas::kNearViews);
+  TransportAtlas::LitView& straight = aside_of(atlas, 0.0);
+  EXPECT_EQ(&aside_of(atlas, 0.9 * TransportAtlas::kNearViews), &straight);
+  TransportAtlas::LitView& aside = aside_of(atlas, 30.0 * TransportAtlas::kNearViews);
   EXPECT_NE(&aside, &straight);
+  const SeenObject& seen = *cube_.shots[0].seen;
   const int patch = seen.map.patch_of_row.front();
   ASSERT_GE(aside.row_of_patch(patch), 0);
   double there = 0.0, here = 0.0;
@@ -144,6 +145,28 @@ TEST_F(AtlasOfTheCube, NearViewsShareTheirNodes) {
   }
   // Thirty times as far off, up to thirty times as different.
   EXPECT_NEAR(there / here, 1.0, 0.02);
+}
+
+// Searches add the variances of different nodes up: two views that see almost the same must differ
+// as independent paths do.
+TEST_F(AtlasOfTheCube, ViewsApartHavePathsOfTheirOwn) {
+  TransportAtlas atlas;
+  const std::vector<int>& patches = cube_.shots[0].seen->map.patch_of_row;
+  Eigen::VectorXd difference = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(patches.size()));
+  double variance = 0.0;
+  for (const double sign : {1.0, -1.0}) {
+    TransportAtlas::LitView& view =
+        aside_of(atlas, sign > 0.0 ? 0.0 : 2.0 * TransportAtlas::kNearViews);
+    const std::shared_ptr<const WhiteRows> node = view.node(0, 5);
+    const Eigen::VectorXd l = node->light(0.01).l;
+    const Eigen::MatrixXd departures = node->departures(0.01).of_batch;
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      const Eigen::Index row = view.row_of_patch(patches[i]);
+      difference[static_cast<Eigen::Index>(i)] += sign * l[row];
+      variance += departures.col(row).squaredNorm();
+    }
+  }
+  EXPECT_NEAR(difference.squaredNorm() / variance, 1.0, 0.4);
 }
 
 }  // namespace
