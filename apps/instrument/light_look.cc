@@ -63,15 +63,20 @@ std::size_t LightLook::best_channel(const Observation& observation) {
   return best;
 }
 
-void LightLook::add_weights_for(const SeenObject& seen, const SceneShot& stated,
+bool LightLook::add_weights_for(const SeenObject& seen, const SceneShot& stated,
                                 const std::vector<std::string>& lights) {
   SceneShot other = stated;
   other.object = seen.object->stated->name;
+  const bool all_reach = std::all_of(lights.begin(), lights.end(), [&](const std::string& name) {
+    return lit_.reaches(other.object, name, 0);
+  });
+  if (!all_reach) return false;
   other.lights = lights;
   std::vector<ObservedShot> stub(1);
   stub[0].stated = &other;
   stub[0].seen = std::shared_ptr<const SeenObject>(std::shared_ptr<void>(), &seen);
   add_smooth_weights(scene_, stub, lit_, nullptr, weights_);
+  return true;
 }
 
 LightLook::Match LightLook::match(const SeenObject& seen, const ChannelObservation& o,
@@ -123,8 +128,7 @@ ShotLikeness LightLook::likeness(std::size_t i) {
   out.own = match(*shot.seen, o, own, c).rest;
   if (!(out.own > kDoubtfulImage)) return out;
   for (const std::vector<std::string>& lights : settings_for(own)) {
-    if (lights == own) continue;
-    add_weights_for(*shot.seen, *shot.stated, lights);
+    if (lights == own || !add_weights_for(*shot.seen, *shot.stated, lights)) continue;
     offer(match(*shot.seen, o, lights, c).rest,
           fmt::format("lit by {}", fmt::join(lights, " and ")), lights, out);
   }
@@ -154,7 +158,7 @@ std::vector<std::vector<std::string>> LightLook::settings_for(
 void LightLook::compare_object(const SeenObject& seen, const Observation& observation,
                                std::size_t channel, ShotLikeness& out) {
   for (const std::vector<std::string>& lights : settings_) {
-    add_weights_for(seen, scene_.shots.front(), lights);
+    if (!add_weights_for(seen, scene_.shots.front(), lights)) continue;
     offer(match(seen, observation.channel[channel], lights, channel).rest,
           fmt::format("of object {}, lit by {}", seen.object->stated->name,
                       fmt::join(lights, " and ")),

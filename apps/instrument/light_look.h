@@ -62,7 +62,8 @@ class LightLook {
   std::vector<std::vector<std::string>> settings_for(const std::vector<std::string>& own) const;
   Match match(const SeenObject& seen, const ChannelObservation& o,
               const std::vector<std::string>& lights, std::size_t channel) const;
-  void add_weights_for(const SeenObject& seen, const SceneShot& stated,
+  // False where a light reaches no part of the object.
+  bool add_weights_for(const SeenObject& seen, const SceneShot& stated,
                        const std::vector<std::string>& lights);
   void offer(double rest, const std::string& what, const std::vector<std::string>& lights,
              ShotLikeness& out) const;

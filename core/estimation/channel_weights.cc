@@ -1,6 +1,7 @@
 #include "core/estimation/channel_weights.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <oneapi/tbb/parallel_for.h>
@@ -28,14 +29,15 @@ void add_weights(const Scene& scene, std::span<const ObservedShot> shots, LitObj
   for (const WeightKey& key : keys) {
     const auto& [view, name, channel] = key;
     lights.push_back(&lit.light(view->object->stated->name, name, channel));
-    weights[key];
   }
+  std::vector<WeightMatrix> made(keys.size());
   ProgressStage stage(progress, "light in each patch", keys.size());
   tbb::parallel_for(std::size_t{0}, keys.size(), [&](std::size_t k) {
     const SeenObject& seen = *std::get<0>(keys[k]);
-    weights.at(keys[k]) = make(seen, SourceCloud(*lights[k], seen.object->box.center_mm()));
+    made[k] = make(seen, SourceCloud(*lights[k], seen.object->box.center_mm()));
     stage.step();
   });
+  for (std::size_t k = 0; k < keys.size(); ++k) weights.emplace(keys[k], std::move(made[k]));
 }
 
 DistanceKnots smooth_knots(const LitObjects& lit) {

@@ -20,7 +20,8 @@ using WeightKey = std::tuple<const SeenObject*, std::string, std::size_t>;
 using Weights = std::map<WeightKey, WeightMatrix>;
 
 // Computes W of every view and light that a shot needs, each once, in parallel; existing ones are
-// kept. Of the shots only `stated` and `seen` are used.
+// kept. Of the shots only `stated` and `seen` are used. Throws as LitObjects::light(), or
+// Cancelled; weights are as before then.
 void add_weights(const Scene& scene, std::span<const ObservedShot> shots, LitObjects& lit,
                  Progress* progress,
                  const std::function<WeightMatrix(const SeenObject&, const SourceCloud&)>& make,

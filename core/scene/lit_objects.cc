@@ -44,20 +44,29 @@ LitObjects::LitObjects(const Scene& scene, const ObjectScenes& objects,
   }
 }
 
+const IncidentLight& LitObjects::light_on_patches(const std::string& object,
+                                                  const SceneLight& light, std::size_t channel) {
+  const ObjectScene& lit = objects_.at(object);
+  std::optional<PatchMesh> coarse;
+  return light_on(object, light, channel,
+                  patches_for(*light, LightUse::kMeasure, lit, patches(object), coarse),
+                  lit.stated->eta_int_over_ext);
+}
+
+bool LitObjects::reaches(const std::string& object, const std::string& name, std::size_t channel) {
+  const SceneLight& light = scene_.light(name);
+  return !light->position_mm() || !light_on_patches(object, light, channel).lit.empty();
+}
+
 const IncidentLight& LitObjects::light(const std::string& object, const std::string& name,
                                        std::size_t channel) {
   const SceneLight& light = scene_.light(name);
-  const ObjectScene& lit = objects_.at(object);
-  std::optional<PatchMesh> coarse;
-  const IncidentLight& out = light_on(
-      object, light, channel, patches_for(*light, LightUse::kMeasure, lit, patches(object), coarse),
-      lit.stated->eta_int_over_ext);
-  if (out.lit.empty() && light->position_mm()) {
+  if (!reaches(object, name, channel)) {
     throw InputError(
         scene_.at(light.line) + ": lights." + name,
         "the LED illuminates no part of object " + object + " (check position_mm and axis)");
   }
-  return out;
+  return light_on_patches(object, light, channel);
 }
 
 const IncidentLight& LitObjects::light_on(const std::string& object, const SceneLight& light,

@@ -19,7 +19,7 @@ namespace scattermeter {
 class LitObjects {
  public:
   // Opens the lights that shots refer to. patch_size_mm: for every object; by default the scene's;
-  // failing that, object size / 50, but at least six samples at this distance from the camera (0:
+  // failing that, object size / 50, but at least eight samples at this distance from the camera (0:
   // unknown). Scene and objects must outlive it. Throws InputError for a light that cannot be read
   // and for patches that are too small.
   LitObjects(const Scene& scene, const ObjectScenes& objects, std::optional<double> patch_size_mm,
@@ -30,7 +30,9 @@ class LitObjects {
   // first call. Throws InputError when an LED illuminates no part of the object. Not thread-safe.
   const IncidentLight& light(const std::string& object, const std::string& name,
                              std::size_t channel);
-  // The same on other patches of the object or for another eta; cached as well.
+  // Whether light() would throw for the LED instead.
+  bool reaches(const std::string& object, const std::string& name, std::size_t channel);
+  // As light(), on other patches of the object or for another eta; cached as well.
   const IncidentLight& light_on(const std::string& object, const SceneLight& light,
                                 std::size_t channel, const PatchMesh& patches,
                                 double eta_int_over_ext);
@@ -40,6 +42,9 @@ class LitObjects {
   double longest_distance_mm() const;
 
  private:
+  const IncidentLight& light_on_patches(const std::string& object, const SceneLight& light,
+                                        std::size_t channel);
+
   const Scene& scene_;
   const ObjectScenes& objects_;
   std::map<std::string, std::unique_ptr<PatchMesh>> patches_;

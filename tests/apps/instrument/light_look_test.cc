@@ -65,6 +65,18 @@ TEST(LightLook, AnotherLedWasOnToo) {
       << findings[0].text;
 }
 
+// A spare LED that faces away is no candidate, and no error.
+TEST(LightLook, AnLedThatReachesNothingIsNotTried) {
+  LitShots lit("cube");
+  SceneLight spare = lit.rig.scene.lights[0];
+  spare.name = "spare";
+  spare.led()->led.axis *= -1.0;
+  lit.rig.scene.lights.push_back(spare);
+  std::swap(lit.shots[0].observation, lit.shots[1].observation);
+  LightLook look(lit.rig.scene, *lit.lit, lit.shots, lit.weights);
+  EXPECT_EQ(look.likeness(0).other, "lit by led2");
+}
+
 TEST(LightLook, AnotherView) {
   LitShots lit("cube");
   LightLook look(lit.rig.scene, *lit.lit, lit.shots, lit.weights);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/input_error.h"
 #include "tests/fixtures/core/dipole_cube.h"
 
 namespace scattermeter {
@@ -34,6 +35,19 @@ TEST(ChannelWeights, EachViewAndLightIsMadeOnce) {
     // Of that light's own sources.
     EXPECT_EQ(w(0, 0), static_cast<double>(cube.lit.light("cube", name, 0).lit.size()));
   }
+}
+
+// Where a light reaches nothing, nothing half-made is left for the shots that follow.
+TEST(ChannelWeights, AFailureLeavesThemAsTheyWere) {
+  test_support::DipoleCube cube(2);
+  cube.scene.shots[1].lights = {"led", "led2"};
+  cube.scene.lights[1].led()->led.position_mm = {0.0, 0.0, -50.0};
+  cube.scene.lights[1].led()->led.axis = -Eigen::Vector3d::UnitZ();
+  Weights weights;
+  EXPECT_THROW(add_smooth_weights(cube.scene, cube.shots, cube.lit, nullptr, weights), InputError);
+  EXPECT_TRUE(weights.empty());
+  EXPECT_TRUE(cube.lit.reaches("cube", "led", 0));
+  EXPECT_FALSE(cube.lit.reaches("cube", "led2", 0));
 }
 
 // The knots' shares of every pair add up to 1: a row sums to all the power that enters the object.
