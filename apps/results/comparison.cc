@@ -14,19 +14,44 @@
 namespace scattermeter::apps {
 namespace {
 
-constexpr std::array<std::string_view, 8> kOfTheRig = {"scale",    "LED power",    "LED position",
-                                                       "LED axis", "LED exponent", "lens",
-                                                       "pose",     "surroundings"};
+constexpr std::array<std::string_view, 11> kOfTheRig = {
+    "scale", "LED power", "LED position", "LED axis",      "LED exponent", "LED calibration",
+    "lens",  "pose",      "vignetting",   "veiling glare", "surroundings"};
 
-// Sum over the shared causes of the products of their deviations: the covariance of both results.
-Eigen::Array2d shared_variance(const ReadChannel& first, const ReadChannel& second) {
-  Eigen::Array2d out = Eigen::Array2d::Zero();
-  for (const BudgetLine& a : first.budget) {
-    if (std::find(kOfTheRig.begin(), kOfTheRig.end(), a.cause) == kOfTheRig.end()) continue;
-    for (const BudgetLine& b : second.budget) {
-      if (a.cause != b.cause) continue;
-      out[0] += a.std_sigma_s_prime_per_mm * b.std_sigma_s_prime_per_mm;
-      out[1] += a.std_sigma_a_per_mm * b.std_sigma_a_per_mm;
+// Of one error that both measurements had: not of a piece, and not of a shot.
+bool is_of_the_rig(const RigResponse& r) {
+  return std::find(kOfTheRig.begin(), kOfTheRig.end(), r.cause) != kOfTheRig.end() &&
+         r.quantity.find(' ') == std::string::npos;
+}
+
+Eigen::Matrix2d covariance_of(const ReadChannel& c) {
+  const double s = c.sigma_s_prime_per_mm.std, a = c.sigma_a_per_mm.std;
+  Eigen::Matrix2d out;
+  out << s * s, c.correlation * s * a, c.correlation * s * a, a * a;
+  return out;
+}
+
+// Of the errors of the first result with those of the second, by what is common to both.
+Eigen::Matrix2d shared_covariance(const ReadChannel& first, const ReadChannel& second) {
+  Eigen::Matrix2d out = Eigen::Matrix2d::Zero();
+  for (const RigResponse& a : first.responses) {
+    if (!is_of_the_rig(a)) continue;
+    for (const RigResponse& b : second.responses) {
+      if (a.quantity == b.quantity && a.cause == b.cause) {
+        out += a.shift_per_mm * b.shift_per_mm.transpose();
+      }
+    }
+  }
+  return out;
+}
+
+// The noise of both, which no common cause takes away.
+Eigen::Vector2d noise_variance(const ReadChannel& first, const ReadChannel& second) {
+  Eigen::Vector2d out = Eigen::Vector2d::Zero();
+  for (const ReadChannel* c : {&first, &second}) {
+    for (const BudgetLine& line : c->budget) {
+      if (line.cause != "noise") continue;
+      out += Eigen::Vector2d(line.std_sigma_s_prime_per_mm, line.std_sigma_a_per_mm).cwiseAbs2();
     }
   }
   return out;
@@ -34,7 +59,9 @@ Eigen::Array2d shared_variance(const ReadChannel& first, const ReadChannel& seco
 
 const ReadChannel* measured(const ReadResult& result, const std::string& material, char channel) {
   for (const ReadChannel& c : result.channels) {
-    if (c.material == material && c.channel == channel && !c.refused) return &c;
+    const bool is_known =
+        std::isfinite(c.sigma_s_prime_per_mm.std) && std::isfinite(c.sigma_a_per_mm.std);
+    if (c.material == material && c.channel == channel && !c.refused && is_known) return &c;
   }
   return nullptr;
 }
@@ -42,25 +69,23 @@ const ReadChannel* measured(const ReadResult& result, const std::string& materia
 }  // namespace
 
 ChannelComparison compare(const ReadChannel& first, const ReadChannel& second, bool share_rig) {
-  const auto std_of = [](const ReadChannel& c) {
-    return Eigen::Array2d(c.sigma_s_prime_per_mm.std, c.sigma_a_per_mm.std);
-  };
-  const Eigen::Array2d a = std_of(first), b = std_of(second);
-  const Eigen::Array2d own = a.square() + b.square();
-  Eigen::Array2d variance = own;
-  if (share_rig) variance -= 2.0 * shared_variance(first, second);
-  // The correlation of the two coefficients, that of independent results.
-  const double correlation =
-      (first.correlation * a.prod() + second.correlation * b.prod()) / std::sqrt(own.prod());
+  const Eigen::Matrix2d apart = covariance_of(first) + covariance_of(second);
+  Eigen::Matrix2d covariance = apart;
+  if (share_rig) {
+    const Eigen::Matrix2d shared = shared_covariance(first, second);
+    covariance -= shared + shared.transpose();
+    // Responses are to first order, and of priors as stated.
+    const Eigen::Vector2d least = noise_variance(first, second);
+    const bool is_possible =
+        (covariance.diagonal().array() > least.array()).all() && covariance.determinant() > 0.0;
+    if (!is_possible) covariance = apart;
+  }
   ChannelComparison out{first, second, {}, {}, 1.0};
-  const Eigen::Array2d value(second.sigma_s_prime_per_mm.value - first.sigma_s_prime_per_mm.value,
-                             second.sigma_a_per_mm.value - first.sigma_a_per_mm.value);
-  out.sigma_s_prime_per_mm = {value[0], std::sqrt(variance[0])};
-  out.sigma_a_per_mm = {value[1], std::sqrt(variance[1])};
-  const Eigen::Array2d in_std = value / variance.sqrt();
-  const double chi2 = (in_std.square().sum() - 2.0 * correlation * in_std.prod()) /
-                      (1.0 - correlation * correlation);
-  out.p_value = chi_square_tail(chi2, 2.0);
+  const Eigen::Vector2d value(second.sigma_s_prime_per_mm.value - first.sigma_s_prime_per_mm.value,
+                              second.sigma_a_per_mm.value - first.sigma_a_per_mm.value);
+  out.sigma_s_prime_per_mm = {value[0], std::sqrt(covariance(0, 0))};
+  out.sigma_a_per_mm = {value[1], std::sqrt(covariance(1, 1))};
+  out.p_value = chi_square_tail(as_chi_square(value.dot(covariance.inverse() * value)), 2.0);
   return out;
 }
 

@@ -33,8 +33,9 @@ struct MaterialComparison {
 };
 
 // share_rig: both were measured with one rig, so that its scale, lens, pose, LEDs and surroundings
-// were off by the same in both: an error of unit size changes each result by its own budget line,
-// in the same direction. Eta, size, position and edges are each piece's own.
+// were off by the same in both, and shifted each by its own response (ReadChannel::responses). Eta,
+// size, position and edges are each piece's own. Results without responses, and such as would then
+// differ by less than their noise, share nothing.
 ChannelComparison compare(const ReadChannel& first, const ReadChannel& second, bool share_rig);
 
 // Pairs of materials: those of `named` ("PP" or "PP=PE", the second from the second file), or else

@@ -111,6 +111,21 @@ Quantity read_quantity(const JsonField& field, bool refused, double min) {
   return q;
 }
 
+// The shift of the estimate by the least error that would be seen, per deviation of that error.
+std::vector<RigResponse> read_responses(const JsonField& pulls) {
+  std::vector<RigResponse> out;
+  for (const JsonField& pull : pulls.items()) {
+    const auto unseen = pull.find("unseen");
+    const double least_in_std = unseen ? pull.at("least_seen_in_std").number() : 0.0;
+    if (!(least_in_std > 0.0)) continue;
+    const Eigen::Vector2d shift(unseen->at("sigma_s_prime_per_mm").number(),
+                                unseen->at("sigma_a_per_mm").number());
+    if (!shift.allFinite()) continue;
+    out.push_back({pull.at("quantity").text(), pull.at("cause").text(), shift / least_in_std});
+  }
+  return out;
+}
+
 ReadChannel read_channel(const JsonField& field) {
   ReadChannel c;
   c.material = field.at("material").text();
@@ -136,6 +151,7 @@ ReadChannel read_channel(const JsonField& field) {
                           line.at("sigma_a_per_mm").number()});
     }
   }
+  if (const auto pulls = field.find("pulls")) c.responses = read_responses(*pulls);
   return c;
 }
 

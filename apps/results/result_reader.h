@@ -5,10 +5,20 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/fit/estimate.h"
 #include "core/material/medium.h"
 
 namespace scattermeter::apps {
+
+// How an estimate follows an error of the rig.
+struct RigResponse {
+  std::string quantity;  // of the rig, such as led1.position0
+  std::string cause;
+  // Of (sigma_s', sigma_a), 1/mm, to an error of the quantity by its stated standard deviation.
+  Eigen::Vector2d shift_per_mm = Eigen::Vector2d::Zero();
+};
 
 // One entry of `results`. Numbers that the file does not contain are NaN.
 struct ReadChannel {
@@ -19,7 +29,8 @@ struct ReadChannel {
   Quantity sigma_s_prime_per_mm;  // unless refused: value > 0
   Quantity sigma_a_per_mm;        // unless refused: value >= 0
   double correlation = 0;
-  std::vector<BudgetLine> budget;  // empty: not in the file
+  std::vector<BudgetLine> budget;      // empty: not in the file
+  std::vector<RigResponse> responses;  // the same; only to what is stated as uncertain
   bool refused = false;
   std::vector<std::string> reasons;
 
