@@ -53,7 +53,8 @@ calib::FramePose frame_pose(const Rig& rig) {
 
 calib::PriorLed prior_led(const SceneLight& light) {
   const LedLight& led = *light.led();
-  return {light.name,    led.led, led.position_std_mm, led.exponent_std, led.intensity_relative_std,
+  return {light.name,       led.led,          led.position_std_mm,
+          led.axis_std_rad, led.exponent_std, led.intensity_relative_std,
           led.calibrated};
 }
 

@@ -104,9 +104,13 @@ std::string led_calibration_yaml(const calib::LedCalibration& c) {
   out << YAML::Key << "radius_mm" << YAML::Value << fit.led.radius_mm;
   out << YAML::Key << "intensity_W_per_sr" << YAML::Value;
   emit_row(out, fit.led.intensity_W_per_sr);
-  out << YAML::Comment("for the responsivity below: only their product counts");
-  out << YAML::Key << "responsivity_counts_mm2_sr_per_W_s" << YAML::Value;
-  emit_row(out, c.shots.responsivity);
+  if (fit.lobe_fitted) {
+    out << YAML::Comment("for the responsivity below: only their product counts");
+    out << YAML::Key << "responsivity_counts_mm2_sr_per_W_s" << YAML::Value;
+    emit_row(out, c.shots.responsivity);
+  } else {
+    out << YAML::Comment("the rig's, as no white plane was seen");
+  }
   out << YAML::Key << "axis_tangents" << YAML::Value << YAML::Block << YAML::BeginSeq;
   for (const Eigen::Vector3d& t : fit.uncertainty.tangents) emit_row(out, t);
   out << YAML::EndSeq;
@@ -145,7 +149,9 @@ CalibratedLed read_led_calibration_file(const std::string& path) {
   led.exponent = top.at("exponent").number(led.least_exponent(), 1000.0);
   if (const auto f = top.find("radius_mm")) led.radius_mm = f->number(0.0, 1000.0);
   led.intensity_W_per_sr = some_light(top.at("intensity_W_per_sr"));
-  out.responsivity = positive_rgb(top.at("responsivity_counts_mm2_sr_per_W_s"));
+  if (const auto f = top.find("responsivity_counts_mm2_sr_per_W_s")) {
+    out.responsivity = positive_rgb(*f);
+  }
 
   LedUncertainty& u = out.uncertainty;
   const YamlField tangents = top.at("axis_tangents");
@@ -183,6 +189,8 @@ CalibratedLed read_led_calibration_file(const std::string& path) {
       !(symmetric_eigen(own).values[0] >= -1e-7)) {
     covariance.fail("expected a covariance: symmetric, without negative variances");
   }
+  // Earlier files state one by spheres alone, too. The power from a plane goes with the distance.
+  if (u.covariance.bottomLeftCorner<3, kLedLogIntensity>().isZero(0.0)) out.responsivity.reset();
   return out;
 }
 

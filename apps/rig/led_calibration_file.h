@@ -20,7 +20,7 @@ struct CalibratedLed {
   Led led;
   LedUncertainty uncertainty;
   // Counts mm^2 sr / (W s) for which the intensities are valid: only the product matters.
-  std::array<double, 3> responsivity{};
+  std::optional<std::array<double, 3>> responsivity;  // none: the intensities are the rig's
 };
 
 // Throws InputError with file, line, field and value.

@@ -45,10 +45,7 @@ void read_led(const LightEntry& entry, SceneLight& light) {
     const CalibratedLed calibrated = read_led_calibration_file(light.files.back());
     led = calibrated.led;
     led_light.calibrated = calibrated.uncertainty;
-    // Without a white plane, the power is that of the rig and not calibrated.
-    const bool has_power =
-        (calibrated.uncertainty.covariance.diagonal().tail<3>().array() > 0.0).any();
-    if (has_power) led_light.calibrated_for = calibrated.responsivity;
+    led_light.calibrated_for = calibrated.responsivity;
     return;
   }
   led.position_mm = field.at("position_mm").vector3();

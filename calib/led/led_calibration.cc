@@ -12,13 +12,10 @@ LedCalibration calibrate_led(const LedCalibrationInput& input, const std::string
   const PriorLed& prior = input.led(light);
   LedFitOptions options;
   options.ambient = input.shots.ambient;
-  options.exponent_std = prior.exponent_std;
-  options.log_intensity_std = prior.power_relative_std;
-  if (prior.calibrated) {
-    const LedMatrix& c = prior.calibrated->covariance;
-    options.exponent_std = std::sqrt(c(kLedExponent, kLedExponent));
-    options.log_intensity_std = std::sqrt(c.diagonal().segment<3>(kLedLogIntensity).maxCoeff());
-  }
+  const LedVector variance = uncertainty_of(prior).covariance.diagonal();
+  options.axis_std_rad = std::sqrt(variance.segment<2>(kLedAxis).maxCoeff());
+  options.exponent_std = std::sqrt(variance[kLedExponent]);
+  options.log_intensity_std = std::sqrt(variance.segment<3>(kLedLogIntensity).maxCoeff());
   out.fit = fit_led(out.shots.scene, prior.led, options);
   return out;
 }

@@ -92,12 +92,6 @@ void hold_planes(const Led& led, const LedShots& shots, const LedFit& fit, LedCh
   if (n == 0.0) check.plane_worst_percent = kNotSeen;
 }
 
-// Covariance of the prior position.
-Eigen::Matrix3d prior_covariance(const PriorLed& prior) {
-  if (prior.calibrated) return prior.calibrated->covariance.topLeftCorner<3, 3>();
-  return prior.position_std_mm * prior.position_std_mm * Eigen::Matrix3d::Identity();
-}
-
 }  // namespace
 
 LedCheck check_led(const LedCalibrationInput& input, const std::string& light,
@@ -123,8 +117,8 @@ LedCheck check_led(const LedCalibrationInput& input, const std::string& light,
     return check;
   }
   check.displacement_mm = fit.led.position_mm - prior.led.position_mm;
-  check.displacement_covariance_mm2 =
-      fit.uncertainty.covariance.topLeftCorner<3, 3>() + prior_covariance(prior);
+  check.displacement_covariance_mm2 = fit.uncertainty.covariance.topLeftCorner<3, 3>() +
+                                      uncertainty_of(prior).covariance.topLeftCorner<3, 3>();
   check.displacement_length_mm = check.displacement_mm.norm();
   const Eigen::Vector3d along = check.displacement_length_mm > 0.0
                                     ? check.displacement_mm.normalized().eval()

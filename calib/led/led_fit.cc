@@ -211,6 +211,9 @@ class LedFitter {
         led_uncertainty(found.covariance, solution_, fit_.led, albedo_is_uncertain());
     if (!fit_.lobe_fitted) {
       LedMatrix& c = fit_.uncertainty.covariance;
+      for (Eigen::Index k = kLedAxis; k < kLedExponent; ++k) {
+        c(k, k) = options_.axis_std_rad * options_.axis_std_rad;
+      }
       c(kLedExponent, kLedExponent) = options_.exponent_std * options_.exponent_std;
       for (Eigen::Index k = 0; k < 3; ++k) {
         c(kLedLogIntensity + k, kLedLogIntensity + k) =

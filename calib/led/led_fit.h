@@ -27,6 +27,7 @@ struct LedFitOptions {
   double max_left_out = 0.4;  // share of a plane's cells; with more the status is kMisfit
   // Without a plane, axis, exponent and intensity keep their start values, with these standard
   // deviations.
+  double axis_std_rad = 0;
   double exponent_std = 0;
   double log_intensity_std = 0;
   AmbientModel ambient = AmbientModel::kWhereSeen;

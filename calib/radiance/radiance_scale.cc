@@ -30,18 +30,29 @@ double led_relative_std(const WhiteReference& white, const PriorLed& light,
     return sum;
   };
   const double nominal = mean(light.led);
-  double variance = light.power_relative_std * light.power_relative_std;
-  for (int k = 0; k < 3 && light.position_std_mm > 0.0; ++k) {
-    Led moved = light.led;
-    moved.position_mm[k] += light.position_std_mm;
-    variance += std::pow(mean(moved) / nominal - 1.0, 2);
-  }
-  if (light.exponent_std > 0.0) {
+  const LedUncertainty u = uncertainty_of(light);
+  const LedVector std = u.covariance.diagonal().cwiseSqrt();
+  LedVector by = LedVector::Zero();  // relative change by each parameter, over a deviation of it
+  for (Eigen::Index k = 0; k < kLedLogIntensity; ++k) {
+    if (!(std[k] > 0.0)) continue;
     Led other = light.led;
-    other.exponent += light.exponent_std;
-    variance += std::pow(mean(other) / nominal - 1.0, 2);
+    if (k < kLedAxis) {
+      other.position_mm[k] += std[k];
+    } else if (k < kLedExponent) {
+      const auto tangent = static_cast<std::size_t>(k - kLedAxis);
+      other.axis = (other.axis + std[k] * u.tangents[tangent]).normalized();
+    } else {
+      other.exponent += std[k];
+    }
+    by[k] = (mean(other) / nominal - 1.0) / std[k];
   }
-  return std::sqrt(variance);
+  double most = 0.0;  // of the channels
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    LedVector own = by;
+    own[kLedLogIntensity + c] = 1.0;
+    most = std::max(most, own.dot(u.covariance * own));
+  }
+  return std::sqrt(most);
 }
 
 // Exposure and mean level of a shot of the plane.

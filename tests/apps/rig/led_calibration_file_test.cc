@@ -24,6 +24,7 @@ calib::LedCalibration made_led_calibration() {
   c.shots.grids = {{"p.dng", 0, 4, 3}};
   calib::LedFit& fit = c.fit;
   fit.status = calib::LedStatus::kOk;
+  fit.lobe_fitted = true;
   fit.led.position_mm = {30.0 + 1.0 / 3.0, -60.0 / 7.0, 80.1};
   fit.led.axis = {0, 0, -1};
   fit.led.exponent = 4.0 / 3.0;
@@ -36,6 +37,7 @@ calib::LedCalibration made_led_calibration() {
     fit.uncertainty.common[i] = i < kLedLogIntensity ? 0.0 : 0.005;
   }
   fit.uncertainty.covariance(0, 2) = fit.uncertainty.covariance(2, 0) = -0.01 / 3.0;
+  fit.uncertainty.covariance(2, 6) = fit.uncertainty.covariance(6, 2) = 0.001;
   fit.distance_mm = 95.5;
   fit.highlight_residuals_px = {{0.1, -0.2}, {3.0, 4.0}};
   fit.highlight_used = {true, false};
@@ -74,6 +76,17 @@ TEST_F(LedCalibrationFile, ReadsBackToTheLastDigit) {
   EXPECT_EQ(read_back.uncertainty.tangents[1], c.fit.uncertainty.tangents[1]);
   EXPECT_EQ(read_back.uncertainty.covariance, c.fit.uncertainty.covariance);
   EXPECT_EQ(read_back.uncertainty.common, c.fit.uncertainty.common);
+}
+
+// Without a white plane, the intensities are the rig's: no responsivity goes with them.
+TEST_F(LedCalibrationFile, BySpheresAloneHasNoResponsivity) {
+  calib::LedCalibration c = made_led_calibration();
+  c.fit.lobe_fitted = false;
+  EXPECT_FALSE(read(led_calibration_yaml(c)).responsivity.has_value());
+  // Files of earlier versions have one all the same, but the power depends on nothing.
+  c.fit.lobe_fitted = true;
+  c.fit.uncertainty.covariance(2, 6) = c.fit.uncertainty.covariance(6, 2) = 0.0;
+  EXPECT_FALSE(read(led_calibration_yaml(c)).responsivity.has_value());
 }
 
 // A fit may correct a table to both sides.
@@ -157,7 +170,7 @@ TEST_F(LedCalibrationFile, RefusesWhatIsNoCovariance) {
             "");
 }
 
-// A light of the rig takes it; without power in the calibration that stays the rig's.
+// A light of the rig takes it; where no plane was seen, the responsivity stays the rig's.
 TEST_F(LedCalibrationFile, IsALight) {
   calib::LedCalibration c = made_led_calibration();
   const auto as_light = [&] {
@@ -171,8 +184,7 @@ TEST_F(LedCalibrationFile, IsALight) {
   ASSERT_TRUE(light.led()->calibrated.has_value());
   EXPECT_EQ(light.led()->calibrated->covariance, c.fit.uncertainty.covariance);
   EXPECT_EQ(light.led()->calibrated_for, c.shots.responsivity);
-  c.fit.uncertainty.common.setZero();
-  c.fit.uncertainty.covariance.diagonal().tail<3>().setZero();
+  c.fit.lobe_fitted = false;
   EXPECT_FALSE(as_light().led()->calibrated_for.has_value());
 }
 

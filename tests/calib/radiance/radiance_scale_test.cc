@@ -87,6 +87,40 @@ TEST_F(RadianceScaleTest, TheLedsErrorsCount) {
   EXPECT_LT(bench_.calibration.responsivity_relative_std, std::hypot(0.01, 0.03, 0.03));
 }
 
+// A lobe of exponent 1 tilted by a: towards the plane, some 15 degrees off its axis, by a tan(15).
+TEST_F(RadianceScaleTest, TheLedsAxisCounts) {
+  const auto variance = [&](double axis_std_rad) {
+    bench_.input.white_led->axis_std_rad = axis_std_rad;
+    find({white_shot(0.1)});
+    return std::pow(bench_.calibration.responsivity_relative_std, 2);
+  };
+  constexpr double kStd_rad = 0.02;
+  const double by_axis = kStd_rad * std::hypot(20.0, 10.0) / 90.0;
+  EXPECT_NEAR(std::sqrt(variance(kStd_rad) - variance(0.0)), by_axis, 0.1 * by_axis);
+}
+
+// Of a calibrated LED, with the correlations: its power is known relative to its distance.
+TEST_F(RadianceScaleTest, ACalibratedLedsErrorsCount) {
+  PriorLed& led = *bench_.input.white_led;
+  led.position_std_mm = 5.0;  // before it was calibrated
+  LedUncertainty& u = led.calibrated.emplace();
+  u.tangents = {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+  u.covariance(2, 2) = 1.0;
+  find({white_shot(0.1)});
+  const double by_height =
+      std::sqrt(std::pow(bench_.calibration.responsivity_relative_std, 2) - std::pow(0.01, 2));
+  EXPECT_GT(by_height, 0.01);
+  const double std = 0.04;
+  for (Eigen::Index c = 0; c < 3; ++c) u.covariance(6 + c, 6 + c) = std * std;
+  find({white_shot(0.1)});
+  EXPECT_NEAR(bench_.calibration.responsivity_relative_std, std::hypot(0.01, by_height, std), 1e-4);
+  // Farther and as much stronger: the same light on the plane.
+  for (Eigen::Index c = 0; c < 3; ++c) u.covariance(6 + c, 2) = u.covariance(2, 6 + c) = by_height;
+  for (Eigen::Index c = 0; c < 3; ++c) u.covariance(6 + c, 6 + c) = by_height * by_height;
+  find({white_shot(0.1)});
+  EXPECT_NEAR(bench_.calibration.responsivity_relative_std, 0.01, 3e-4);
+}
+
 TEST_F(RadianceScaleTest, AnUnknownExposureTimeCounts) {
   bench_.calibration.correction.shutter_relative_std = 0.02;
   find({white_shot(0.11)});
