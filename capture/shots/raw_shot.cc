@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include "capture/raw/raw_reader.h"
+#include "capture/sensor/mended_frame.h"
+#include "capture/sensor/radiance_calibration.h"
 #include "capture/shots/same_camera.h"
 #include "core/base/input_error.h"
 
@@ -24,6 +26,7 @@ RawFrame open_shot(const Scene& scene, const ShotDecoding& decoding, const std::
   if (!(frame.exposure_s > 0.0)) {
     throw InputError(path, "the file states no exposure time");
   }
+  if (decoding.radiance) mend_defects(decoding.radiance->correction.defect_pixels, frame);
   return frame;
 }
 

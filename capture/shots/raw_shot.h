@@ -10,8 +10,8 @@
 namespace scattermeter::capture {
 
 // Decodes the file and checks it against the scene: camera model (make and model, case ignored),
-// size of the active area, presence of an exposure time. Throws InputError naming the file, the
-// field and both values.
+// size of the active area, presence of an exposure time. Defects that the calibration lists are
+// mended. Throws InputError naming the file, the field and both values.
 RawFrame open_shot(const Scene& scene, const ShotDecoding& decoding, const std::string& path);
 
 }  // namespace scattermeter::capture

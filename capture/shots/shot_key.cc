@@ -6,7 +6,7 @@ namespace scattermeter::capture {
 namespace {
 
 // To be incremented whenever the same inputs are decoded to something else than before.
-constexpr int kFormat = 7;
+constexpr int kFormat = 8;
 
 void add_camera(const SceneCamera& camera, const ShotDecoding& decoding, FileDigests& digests,
                 Digest& key) {
@@ -42,6 +42,8 @@ std::string shot_key(const Scene& scene, const ShotDecoding& decoding, const Obs
   for (const double v : seen.shift) key.number(v);
   key.text(digests.of(seen.object->stated->mesh_path));
   key.number(seen.patches->patch_size_mm()).number(seen.object->stated->eta_int_over_ext);
+  // They decide which samples a row has.
+  key.number(seen.object->stated->edge_std_mm).number(seen.object->stated->position_std_mm);
   return key.hex();
 }
 

@@ -61,6 +61,8 @@ TEST_F(ShotKeyTest, ChangesWithAllThatDecodingRestsOn) {
       {"focal length", [&] { scene_.camera.intrinsics.fx_px += 1e-9; }},
       {"distortion", [&] { scene_.camera.intrinsics.distortion = {0.0}; }},
       {"eta", [&] { scene_.objects[0].eta_int_over_ext += 1e-9; }},
+      {"edges", [&] { scene_.objects[0].edge_std_mm += 1e-9; }},
+      {"position", [&] { scene_.objects[0].position_std_mm += 1e-9; }},
       {"pose", [&] { pose_.camera_from_world.translation_mm.z() += 1e-9; }},
       {"noise", [&] { scene_.camera.sensor.noise.gain_e_per_count += 1.0; }},
       {"responsivity",
