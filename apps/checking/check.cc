@@ -6,8 +6,6 @@
 
 #include <fmt/core.h>
 
-#include "apps/instrument/piece_places.h"
-#include "calib/pose/shot_pose.h"
 #include "core/base/progress.h"
 
 namespace scattermeter::apps {
@@ -56,16 +54,11 @@ CheckReport check_report(const CheckedRig& checked) {
   return report;
 }
 
-CheckReport check(const Rig& given, const std::string& shots_folder, const CheckOptions& options,
+CheckReport check(const Rig& rig, const std::string& shots_folder, const CheckOptions& options,
                   Progress* progress) {
-  Rig rig = given;
-  calib::take_points_from_board_shot(rig.scene, rig.decoding, shots_folder, rig.pose);
-  const std::vector<std::string> places = place_pieces(rig, shots_folder, progress);
   CheckOptions own = options;
   own.progress = progress;
-  CheckReport report = check_report(open_checked_rig(rig, shots_folder, own));
-  report.notes.insert(report.notes.begin(), places.begin(), places.end());
-  return report;
+  return check_report(open_checked_rig(rig, shots_folder, own));
 }
 
 }  // namespace scattermeter::apps

@@ -10,8 +10,10 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/instrument/calibration_inputs.h"
+#include "apps/instrument/closer_look.h"
 #include "apps/instrument/displaced_round_bodies.h"
 #include "apps/instrument/first_look.h"
+#include "apps/instrument/frame_watch.h"
 #include "apps/instrument/open_objects.h"
 #include "apps/instrument/piece_places.h"
 #include "apps/instrument/seen_shots.h"
@@ -30,9 +32,11 @@ namespace {
 // Least standard deviation of an LED's position in the joint fit.
 constexpr double kLedPositionStd_mm = 2.0;
 
-std::shared_ptr<CheckedGeometry> geometry_of(const Rig& rig) {
+std::shared_ptr<CheckedGeometry> geometry_of(Rig stated) {
   auto out = std::make_shared<CheckedGeometry>();
-  out->rig = rig;
+  out->stated = std::move(stated);
+  out->stated.scene.camera.sensor.noise = noise_in_force(out->stated);
+  out->rig = out->stated;
   // The pose as stated: refining it would hide an error of the outlines.
   out->rig.pose.refine_by_silhouette = false;
   for (SceneLight& light : out->rig.scene.lights) {
@@ -40,7 +44,8 @@ std::shared_ptr<CheckedGeometry> geometry_of(const Rig& rig) {
     if (light.led()->calibrated) {
       // Without correlations, as the position is to be found from the shots.
       const LedVector std = light.led()->calibrated->covariance.diagonal().cwiseSqrt();
-      light.led()->exponent_std = std[5];
+      light.led()->axis_std_rad = std.segment<2>(kLedAxis).maxCoeff();
+      light.led()->exponent_std = std[kLedExponent];
       light.led()->intensity_relative_std = std.tail<3>().maxCoeff();
       light.led()->calibrated.reset();
     }
@@ -100,6 +105,7 @@ std::vector<calib::LedCheck> checked_leds(const Rig& rig, const std::string& fol
 // Uncertainties of the lens that may explain shifts of the outlines.
 calib::SilhouetteCheckOptions outline_options(const CheckedRig& checked) {
   calib::SilhouetteCheckOptions out;
+  out.explanation.scale_relative_std = mesh_scale_std(checked.rig.scene);
   if (!checked.lens) return out;
   for (std::size_t i = 0; i < checked.lens->parameters.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
@@ -150,17 +156,20 @@ CheckDetail CheckedRig::of_channel(std::size_t shot_idx, std::size_t channel, do
   return out;
 }
 
-CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
+CheckedRig open_checked_rig(const Rig& given, const std::string& shots_folder,
                             const CheckOptions& options) {
-  CheckedRig out{rig, options, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  Rig placed = given;
+  calib::take_points_from_board_shot(placed.scene, placed.decoding, shots_folder, placed.pose);
+  std::vector<std::string> places = place_pieces(placed, shots_folder, options.progress);
+  const auto geometry = geometry_of(std::move(placed));
+  const Rig& rig = geometry->stated;
+  CheckedRig out{rig,      options,      {}, {}, {}, {}, std::move(places),
+                 geometry, shots_folder, {}, {}, {}};
   const capture::ShotFolder folder =
       capture::match_shots(rig.scene, calibration_files(rig), shots_folder);
   for (const std::string& name : folder.unlisted) {
     out.notes.push_back(name + ": not in the rig's list of shots, skipped");
   }
-  const auto geometry = geometry_of(rig);
-  out.geometry = geometry;
-  out.folder = shots_folder;
   const Rig& loose = geometry->rig;
   if (!rig.pose.charuco) out.shared_pose = calib::pose_from_points(loose.scene, loose.pose);
   geometry->lit = std::make_unique<LitObjects>(loose.scene, geometry->objects, std::nullopt, 0.0);
@@ -177,18 +186,22 @@ CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
   seen.open();
   const auto& frames = std::get<capture::FrameSource>(source.open);
   out.frames.resize(seen.whole().size());
+  FrameWatch frame_watch(loose.scene);
   std::optional<OutlineWatch> watch;
   if (out.shared_pose) watch.emplace(loose, geometry->objects, *out.shared_pose);
   ProgressStage stage(options.progress, "looking at shots", out.frames.size());
   tbb::parallel_for(std::size_t{0}, out.frames.size(), [&](std::size_t i) {
     const capture::RawFrame frame = frames(source.shot_idxs[i], 0);
     out.frames[i] = checked_frame(frame, loose, seen.whole()[i], options);
+    frame_watch.look(source.shot_idxs[i], frame);
     if (watch) watch->look(source.shot_idxs[i], frame);
     stage.step();
   });
   out.looks = watch ? watch->findings(source)
                     : look_at_pieces(loose, geometry->objects, seen.whole(), frames);
   out.notes.insert(out.notes.end(), out.looks->notes.begin(), out.looks->notes.end());
+  const std::vector<Finding> of_frames = frame_watch.findings();
+  out.looks->findings.insert(out.looks->findings.begin(), of_frames.begin(), of_frames.end());
   // `measure` begins there, too.
   if (!out.looks->shifts.empty()) seen.open_from(out.looks->shifts);
   if (rig.lens) out.lens = *rig.lens;

@@ -65,14 +65,15 @@ struct CheckedFrame {
 
 // What the opened shots refer to.
 struct CheckedGeometry {
-  // The rig with larger uncertainties of the LED positions, so that the shots determine them.
+  Rig stated;  // with the positions of pieces that were found
+  // The same with larger uncertainties of the LED positions, so that the shots determine them.
   Rig rig;
   ObjectScenes objects;
   std::unique_ptr<LitObjects> lit;
 };
 
 struct CheckedRig {
-  const Rig& rig;
+  const Rig& rig;  // geometry->stated
   CheckOptions options;
   std::optional<PoseResult> shared_pose;  // from the rig's points
   std::vector<ObservedShot> shots;        // in the rig's order
@@ -97,9 +98,9 @@ struct CheckedRig {
   CheckDetail of_channel(std::size_t shot_idx, std::size_t channel, double value) const;
 };
 
-// Opens all shots and fits the joint model (the dipole) to them. `rig` must outlive the result.
-// Throws InputError for anything that measure() would refuse to read.
-CheckedRig open_checked_rig(const Rig& rig, const std::string& shots_folder,
+// Finds pieces whose position is not stated, opens all shots and fits the joint model (the dipole)
+// to them. Throws InputError for anything that measure() would refuse to read.
+CheckedRig open_checked_rig(const Rig& given, const std::string& shots_folder,
                             const CheckOptions& options);
 
 }  // namespace scattermeter::apps

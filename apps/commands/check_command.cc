@@ -7,7 +7,6 @@
 #include "apps/report/check_json.h"
 #include "apps/report/check_table.h"
 #include "apps/report/shot_picture.h"
-#include "calib/pose/shot_pose.h"
 #include "capture/files/pending_file.h"
 
 namespace scattermeter::apps {
@@ -35,9 +34,8 @@ void add_check_command(CLI::App& app, CommandContext& context) {
     if (!options->out.empty()) {
       check_options.draw_shot = shot_thumbnail;
     }
-    Rig rig = read_rig(options->rig);
-    calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
-    const CheckedRig checked = open_checked_rig(rig, options->shots, check_options);
+    const CheckedRig checked =
+        open_checked_rig(read_rig(options->rig), options->shots, check_options);
     const CheckReport report = check_report(checked);
     if (!context.quiet) context.out << check_table(report);
     if (!options->out.empty()) {

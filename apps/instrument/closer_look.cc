@@ -28,14 +28,17 @@ calib::SilhouetteCheck careful_search(const Rig& rig, const ObjectScenes& object
   shots.resize(std::min(shots.size(), kMostShots));
   calib::SilhouetteCheckOptions options;
   options.silhouette.line_std_px = line_std_px;
-  for (const SceneObject& object : rig.scene.objects) {
-    options.explanation.scale_relative_std =
-        std::max(options.explanation.scale_relative_std, object.scale_relative_std);
-  }
+  options.explanation.scale_relative_std = mesh_scale_std(rig.scene);
   return calib::check_silhouettes(rig.scene, rig.pose, objects, frames, shots, pose, options);
 }
 
 }  // namespace
+
+double mesh_scale_std(const Scene& scene) {
+  double out = 0.0;
+  for (const SceneObject& object : scene.objects) out = std::max(out, object.scale_relative_std);
+  return out;
+}
 
 double px_per_mm(const CameraIntrinsics& intrinsics, const ObjectScene& object,
                  const PoseResult& pose) {

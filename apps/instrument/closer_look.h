@@ -28,6 +28,9 @@ double edge_cut_px(const CameraIntrinsics& intrinsics, const ObjectScene& object
 bool closer_look_agrees(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
                         const capture::FrameSource& frames, const std::vector<std::size_t>& shots);
 
+// The largest deviation that an object states of its lengths.
+double mesh_scale_std(const Scene& scene);
+
 // "2.8 px right and 0.1 px high".
 std::string shift_phrase(const Eigen::Vector2d& shift_px);
 

@@ -25,8 +25,7 @@ std::optional<Finding> displaced_in(const Rig& rig, const ObjectScene& object,
   const int cell_px = calib::outline_cell_px(lens.width_px);
   const std::vector<calib::ContourPoint> contour =
       calib::contour_points(*object.rays, lens, shot.pose.camera_from_world, cell_px);
-  const calib::OutlineLook look =
-      calib::look_at_outline(contour, frame, rig.scene.camera.sensor.noise);
+  const calib::OutlineLook look = calib::look_at_outline(contour, frame, noise_in_force(rig));
   const auto outside = std::count_if(look.offsets.begin(), look.offsets.end(),
                                      [&](const auto& offset) { return offset.px > cell_px; });
   if (static_cast<double>(outside) < kOutside * static_cast<double>(contour.size())) return {};

@@ -151,30 +151,27 @@ FirstLook Instrument::look(const capture::ShotSource& source) {
 // again from where the outlines show the objects.
 FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth, SeenShots& seen,
                                  Stopwatch& watch) {
+  FrameWatch frame_watch(rig_.scene);
+  std::optional<OutlineWatch> looks;
+  if (view_) looks.emplace(rig_, objects_, *pose_);
+  seen.open(capture::shown_to(
+      [&](std::size_t shot_idx, const capture::RawFrame& frame) {
+        if (looks) looks->look(shot_idx, frame);
+        frame_watch.look(shot_idx, frame);
+      },
+      source));
   OutlineFindings outlines;
-  if (view_) {
-    OutlineWatch looks(rig_, objects_, *pose_);
-    FrameWatch frames(rig_.scene);
-    seen.open(capture::shown_to(
-        [&](std::size_t shot_idx, const capture::RawFrame& frame) {
-          looks.look(shot_idx, frame);
-          frames.look(shot_idx, frame);
-        },
-        source));
-    outlines = looks.findings(source);
-    // Shots of which something is wrong or a little off are looked at again next time.
-    if (!outlines.findings.empty() || !outlines.shifts.empty()) seen.forget();
-    if (!outlines.shifts.empty()) seen.open_from(outlines.shifts);
-    for (Finding& f : frames.findings()) {
-      outlines.findings.insert(outlines.findings.begin(), std::move(f));
-    }
-  } else {
-    seen.open();
-    if (const auto* frames = std::get_if<capture::FrameSource>(&source.open); rig_.pose.charuco) {
-      outlines = look_at_pieces(rig_, objects_, seen.shots(), *frames);
-      if (!outlines.shifts.empty()) seen.open_from(outlines.shifts);
-    }
+  if (looks) {
+    outlines = looks->findings(source);
+  } else if (const auto* open = std::get_if<capture::FrameSource>(&source.open);
+             rig_.pose.charuco) {
+    outlines = look_at_pieces(rig_, objects_, seen.shots(), *open);
   }
+  const std::vector<Finding> of_frames = frame_watch.findings();
+  // Shots of which something is wrong or a little off are looked at again next time.
+  if (!of_frames.empty() || !outlines.findings.empty() || !outlines.shifts.empty()) seen.forget();
+  if (!outlines.shifts.empty()) seen.open_from(outlines.shifts);
+  outlines.findings.insert(outlines.findings.begin(), of_frames.begin(), of_frames.end());
   watch.lap("shots");
   std::vector<Finding> of_light;
   if (smooth) {

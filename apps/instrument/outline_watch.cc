@@ -68,8 +68,7 @@ OutlineWatch::OutlineWatch(const Rig& rig, const ObjectScenes& objects, const Po
 void OutlineWatch::look(std::size_t shot_idx, const capture::RawFrame& frame) {
   const auto contour = contours_.find(rig_.scene.shots.at(shot_idx).object);
   if (contour == contours_.end()) return;
-  Seen seen{&contour->second,
-            calib::look_at_outline(contour->second, frame, rig_.scene.camera.sensor.noise)};
+  Seen seen{&contour->second, calib::look_at_outline(contour->second, frame, noise_in_force(rig_))};
   const std::lock_guard lock(mutex_);
   looks_[shot_idx] = std::move(seen);
 }
@@ -123,7 +122,7 @@ void OutlineWatch::find_other_objects(const capture::FrameSource& frames, Looks&
       for (const auto& [name, contour] : contours_) {
         if (name == names_[body]) continue;
         const calib::OutlineLook look =
-            calib::look_at_outline(contour, frame, rig_.scene.camera.sensor.noise);
+            calib::look_at_outline(contour, frame, noise_in_force(rig_));
         const double share =
             share_alone(look, contour, lens, pose_, objects_.at(name).box.center_mm());
         if (share <= best) continue;
@@ -191,8 +190,8 @@ calib::OutlineDiagnosis OutlineWatch::look_again(const capture::FrameSource& fra
         at->second = calib::contour_points(*objects_.at(names_[body]).rays, lens, moved,
                                            calib::outline_cell_px(lens.width_px));
       }
-      again[idx] = {&at->second, calib::look_at_outline(at->second, pictures[i],
-                                                        rig_.scene.camera.sensor.noise)};
+      again[idx] = {&at->second,
+                    calib::look_at_outline(at->second, pictures[i], noise_in_force(rig_))};
       if (again[idx].look.offsets.size() < kLeastPoints) return out;
     }
     out = explain(again, assumed, looked_at);

@@ -24,6 +24,11 @@ std::set<std::string> calibration_files(const Rig& rig) {
   return files;
 }
 
+SensorNoise noise_in_force(const Rig& rig) {
+  return rig.decoding.radiance ? rig.decoding.radiance->correction.noise[1]
+                               : rig.scene.camera.sensor.noise;
+}
+
 void use_radiance(Rig& rig, std::shared_ptr<const capture::RadianceCalibration> radiance,
                   const std::string& path) {
   rig.scene.camera.glare_std =

@@ -18,6 +18,15 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
+// Rewrites the entry CFAPattern of a DNG: four bytes, 0 for red, 1 green, 2 blue.
+void label_as_rggb(const std::string& path) {
+  const std::string entry("\x8e\x82\x01\x00\x04\x00\x00\x00", 8);
+  std::string bytes = slurp(path);
+  const std::size_t at = bytes.find(entry);
+  ASSERT_NE(at, std::string::npos);
+  write_file(path, bytes.replace(at + entry.size(), 4, std::string("\x00\x01\x01\x02", 4)));
+}
+
 TEST(CheckedRig, OpensTheShotsAndFitsThem) {
   SmallRig files;
   files.keep_shots("PE_cube");
@@ -94,6 +103,42 @@ TEST(CheckedRig, TellsThatARoundPieceBesideABoardIsDisplaced) {
   EXPECT_THAT(findings.front().text,
               HasSubstr("mesh of pyramid displaced: the object is offset from it by "));
   EXPECT_THAT(files.measure().out, HasSubstr("mesh of pyramid displaced: "));
+}
+
+// Of the filters' pattern: with pose points and with a board beside the piece.
+TEST(CheckedRig, SeesExchangedColourFilters) {
+  SmallRig files;
+  files.keep_shots("PE_cube");
+  CharucoRig beside_a_board("POM_pyramid");
+  for (SmallRig* one : {&files, static_cast<SmallRig*>(&beside_a_board)}) {
+    const std::string stated = one->text();
+    one->write(replaced(stated, "black_counts: 64", "black_counts: 64, cfa: GRBG"));
+    one->simulate();
+    for (const auto& entry : std::filesystem::directory_iterator(one->shots())) {
+      label_as_rggb(entry.path());
+    }
+    one->write(stated);
+    const std::vector<Finding> findings =
+        open_checked_rig(read_rig(one->rig()), one->shots(), {}).findings();
+    ASSERT_FALSE(findings.empty());
+    EXPECT_EQ(findings.front().cause, "colour filters");
+    EXPECT_THAT(one->measure().out, HasSubstr("colour filters exchanged"));
+  }
+}
+
+// A piece 3 mm from where it is stated to begin the search.
+TEST(CheckedRig, FindsAPieceByItsOutline) {
+  SmallRig files;
+  files.keep_shots("PE_cube");
+  files.simulate();
+  files.write(replaced(files.text(), "cube: {mesh: cube.obj, eta: 1.4}",
+                       "cube: {mesh: cube.obj, eta: 1.4, pose: {position_mm: [3, 0, 0], "
+                       "from: silhouette}}"));
+  const CheckedRig checked = open_checked_rig(read_rig(files.rig()), files.shots(), {});
+  EXPECT_TRUE(checked.findings().empty());
+  ASSERT_FALSE(checked.notes.empty());
+  EXPECT_THAT(checked.notes.front(), HasSubstr("cube"));
+  EXPECT_LT(checked.rig.scene.objects.front().world_from_mesh.translation_mm.norm(), 0.2);
 }
 
 TEST(CheckedRig, RefusesWhatMeasureRefuses) {
