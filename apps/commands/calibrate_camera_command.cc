@@ -67,12 +67,8 @@ std::string write_camera(const calib::CameraCalibration& calibration, const std:
   for (const auto& [plot, ending] :
        {std::pair(camera_residual_plot(calibration), "_residuals.png"),
         std::pair(camera_coverage_plot(calibration), "_coverage.png")}) {
-    try {
-      write_plot(plot, stem + ending);
-      written += "written: " + stem + ending + "\n";
-    } catch (const InputError& error) {
-      notes += std::string("note: ") + error.what() + "\n";  // the file is valid without it
-    }
+    const std::string note = note_unless_drawn(plot, stem + ending);
+    (note.empty() ? written : notes) += note.empty() ? "written: " + stem + ending + "\n" : note;
   }
   return notes + written;
 }

@@ -22,13 +22,15 @@
 namespace scattermeter::apps {
 namespace {
 
-// Writes plots of linearity and noise next to the file.
-void draw_radiance(const capture::RadianceCalibration& calibration, const std::string& stem) {
+// Writes plots of linearity and noise next to the file; returns notes of those that it cannot.
+std::string draw_radiance(const capture::RadianceCalibration& calibration,
+                          const std::string& stem) {
+  std::string notes;
   for (std::size_t c = 0; c < kRgb; ++c) {
-    write_plot(photon_transfer_plot(calibration, c),
-               fmt::format("{}_noise_{}.png", stem, kRgbName[c]));
+    notes += note_unless_drawn(photon_transfer_plot(calibration, c),
+                               fmt::format("{}_noise_{}.png", stem, kRgbName[c]));
   }
-  write_plot(linearity_plot(calibration), stem + "_linearity.png");
+  return notes + note_unless_drawn(linearity_plot(calibration), stem + "_linearity.png");
 }
 
 std::vector<PagePlot> plots_of(const capture::RadianceCalibration& calibration) {
@@ -72,8 +74,8 @@ void add_calibrate_radiance(CLI::App& calibrate, CommandContext& context) {
         radiance_calibration_input(rig), radiance_frames_in(rig, options->shots));
     capture::write_text_file(options->out, radiance_file_text(calibration));
     std::filesystem::path stem(options->out);
-    draw_radiance(calibration, stem.replace_extension().string());
-    std::string text = radiance_calibration_table(calibration);
+    const std::string notes = draw_radiance(calibration, stem.replace_extension().string());
+    std::string text = notes + radiance_calibration_table(calibration);
     const auto exceeds = std::find_if(calibration.residuals.begin(), calibration.residuals.end(),
                                       [](const auto& r) { return r.rms > r.limit; });
     const bool ok = exceeds == calibration.residuals.end();

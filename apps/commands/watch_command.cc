@@ -71,6 +71,16 @@ class Watching {
     if (shots_.still_awaited() > 0) say("next: " + shots_.next(), "");
   }
 
+  // Whether the rig awaits a file of this name, and the same contents were not accepted before.
+  bool is_to_be_taken(const std::string& name, const std::string& same_contents) const {
+    bool is_awaited = false;
+    for (const AwaitedFile& f : shots_.files()) {
+      if (f.taken_from == same_contents) return false;
+      is_awaited = is_awaited || (f.rig_name == name && f.taken_from.empty());
+    }
+    return is_awaited;
+  }
+
   void tell(const FolderNews& n) {
     const std::string path = folder_.path_of(n.name);
     if (n.event == FolderEvent::kComplete) {
@@ -78,7 +88,10 @@ class Watching {
     } else if (n.event == FolderEvent::kRenamed) {
       shots_.rename(folder_.path_of(n.other), path);
       say(fmt::format("{}: {} under another name", n.name, n.other), "dim");
+      if (is_to_be_taken(n.name, path)) take(n.name, path);
     } else if (n.event == FolderEvent::kDoubled) {
+      // A rejected file may be given its right name by copying it.
+      if (is_to_be_taken(n.name, folder_.path_of(n.other))) return take(n.name, path);
       say(fmt::format("{}: the same as {}, left out", n.name, n.other), "dim");
     } else if (const std::string shot = shots_.keep(path); !shot.empty()) {
       say(fmt::format("{}: has been removed; the copy accepted as {} is kept (to replace it, put a "

@@ -246,4 +246,13 @@ void write_plot(const Plot& plot, const std::string& path) {
   file.commit();
 }
 
+std::string note_unless_drawn(const Plot& plot, const std::string& path) {
+  try {
+    write_plot(plot, path);
+    return "";
+  } catch (const InputError& error) {
+    return std::string("note: ") + error.what() + "\n";
+  }
+}
+
 }  // namespace scattermeter::apps

@@ -73,4 +73,8 @@ struct Plot {
 // file cannot be written.
 void write_plot(const Plot& plot, const std::string& path);
 
+// For plots beside a result that is valid without them: the InputError of write_plot() as a line
+// for the user, "note: ...\n"; "" if there is none.
+std::string note_unless_drawn(const Plot& plot, const std::string& path);
+
 }  // namespace scattermeter::apps

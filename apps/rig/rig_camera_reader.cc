@@ -93,7 +93,10 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
               "responsivity_counts_mm2_sr_per_W_s", "responsivity_relative_std", "radiance",
               "vignetting_std", "sensor", "exposure_s", "iso", "f_number"});
   SceneCamera& camera = rig.scene.camera;
-  if (const auto f = field.find("model")) camera.model = f->text();
+  if (const auto f = field.find("model")) {
+    camera.model = f->text();
+    if (camera.model.starts_with(" ")) f->fail("begins with a blank");
+  }
   const YamlField image_size_px = field.at("image_size_px");
   const std::array<int, 2> size = integer_pair(image_size_px, 2, 100'000);
   check_image_size(image_size_px, rig.limits);
@@ -104,6 +107,11 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
     rig.lens = std::make_shared<const calib::CameraCalibrationFile>(
         calib::read_camera_calibration_file(rig.intrinsics_path));
     camera.lens_root = lens_root(rig.lens->parameters, rig.lens->covariance);
+  }
+  const CameraIntrinsics& k = camera.intrinsics;
+  if (k.width_px > 0 && (k.width_px != size[0] || k.height_px != size[1])) {
+    intrinsics.fail(fmt::format("is of {} x {} px, but camera.image_size_px says {} x {}",
+                                k.width_px, k.height_px, size[0], size[1]));
   }
   camera.intrinsics.width_px = size[0];
   camera.intrinsics.height_px = size[1];
@@ -155,9 +163,9 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
     use_radiance(rig, std::move(radiance), file);
   }
   if (const auto f = field.find("sensor")) camera.sensor = read_sensor(*f);
-  if (const auto f = field.find("exposure_s")) camera.exposure_s = f->positive();
-  if (const auto f = field.find("iso")) camera.iso = f->integer(1, 65535);
-  if (const auto f = field.find("f_number")) camera.f_number = f->positive();
+  if (const auto f = field.find("exposure_s")) camera.exposure_s = exposure_time_s(*f);
+  if (const auto f = field.find("iso")) camera.iso = f->integer(1, 65534);
+  if (const auto f = field.find("f_number")) camera.f_number = f->number(0.1, 1e4);
 }
 
 }  // namespace scattermeter::apps

@@ -76,6 +76,8 @@ calib::BoardViewpoint read_viewpoint(const YamlField& field) {
   return out;
 }
 
+double exposure_time_s(const YamlField& field) { return field.number(1e-9, 1e6); }
+
 void require_name(const YamlField& field, const std::vector<std::string>& names,
                   const std::string& what) {
   const std::string name = field.text();

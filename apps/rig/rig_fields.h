@@ -33,6 +33,8 @@ void require_name(const YamlField& field, const std::vector<std::string>& names,
                   const std::string& what);
 // Refuses a length that is not 0 but less than any rig has there: it was meant in metres.
 void require_mm(const YamlField& field, double length_mm, double shortest_mm);
+// An exposure time that a raw file can state.
+double exposure_time_s(const YamlField& field);
 // Requires top.<key> to be 1. what: of which files, for the message ("rigs").
 void require_version(const YamlField& top, const std::string& key, const std::string& what);
 

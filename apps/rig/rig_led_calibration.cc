@@ -61,7 +61,7 @@ calib::LedCalibrationShot read_led_shot(const YamlField& field,
   if (shot.kind == calib::LedShotKind::kAmbient && calibration.ambient_shot(shot.plane)) {
     field.fail("the plane has two ambient shots");
   }
-  if (const auto f = field.find("exposure_s")) shot.exposure_s = f->positive();
+  if (const auto f = field.find("exposure_s")) shot.exposure_s = exposure_time_s(*f);
   return shot;
 }
 

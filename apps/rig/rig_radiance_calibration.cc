@@ -23,7 +23,7 @@ calib::RadianceShot radiance_shot(const YamlField& field, bool is_flat = false) 
       field.only({"file", "exposure_s"});
     }
     shot.file = file_in_folder(field.at("file"));
-    if (const auto f = field.find("exposure_s")) shot.exposure_s = f->positive();
+    if (const auto f = field.find("exposure_s")) shot.exposure_s = exposure_time_s(*f);
   }
   return shot;
 }
@@ -49,7 +49,7 @@ std::vector<calib::RadianceShot> own_shots(const YamlField& field) {
     return radiance_shots(*shots);
   }
   calib::RadianceShot shot = radiance_shot(*file);
-  if (const auto f = field.find("exposure_s")) shot.exposure_s = f->positive();
+  if (const auto f = field.find("exposure_s")) shot.exposure_s = exposure_time_s(*f);
   return {shot};
 }
 

@@ -83,7 +83,7 @@ void read_shot_files(const YamlField& field, SceneShot& shot) {
   const auto exposure = field.find("exposure_s");
   if (file.is_scalar()) {
     shot.file = file_in_folder(file);
-    if (exposure) shot.exposure_s = exposure->positive();
+    if (exposure) shot.exposure_s = exposure_time_s(*exposure);
     return;
   }
   for (const YamlField& item : file.items()) {
@@ -107,8 +107,8 @@ void read_shot_files(const YamlField& field, SceneShot& shot) {
   }
   exposure->numbers(n);
   const std::vector<YamlField> times = exposure->items();
-  shot.exposure_s = times[0].positive();
-  for (std::size_t i = 1; i < n; ++i) shot.more_exposures_s.push_back(times[i].positive());
+  shot.exposure_s = exposure_time_s(times[0]);
+  for (std::size_t i = 1; i < n; ++i) shot.more_exposures_s.push_back(exposure_time_s(times[i]));
 }
 
 template <typename Named>
@@ -246,6 +246,11 @@ Rig read_rig(const std::string& path, bool with_radiance) {
       top.number_or("shot_shift_std_px", default_uncertainty::kShotShift_px, 0.0, 100.0);
   for (const auto& [name, field] : lights.entries()) {
     rig.scene.lights.push_back(read_light(name, field, path, rig.limits));
+    const bool is_of_object = std::any_of(rig.scene.objects.begin(), rig.scene.objects.end(),
+                                          [&](const SceneObject& o) { return o.name == name; });
+    if (is_of_object && rig.scene.lights.back().led() != nullptr) {
+      field.fail("is the name of an object, too: results tell the positions of both by name");
+    }
   }
   require_different_leds(lights, rig.scene);
   take_responsivity_of_leds(lights, rig);

@@ -12,6 +12,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "calib/board/opencv_quiet.h"
+#include "capture/files/file_text.h"
 #include "capture/files/picture_claim.h"
 #include "capture/raw/raw_reader.h"
 #include "core/base/input_error.h"
@@ -30,9 +31,7 @@ bool is_ordinary_picture(const std::string& path) {
 
 // OpenCV itself allocates memory for up to 2^30 pixels and reads more formats than cameras write.
 capture::PictureClaim claim_within(const std::string& path, double max_megapixels) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw MissingFile(path, "there is no such file");
+  capture::require_file(path, "a picture is expected");
   std::ifstream file(path, std::ios::binary);
   const auto claim = capture::picture_claim(file);
   if (!claim) throw InputError(path, "is not a picture, or is damaged");

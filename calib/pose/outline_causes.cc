@@ -79,9 +79,11 @@ std::string text_of(const OutlineExplanation& e, const std::vector<std::string>&
                          turned(at(0), c(0)), displaced(at(3), c(3)));
     case OutlineCause::kShotMoved:
       return fmt::format(
-          "object or camera moved in {}: its outline is {:+.1f} px right and {:+.1f} px down of "
-          "that of the other shots",
-          shots[e.which].file, e.value[0], e.value[1]);
+          "object or camera moved in {}: its outline is {:.1f} px {} and {:.1f} px {} of that of "
+          "the "
+          "other shots",
+          shots[e.which].file, std::abs(e.value[0]), e.value[0] < 0.0 ? "left" : "right",
+          std::abs(e.value[1]), e.value[1] < 0.0 ? "above" : "below");
   }
   throw std::logic_error("text_of: no such cause");
 }

@@ -1,4 +1,6 @@
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,6 +45,33 @@ TEST(WatchCommand, TakesWhatIsThereAndSaysWhatIsMissing) {
   const Answer measured =
       run({"measure", files.out() + "/shots", "--rig", files.rig(), "--out", files.out()});
   EXPECT_EQ(measured.status, 0) << measured.err << measured.out;
+}
+
+// A file under the name of the other shot is refused; given its right name, it is taken.
+TEST(WatchCommand, TakesARejectedFileUnderItsRightName) {
+  SmallRig files;
+  files.keep_shots("PP_cube");
+  files.simulate();
+  const fs::path card = files / "card";
+  fs::create_directory(card);
+  fs::copy_file(files.shots() + "/PP_cube_2.dng", card / "PP_cube_1.dng");
+  std::thread user([&] {
+    // Renamed as soon as it has been looked at.
+    for (int i = 0; i < 1000 && !fs::exists(files.out() + "/watch.html"); ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    while (slurp(files.out() + "/watch.html").find("TAKE AGAIN") == std::string::npos) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    fs::rename(card / "PP_cube_1.dng", card / "PP_cube_2.dng");
+    fs::copy_file(files.shots() + "/PP_cube_1.dng", card / "PP_cube_1.dng");
+  });
+  const Answer all =
+      run({"watch", card, "--rig", files.rig(), "--out", files.out(), "--interval", "0.05"});
+  user.join();
+  EXPECT_EQ(all.status, 0) << all.err << all.out;
+  EXPECT_THAT(all.out, HasSubstr("PP_cube_1.dng: TAKE AGAIN"));
+  EXPECT_THAT(all.out, HasSubstr("PP_cube_2.dng: taken as PP_cube_2.dng"));
 }
 
 TEST(WatchCommand, BadInputIsNamed) {
