@@ -15,7 +15,7 @@ std::string on_one_line(std::string text) {
   return text;
 }
 
-// "1.4 +- 0.002"; the method of the paper yields no standard deviation.
+// "1.4 +- 0.002".
 std::string with_std(const Quantity& q) {
   if (!std::isfinite(q.std)) return fmt::format("{:.6g} (standard deviation not known)", q.value);
   if (is_upper_limit(q)) return fmt::format("{:.6g} (an upper limit of {:.2g})", q.value, q.high95);

@@ -69,9 +69,8 @@ void read_colour(const YamlField& field, std::size_t c, capture::RadianceCalibra
     response.fail(e.what());
   }
   out.response_covariance[c] = covariance;
-  if (!covariance.empty()) {
-    if (!(covariance.back() >= 0.0)) response.at("covariance").fail("expected variances >= 0");
-    correction.response_std[c] = std::sqrt(covariance.back());
+  if (!covariance.empty() && !(covariance.back() >= 0.0)) {
+    response.at("covariance").fail("expected variances >= 0");
   }
   const YamlField vignetting = field.at("vignetting");
   vignetting.only({"radial", "map"});

@@ -9,6 +9,7 @@
 
 #include "core/base/cross_matrix.h"
 #include "core/base/dense_solve.h"
+#include "core/base/rotation_vector.h"
 #include "core/base/solver_options.h"
 #include "core/camera/lens.h"
 
@@ -16,12 +17,6 @@ namespace scattermeter::calib {
 namespace {
 
 constexpr double kMaxFocalWidths = 100;  // focal length over frame width; more is not plausible
-
-Eigen::Matrix3d rotation_of(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
-  if (angle < 1e-12) return Eigen::Matrix3d::Identity() + cross_matrix(w);
-  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
-}
 
 // exp([w + d]) = exp([J d]) exp([w]) to first order: the left Jacobian of SO(3).
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& w) {
@@ -73,7 +68,7 @@ class CornerCost final : public ceres::CostFunction {
     if (!lens_.lens()) return false;
     const Eigen::Map<const Eigen::Vector3d> w(blocks[1]);
     const Eigen::Map<const Eigen::Vector3d> t(blocks[1] + 3);
-    const Eigen::Vector3d turned = rotation_of(w) * corner_.world_mm;
+    const Eigen::Vector3d turned = rotation_by(w) * corner_.world_mm;
     const Eigen::Vector3d x = turned + t;
     Eigen::Matrix<double, 2, 3> per_mm;
     const Eigen::Vector2d pixel = lens_.lens()->project(x, &per_mm);
@@ -142,7 +137,7 @@ CameraBundle adjust_bundle(const std::vector<BoardView>& views, const LensModel&
   for (std::size_t i = 0; can_start && i < views.size(); ++i) {
     for (const PointPair& corner : views[i].corners) {
       const Eigen::Vector3d x =
-          rotation_of(poses[i].head<3>()) * corner.world_mm + poses[i].tail<3>();
+          rotation_by(poses[i].head<3>()) * corner.world_mm + poses[i].tail<3>();
       can_start = can_start && lens.lens()->project(x).allFinite();
     }
   }
@@ -154,8 +149,7 @@ CameraBundle adjust_bundle(const std::vector<BoardView>& views, const LensModel&
   if (!summary.IsSolutionUsable() || !fitted.allFinite()) return out;
   out.lens = map * fitted;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    out.camera_from_board[i].rotation =
-        Eigen::Quaterniond(rotation_of(poses[i].head<3>())).normalized();
+    out.camera_from_board[i].rotation = rotation_by(poses[i].head<3>());
     out.camera_from_board[i].translation_mm = poses[i].tail<3>();
   }
   out.sum_squares_px2 = 0;

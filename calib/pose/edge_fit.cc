@@ -14,6 +14,7 @@
 #include "calib/pose/outline_errors.h"
 #include "core/base/covariance_root.h"
 #include "core/base/dense_solve.h"
+#include "core/base/rotation_vector.h"
 #include "core/base/solver_options.h"
 #include "core/camera/lens.h"
 
@@ -21,12 +22,6 @@ namespace scattermeter::calib {
 namespace {
 
 using namespace edge_parameter;
-
-Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
-  if (angle == 0) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, w / angle));
-}
 
 Rigid3d changed_pose(const Rigid3d& camera_from_world, const Eigen::VectorXd& v) {
   const Rigid3d pose{rotation_by(v.segment<3>(kPose)) * camera_from_world.rotation,

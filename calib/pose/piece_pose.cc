@@ -11,6 +11,7 @@
 #include "core/base/chi_square.h"
 #include "core/base/cross_matrix.h"
 #include "core/base/dense_solve.h"
+#include "core/base/rotation_vector.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -35,10 +36,7 @@ Vector6d between(const Rigid3d& from, const Rigid3d& to, const Eigen::Vector3d& 
 
 // The motion followed by a displacement and a turn of the piece.
 Rigid3d followed_by(const Rigid3d& motion, const Vector6d& step, const Eigen::Vector3d& center_mm) {
-  const Eigen::Vector3d turn = step.tail<3>();
-  const Eigen::Quaterniond q(Eigen::AngleAxisd(turn.norm(), turn.norm() > 0.0
-                                                                ? Eigen::Vector3d(turn.normalized())
-                                                                : Eigen::Vector3d::UnitZ()));
+  const Eigen::Quaterniond q = rotation_by(step.tail<3>());
   const Eigen::Vector3d now_mm = motion * center_mm;
   return Rigid3d{q, now_mm + step.head<3>() - q * now_mm} * motion;
 }

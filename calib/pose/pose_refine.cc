@@ -8,6 +8,7 @@
 
 #include "core/base/cross_matrix.h"
 #include "core/base/dense_solve.h"
+#include "core/base/rotation_vector.h"
 
 namespace scattermeter::calib {
 namespace {
@@ -15,12 +16,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
-Eigen::Matrix3d exponential(const Eigen::Vector3d& w) {
-  const double angle = w.norm();
-  if (angle == 0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
-}
 
 double sum_squares(const PoseScene& scene, const std::vector<bool>& use, const ScenePose& pose) {
   double sum = 0;
@@ -117,7 +112,7 @@ PoseFit refine_pose(const PoseScene& scene, const std::vector<bool>& use, const 
       fit.converged = true;
       break;
     }
-    const ScenePose next{exponential(step.head<3>()) * fit.pose.rotation,
+    const ScenePose next{rotation_by(step.head<3>()) * fit.pose.rotation,
                          fit.pose.center + step.tail<3>()};
     const double next_sum = sum_squares(scene, use, next);
     if (next_sum < fit.sum_squares_px2) {

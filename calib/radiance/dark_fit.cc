@@ -8,12 +8,13 @@
 
 #include "calib/radiance/frame_blocks.h"
 #include "core/base/median.h"
+#include "core/camera/cfa_samples.h"
 
 namespace scattermeter::calib {
 namespace {
 
 std::size_t phase_of(std::size_t i, std::size_t width) {
-  return 2 * ((i / width) & 1U) + ((i % width) & 1U);
+  return cfa_phase(static_cast<int>(i % width), static_cast<int>(i / width));
 }
 
 }  // namespace

@@ -88,7 +88,6 @@ void keep_response(const ResponseFit& fit, const std::vector<double>& settings_s
     correction.response[c] = fit.curve;
     const Eigen::MatrixXd& v = fit.curve_covariance;
     calibration.response_covariance[c].assign(v.data(), v.data() + v.size());
-    correction.response_std[c] = std::sqrt(v(v.rows() - 1, v.cols() - 1));
   }
   double squares = 0;
   for (std::size_t s = 0; s < settings_s.size(); ++s) {

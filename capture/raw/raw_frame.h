@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -36,5 +37,10 @@ struct RawFrame {
                    static_cast<std::size_t>(x)];
   }
 };
+
+// Whether two values of ISO or aperture, where both are known, are of different settings.
+inline bool settings_differ(double a, double b) {
+  return a > 0.0 && b > 0.0 && std::abs(a - b) > 1e-3 * b;
+}
 
 }  // namespace scattermeter::capture

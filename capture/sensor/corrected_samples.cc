@@ -173,14 +173,11 @@ std::string correction_problem(const RawFrame& frame, const RadianceCorrection& 
            " samples, but the radiance calibration is for " + std::to_string(correction.width_px) +
            " x " + std::to_string(correction.height_px);
   }
-  const auto differ = [](double a, double b) {
-    return a > 0.0 && b > 0.0 && std::abs(a - b) > 1e-3 * b;
-  };
-  if (differ(frame.iso, correction.iso)) {
+  if (settings_differ(frame.iso, correction.iso)) {
     return "ISO " + text(frame.iso) + ", but the radiance calibration is for ISO " +
            text(correction.iso);
   }
-  if (differ(frame.f_number, correction.f_number)) {
+  if (settings_differ(frame.f_number, correction.f_number)) {
     return "aperture f/" + text(frame.f_number) + ", but the radiance calibration is for f/" +
            text(correction.f_number);
   }

@@ -32,8 +32,6 @@ struct RadianceCorrection {
   std::array<SensorNoise, kRgb> noise;
   std::vector<std::size_t> defect_pixels;  // ascending; y * width_px + x
   std::array<ResponseCurve, kRgb> response;
-  // Standard deviation of the logarithm of a response at its last knot.
-  std::array<double, kRgb> response_std{};
   Vignetting vignetting;
   double vignetting_std = 0;  // of the relative illumination, rms over the frame
   // This share of the frame mean of its colour is subtracted from each pixel.

@@ -32,13 +32,10 @@ std::string bracket_problem(const RawFrame& first, const RawFrame& other) {
     return fmt::format("filters {}, that one has {}", cfa_pattern_name(other.cfa),
                        cfa_pattern_name(first.cfa));
   }
-  const auto differ = [](double a, double b) {
-    return a > 0.0 && b > 0.0 && std::abs(a - b) > 1e-3 * b;
-  };
-  if (differ(other.iso, first.iso)) {
+  if (settings_differ(other.iso, first.iso)) {
     return fmt::format("ISO {:g}, that one has ISO {:g}", other.iso, first.iso);
   }
-  if (differ(other.f_number, first.f_number)) {
+  if (settings_differ(other.f_number, first.f_number)) {
     return fmt::format("aperture f/{:g}, that one has f/{:g}", other.f_number, first.f_number);
   }
   return "";

@@ -70,7 +70,7 @@ TEST(RigPoseReader, NamesWhatIsWrong) {
   EXPECT_THAT(pose_refused(kPoseBoard + "per_shot: false\n"), HasSubstr("its own pose"));
   std::string slanted = kPoseBoard;
   slanted.replace(slanted.find("[-1, 0, 0]"), 10, "[-1, 1, 0]");
-  EXPECT_THAT(pose_refused(slanted), HasSubstr("at right angles to x_axis"));
+  EXPECT_THAT(pose_refused(slanted), HasSubstr("x_axis and y_axis are not at right angles"));
   std::string large = kPoseBoard;
   large.replace(large.find("4.5"), 3, "6.5");
   EXPECT_THAT(pose_refused(large), HasSubstr("charuco"));
