@@ -97,8 +97,12 @@ void add_simulate_command(CLI::App& app, CommandContext& context) {
         options->simulate.calibration = options->what != "scene";
         options->simulate.transport.peers = context.peers;
         options->simulate.transport.volume = options->transport == "volume";
+        const bool is_first = context.peers == nullptr || context.peers->rank() == 0;
         const SimulatedShots made =
             simulate(read_rig(options->rig), options->out, options->simulate, context.progress);
+        if (made.paths.empty() && is_first) {
+          throw InputError(options->rig, "names no shots of --what " + options->what);
+        }
         context.err << level_notes(made.levels);
         if (!context.quiet) {
           context.out << made.paths.size() << " shots written to " << options->out

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
+#include <string>
 #include <system_error>
 
 #include <fmt/core.h>
@@ -12,6 +14,8 @@
 #include "apps/simulation/simulate_led_calibration.h"
 #include "apps/simulation/simulate_radiance_calibration.h"
 #include "apps/simulation/virtual_shots.h"
+#include "capture/files/file_kind.h"
+#include "capture/raw/raw_reader.h"
 #include "capture/sensor/virtual_sensor.h"
 #include "core/base/input_error.h"
 #include "core/base/progress.h"
@@ -64,6 +68,24 @@ Rig with_format(Rig rig, capture::RawFormat format) {
   return rig;
 }
 
+// Of all files that the rig names.
+void require_no_camera_file(const Rig& rig, const std::string& folder) {
+  std::set<std::string> names = calibration_files(rig);
+  for (const SceneShot& shot : rig.scene.shots) {
+    for (const std::string& file : shot.files()) names.insert(file);
+  }
+  if (!rig.pose.board_shot.empty()) names.insert(rig.pose.board_shot);
+  for (const std::string& name : names) {
+    const std::string path = (std::filesystem::path(folder) / name).string();
+    if (!capture::is_there(path)) continue;
+    if (const std::string writer = capture::writer_of_raw(path); writer != "scattermeter") {
+      throw InputError(path,
+                       "exists and is not from `simulate`: it would be replaced; choose "
+                       "another folder");
+    }
+  }
+}
+
 }  // namespace
 
 capture::RawFrame board_frame(const Rig& rig) {
@@ -74,6 +96,7 @@ capture::RawFrame board_frame(const Rig& rig) {
 SimulatedShots simulate(const Rig& given_rig, const std::string& out_folder,
                         const SimulateOptions& options, Progress* progress) {
   const Rig given = with_format(given_rig, options.format);
+  require_no_camera_file(given, out_folder);
   const CameraIntrinsics& lens = given.scene.camera.intrinsics;
   if (lens.width_px % 2 != 0 || lens.height_px % 2 != 0) {
     throw InputError(

@@ -228,4 +228,9 @@ RawFrame read_raw(const std::string& path, double max_megapixels) {
   return frame;
 }
 
+std::string writer_of_raw(const std::string& path) {
+  const auto raw = std::make_unique<LibRaw>();
+  return raw->open_file(path.c_str()) == LIBRAW_SUCCESS ? raw->imgdata.idata.software : "";
+}
+
 }  // namespace scattermeter::capture

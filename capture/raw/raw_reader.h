@@ -23,4 +23,7 @@ namespace scattermeter::capture {
 // checksum. Safe to call from several threads at once.
 RawFrame read_raw(const std::string& path, double max_megapixels = 400.0);
 
+// The program that wrote the file, as its metadata state; "" if they do not, or it is no raw file.
+std::string writer_of_raw(const std::string& path);
+
 }  // namespace scattermeter::capture

@@ -132,6 +132,17 @@ TEST_F(Simulate, BoardInAShotOfItsOwn) {
       0.5);
 }
 
+// A camera's file of a shot's name stays; files that it made itself are made again.
+TEST_F(Simulate, KeepsTheFilesOfACamera) {
+  std::filesystem::create_directories(files_.shots());
+  write_file(file("PE_cube_2.dng"), std::string("from a camera"));
+  EXPECT_THAT(refusal_of([&] { made(); }), HasSubstr("PE_cube_2.dng: exists and is not from"));
+  EXPECT_EQ(slurp(file("PE_cube_2.dng")), "from a camera");
+  std::filesystem::remove(file("PE_cube_2.dng"));
+  EXPECT_EQ(made().size(), 2U);
+  EXPECT_EQ(made().size(), 2U);
+}
+
 TEST_F(Simulate, AFolderThatCannotBeMade) {
   write_file(files_.shots(), std::string("a file"));
   EXPECT_THAT(refusal_of([&] { made(); }), HasSubstr(files_.shots()));
