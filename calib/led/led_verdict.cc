@@ -89,6 +89,17 @@ void judge_led(const LedScene& scene, const LedSolve& what, const LedFitOptions&
   const Eigen::Vector3d away =
       fit.led.position_mm - scene.data_center_mm(what.use_cell, what.use_highlight);
   fit.distance_mm = away.norm();
+  // Spheres known to 0.01 mm and a highlight's centre scatter by some tenths.
+  constexpr double kMostHighlight_px = 1.0;
+  if (fit.highlight_rms_px > kMostHighlight_px) {
+    refuse_led(fit, LedStatus::kMisfit,
+               fmt::format("no position of the LED fits its highlights and planes: the highlights "
+                           "used are {:.2g} px off (rms); see that each shot is listed for the LED "
+                           "that was on, and check centres and radii (not diameters) of the "
+                           "spheres and the places of the planes",
+                           fit.highlight_rms_px));
+    return;
+  }
   const Eigen::Vector3d towards = away / fit.distance_mm;
   fit.distance_std_mm = std::sqrt(towards.dot(c.topLeftCorner<3, 3>() * towards));
   const double power = power_std(what, towards, fit);

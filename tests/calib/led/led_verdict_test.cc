@@ -47,6 +47,15 @@ TEST(LedVerdict, AGoodFitIsOk) {
   EXPECT_EQ(fit.distance_power_correlation, 0.0);
 }
 
+TEST(LedVerdict, HighlightsThatDoNotFitAreRefused) {
+  Judged j;
+  j.fit.highlight_rms_px = 0.9;
+  EXPECT_EQ(j.judge().status, LedStatus::kOk);
+  j.fit.highlight_rms_px = 2.58;
+  EXPECT_EQ(j.judge().status, LedStatus::kMisfit);
+  EXPECT_THAT(j.fit.message, HasSubstr("2.6 px off"));
+}
+
 TEST(LedVerdict, PowerIsTheMeanOfTheFreeChannels) {
   Judged j;
   j.what.free[kLedLogIntensity + 2] = false;
