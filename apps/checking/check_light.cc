@@ -9,6 +9,7 @@
 
 #include "apps/checking/check.h"
 #include "core/fit/common_slope.h"
+#include "core/fit/prior_pulls.h"
 
 namespace scattermeter::apps {
 namespace {
@@ -48,6 +49,23 @@ std::vector<CheckDetail> drifts(const CheckedRig& checked, const std::vector<Sho
     d.value = 100.0 * slope.value * span;
     d.std = 100.0 * slope.std * span;
     out.push_back(d);
+  }
+  return out;
+}
+
+// Of each channel, how far the fit would have the light's overall strength from what is stated.
+std::vector<CheckDetail> strength(const CheckedRig& checked) {
+  std::vector<CheckDetail> out;
+  for (const CheckedChannel& fitted : checked.fit.channels) {
+    if (!fitted.departures) continue;
+    CheckDetail worst;
+    for (const PriorPull& p : fitted.estimate.pulls) {
+      if (p.group != "scale" && p.group != "LED power" && p.group != "exposure time") continue;
+      if (!(std::abs(p.pull) > std::abs(worst.value))) continue;
+      worst.value = p.pull;
+      worst.where = fmt::format("{} {}: {}", fitted.material, kRgbName.at(fitted.channel), p.name);
+    }
+    if (!worst.where.empty()) out.push_back(worst);
   }
   return out;
 }
@@ -107,7 +125,11 @@ std::vector<CheckItem> check_light(const CheckedRig& checked) {
       judged("light from elsewhere", "% of mean light",
              {o.max_even_percent, false, false, o.least_stds},
              "switch off every other lamp, close the blinds, or list a light of type ambient",
-             even)};
+             even),
+      judged("strength of light", "std off the rig's", {kMostPull},
+             "check camera.responsivity_counts_mm2_sr_per_W_s, lights.intensity_W_per_sr and the "
+             "exposure times",
+             strength(checked))};
 }
 
 }  // namespace scattermeter::apps

@@ -1,6 +1,7 @@
 // What the light of the shots says about lights, files and units: LightLook::findings().
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -34,6 +35,16 @@ std::string joined(const Lights& lights) { return fmt::format("{}", fmt::join(li
 
 bool looks_other(const ShotLikeness& like) {
   return like.own > kDoubtfulImage && like.best_other < kOtherRest * like.own;
+}
+
+// Adds those of the images that are off if most are; whether they are.
+template <class Image>
+bool add_if_most_are_off(const std::vector<Image>& images, std::vector<Image>& off) {
+  const auto is_off = [](const Image& image) { return image.is_off; };
+  const auto n = std::count_if(images.begin(), images.end(), is_off);
+  if (2 * n <= std::ssize(images)) return false;
+  std::copy_if(images.begin(), images.end(), std::back_inserter(off), is_off);
+  return true;
 }
 
 // "1000" or "0.25"
@@ -137,20 +148,20 @@ void LightLook::find_covered(const std::vector<ShotLikeness>& likeness,
   }
 }
 
-void LightLook::find_factors(const std::vector<ShotLikeness>& likeness,
-                             std::vector<Finding>& out) const {
+// The factors by which an image may be brighter than the rig states, for media that look like it.
+struct LightLook::PossibleFactors {
+  Lights lights;
+  std::size_t channel = 0, shot_idx = 0;
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
+  bool is_off = false;
+};
+
+std::vector<LightLook::PossibleFactors> LightLook::possible_factors(
+    const std::vector<ShotLikeness>& likeness) const {
   const double std = scale_prior(scene_).relative_std;
-  if (!std::isfinite(std)) return;
+  std::vector<PossibleFactors> out;
+  if (!std::isfinite(std)) return out;
   const double least = std::max(kFactor, 1.0 + kScaleStds * std);
-  // By lights: the logarithms of the factors, and the number of images judged.
-  struct Setting {
-    std::size_t images = 0;
-    std::vector<double> logs;
-    std::set<std::size_t> shots;
-    // Factors that some medium allows.
-    double low = std::numeric_limits<double>::infinity(), high = 0.0;
-  };
-  std::map<Lights, Setting> settings;
   for (std::size_t i = 0; i < shots_.size(); ++i) {
     const ObservedShot& shot = shots_[i];
     if (!(likeness[i].own < kExplained)) continue;
@@ -158,53 +169,74 @@ void LightLook::find_factors(const std::vector<ShotLikeness>& likeness,
       if (!shot_problem(shot, c).empty()) continue;
       const Match m = match(*shot.seen, shot.observation.channel[c], shot.stated->lights, c);
       if (!std::isfinite(m.rest)) continue;
-      double low = std::numeric_limits<double>::infinity();
-      double high = 0.0;
+      PossibleFactors image{shot.stated->lights, c, index_of(i)};
       for (Eigen::Index k = 0; k < m.rests.size(); ++k) {
         if (m.rests[k] > std::max(kPossibleRatio * m.rest, m.rest + kPossibleMore)) continue;
-        low = std::min(low, m.scales[k]);
-        high = std::max(high, m.scales[k]);
+        image.low = std::min(image.low, m.scales[k]);
+        image.high = std::max(image.high, m.scales[k]);
       }
-      Setting& setting = settings[shot.stated->lights];
-      ++setting.images;
-      setting.low = std::min(setting.low, low);
-      setting.high = std::max(setting.high, high);
-      setting.shots.insert(index_of(i));
-      if (low > least || high * least < 1.0) {
-        setting.logs.push_back(0.5 * (std::log(low) + std::log(high)));
-      }
+      image.is_off = image.low > least || image.high * least < 1.0;
+      out.push_back(image);
     }
   }
-  Lights off;
-  Finding finding;
-  double sum = 0.0;
-  double n = 0.0;
-  for (const auto& [lights, setting] : settings) {
-    if (2 * setting.logs.size() <= setting.images) continue;
-    off.push_back(joined(lights));
-    for (const double v : setting.logs) sum += v;
-    n += static_cast<double>(setting.logs.size());
-    finding.shots.insert(finding.shots.end(), setting.shots.begin(), setting.shots.end());
+  return out;
+}
+
+void LightLook::find_factors(const std::vector<ShotLikeness>& likeness,
+                             std::vector<Finding>& out) const {
+  const std::vector<PossibleFactors> images = possible_factors(likeness);
+  std::map<Lights, std::vector<PossibleFactors>> by_lights;
+  std::map<std::size_t, std::vector<PossibleFactors>> by_channel;
+  for (const PossibleFactors& image : images) {
+    by_lights[image.lights].push_back(image);
+    by_channel[image.channel].push_back(image);
+  }
+  std::vector<PossibleFactors> off;
+  std::vector<std::string> names;  // of the lights or else the channels that are off
+  for (const auto& [lights, own] : by_lights) {
+    if (add_if_most_are_off(own, off)) names.push_back(joined(lights));
+  }
+  const bool is_of_channels = off.empty();
+  for (const auto& [channel, own] : by_channel) {
+    if (is_of_channels && add_if_most_are_off(own, off)) {
+      names.emplace_back(1, kRgbName.at(channel));
+    }
   }
   if (off.empty()) return;
-  const double factor = std::exp(sum / n);
+  double sum = 0.0;
+  std::set<std::size_t> shots;
+  for (const PossibleFactors& image : off) {
+    sum += 0.5 * (std::log(image.low) + std::log(image.high));
+    shots.insert(image.shot_idx);
+  }
+  const double factor = std::exp(sum / static_cast<double>(off.size()));
   // Other lights for which some medium allows the same factor are most likely off as well.
-  const bool all = std::all_of(settings.begin(), settings.end(), [&](const auto& setting) {
-    return factor > setting.second.low / kFactor && factor < setting.second.high * kFactor;
-  });
+  const bool all =
+      !is_of_channels && std::all_of(by_lights.begin(), by_lights.end(), [&](const auto& setting) {
+        const auto allows = [&](const PossibleFactors& image) {
+          return factor > image.low / kFactor && factor < image.high * kFactor;
+        };
+        return std::any_of(setting.second.begin(), setting.second.end(), allows);
+      });
   const bool thousand = std::abs(std::abs(std::log10(factor)) - 3.0) < kPower;
+  const std::string which = fmt::format("{}", fmt::join(names, ", "));
+  Finding finding;
+  finding.shots.assign(shots.begin(), shots.end());
   finding.cause = thousand ? "unit: mW for W" : "light off by a factor";
   finding.text = fmt::format(
-      "{}: {} {} times {} light than the stated intensities and responsivity allow for any "
+      "{}: {} {} times {} light{} than the stated intensities and responsivity allow for any "
       "material",
       thousand ? (factor < 1.0 ? "unit (mW for W?)" : "unit (W for mW?)") : "light off by a factor",
-      all ? "the shots contain"
-          : "the shots lit by " + fmt::format("{}", fmt::join(off, ", ")) + " contain",
-      number(std::max(factor, 1.0 / factor)), factor < 1.0 ? "less" : "more");
-  finding.advice = all ? "correct lights.intensity_W_per_sr (in W/sr) or "
-                         "camera.responsivity_counts_mm2_sr_per_W_s"
-                       : std::string(factor < 1.0 ? "see that they were on, or " : "") +
-                             "correct the intensity_W_per_sr of these lights";
+      all || is_of_channels ? "the shots contain" : "the shots lit by " + which + " contain",
+      number(std::max(factor, 1.0 / factor)), factor < 1.0 ? "less" : "more",
+      is_of_channels ? " in " + which : "");
+  finding.advice = is_of_channels ? "correct " + which +
+                                        " of lights.intensity_W_per_sr or of "
+                                        "camera.responsivity_counts_mm2_sr_per_W_s"
+                   : all ? "correct lights.intensity_W_per_sr (in W/sr) or "
+                           "camera.responsivity_counts_mm2_sr_per_W_s"
+                         : std::string(factor < 1.0 ? "see that they were on, or " : "") +
+                               "correct the intensity_W_per_sr of these lights";
   out.push_back(finding);
 }
 

@@ -72,6 +72,8 @@ class LightLook {
   std::size_t index_of(std::size_t shot) const;
   void find_exchanged(const std::vector<ShotLikeness>& likeness, std::vector<Finding>& out) const;
   void find_covered(const std::vector<ShotLikeness>& likeness, std::vector<Finding>& out) const;
+  struct PossibleFactors;
+  std::vector<PossibleFactors> possible_factors(const std::vector<ShotLikeness>& likeness) const;
   void find_factors(const std::vector<ShotLikeness>& likeness, std::vector<Finding>& out) const;
 
   const Scene& scene_;

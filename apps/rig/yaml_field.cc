@@ -43,10 +43,21 @@ bool is_digits(const std::string& text) {
                                       [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
+// As text editors insert them: a no-break space (U+00A0), and a minus sign (U+2212).
+const char* const kOddSpace = "; it contains a no-break space, write an ordinary one";
+bool has_odd_space(const std::string& text) { return text.find("\u00a0") != std::string::npos; }
+
 // "1,4", "-0,05", "1,4e-3".
 bool has_decimal_comma(const std::string& text) {
   static const std::regex pattern("[-+]?[0-9]+,[0-9]+([eE][-+]?[0-9]+)?");
   return std::regex_match(text, pattern);
+}
+
+// What is to be told of a text that should be a number; "" if nothing is known.
+const char* number_advice(const std::string& text) {
+  if (has_decimal_comma(text)) return kDecimalComma;
+  if (has_odd_space(text)) return kOddSpace;
+  return text.find("\u2212") != std::string::npos ? "; write the minus sign as a hyphen" : "";
 }
 
 // The number of the first line that is indented by a tab, up to `last`; 0: none.
@@ -113,7 +124,9 @@ void YamlField::only(std::initializer_list<const char*> keys) const {
       for (const std::string& k : names) known += (known.empty() ? "" : ", ") + k;
       // {eta: 1,4} is a map with the keys eta and 4.
       throw InputError(where, joined(path_, key) + ": unknown key" +
-                                  (is_digits(key) ? kDecimalComma : did_you_mean(key, names)) +
+                                  (is_digits(key)       ? kDecimalComma
+                                   : has_odd_space(key) ? kOddSpace
+                                                        : did_you_mean(key, names)) +
                                   " (known here: " + known + ")");
     }
   }
@@ -171,8 +184,8 @@ double YamlField::number(double min, double max) const {
     if (!node_.IsScalar()) fail("expected a number");
     value = node_.as<double>();
   } catch (const YAML::Exception&) {
-    const bool comma = node_.IsScalar() && has_decimal_comma(node_.Scalar());
-    fail(std::string("expected a number") + (comma ? kDecimalComma : ""));
+    fail(std::string("expected a number") +
+         (node_.IsScalar() ? number_advice(node_.Scalar()) : ""));
   }
   if (!std::isfinite(value)) fail("expected a finite number");
   if (value < min || value > max) {

@@ -65,7 +65,9 @@ class Checker {
       face(words);
     } else if (std::find(kKeywords.begin(), kKeywords.end(), words[0]) == kKeywords.end()) {
       refuse(quoted(words[0]) + " is not a keyword of an OBJ file" +
-             (path_.ends_with(".obj") ? "" : "; a mesh of another kind is to be exported as OBJ"));
+             (path_.ends_with(".obj") && words[0] != "solid"
+                  ? ""
+                  : "; a mesh of another kind (STL, PLY) is to be exported as OBJ"));
     }
   }
 

@@ -47,7 +47,7 @@ TEST(CheckLight, DeparturesByHand) {
   fitted.departures->even_relative[2] = {-0.03, 0.002};
   fitted.departures->residual_relative[0] = 0.11;
   std::vector<CheckItem> items = check_light(made.checked);
-  ASSERT_EQ(items.size(), 4U);
+  ASSERT_EQ(items.size(), 5U);
   EXPECT_EQ(items[0].what, "image residual");
   EXPECT_FALSE(items[0].passed);
   EXPECT_NEAR(items[0].worst, 11.0, 1e-12);
@@ -67,6 +67,24 @@ TEST(CheckLight, DeparturesByHand) {
   items = check_light(made.checked);
   EXPECT_TRUE(items[1].passed);
   EXPECT_TRUE(items[3].passed);
+}
+
+// Twice the exposure time that the file states pulls at the scale; the LED's position does not
+// count here.
+TEST(CheckLight, StrengthOfLight) {
+  MadeCheckedRig made(1);
+  CheckedChannel& fitted = made.add_channel(1, {0});
+  const auto item = [&] { return check_light(made.checked).back(); };
+  EXPECT_TRUE(item().passed);
+  fitted.estimate.pulls = {{"led1.position0", "LED position", 20.0},
+                           {"led1.power", "LED power", 3.0},
+                           {"scale", "scale", -3.9}};
+  EXPECT_EQ(item().what, "strength of light");
+  EXPECT_TRUE(item().passed);
+  fitted.estimate.pulls[2].pull = -4.1;
+  EXPECT_FALSE(item().passed);
+  EXPECT_EQ(item().worst, -4.1);
+  EXPECT_THAT(item().where, HasSubstr("G: scale"));
 }
 
 // An LED that loses 3 % from shot to shot of five: 12 % over all, to the digit.

@@ -63,6 +63,16 @@ TEST_F(LightFindings, AnLedThatWasOff) {
   EXPECT_THAT(found[0].advice, HasSubstr("see that they were on"));
 }
 
+// In red, the LEDs are stated at a twentieth of what they are.
+TEST_F(LightFindings, OneChannelOffByAFactor) {
+  for (SceneLight& light : lit_.rig.scene.lights) light.led()->led.intensity_W_per_sr[0] /= 20.0;
+  const auto found = findings();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].cause, "light off by a factor");
+  EXPECT_THAT(found[0].text, HasSubstr("more light in R than"));
+  EXPECT_EQ(found[0].shots.size(), 2U);
+}
+
 // A free scale says nothing about units; a factor of two is left to the fit.
 TEST_F(LightFindings, FactorsThatAreAllowed) {
   scale_light(0, 2);
