@@ -5,6 +5,7 @@
 #include <thread>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include "apps/commands/commands.h"
 #include "apps/pages/watch_page.h"

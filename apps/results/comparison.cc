@@ -18,10 +18,10 @@ constexpr std::array<std::string_view, 11> kOfTheRig = {
     "scale", "LED power", "LED position", "LED axis",      "LED exponent", "LED calibration",
     "lens",  "pose",      "vignetting",   "veiling glare", "surroundings"};
 
-// Of one error that both measurements had: not of a piece, and not of a shot.
+// Of one error that both measurements had: not of a piece, and not of a shot ("pose a.dng0").
 bool is_of_the_rig(const RigResponse& r) {
   return std::find(kOfTheRig.begin(), kOfTheRig.end(), r.cause) != kOfTheRig.end() &&
-         r.quantity.find(' ') == std::string::npos;
+         !r.quantity.starts_with("pose ");
 }
 
 Eigen::Matrix2d covariance_of(const ReadChannel& c) {

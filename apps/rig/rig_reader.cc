@@ -246,9 +246,11 @@ Rig read_rig(const std::string& path, bool with_radiance) {
       top.number_or("shot_shift_std_px", default_uncertainty::kShotShift_px, 0.0, 100.0);
   for (const auto& [name, field] : lights.entries()) {
     rig.scene.lights.push_back(read_light(name, field, path, rig.limits));
-    const bool is_of_object = std::any_of(rig.scene.objects.begin(), rig.scene.objects.end(),
-                                          [&](const SceneObject& o) { return o.name == name; });
-    if (is_of_object && rig.scene.lights.back().led() != nullptr) {
+    const SceneLight& light = rig.scene.lights.back();
+    const bool is_of_object =
+        std::any_of(rig.scene.objects.begin(), rig.scene.objects.end(),
+                    [&](const SceneObject& object) { return object.name == light.name; });
+    if (is_of_object && light.led() != nullptr) {
       field.fail("is the name of an object, too: results tell the positions of both by name");
     }
   }

@@ -96,7 +96,7 @@ void judge_led(const LedScene& scene, const LedSolve& what, const LedFitOptions&
                fmt::format("no position of the LED fits its highlights and planes: the highlights "
                            "used are {:.2g} px off (rms); see that each shot is listed for the LED "
                            "that was on, and check centres and radii (not diameters) of the "
-                           "spheres and the places of the planes",
+                           "spheres and the positions of the planes",
                            fit.highlight_rms_px));
     return;
   }
