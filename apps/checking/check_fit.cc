@@ -158,9 +158,9 @@ bool is_contradicted(const Estimate& e) {
 }
 
 // The result of transport where the dipole does not hold, in the channel of its material with the
-// most light; other such channels are not judged. Where the light of a shot has a cause already
-// (exchanged lights, units), a quantity of the rig is contradicted, or transport does not explain
-// the shots either, the dipole's departures say more than none.
+// most light; other such channels are not judged. Where something is known to be wrong with a shot
+// already (its outline, exchanged lights, units), a quantity of the rig is contradicted, or
+// transport does not explain the shots either, the dipole's departures say more than none.
 std::vector<bool> judged_channels(Estimation& e,
                                   const std::vector<std::optional<DipoleSystem>>& systems,
                                   const std::vector<ObservedShot>& shots,
@@ -245,7 +245,8 @@ void compare_objects(LightLook& look, const Estimation& e, const capture::ShotDe
 }  // namespace
 
 CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotSource& source,
-                       SeenShots& seen, LitObjects& lit, Progress* progress) {
+                       SeenShots& seen, const std::vector<Finding>& looks, LitObjects& lit,
+                       Progress* progress) {
   EstimateOptions options;
   options.keep_rows = true;
   options.time_limit_s = kTransport_s;
@@ -275,7 +276,9 @@ CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotS
       }
     }
     out.findings = look.findings();
-    out.channels = fitted_channels(stated, e, systems, shots, out.findings);
+    std::vector<Finding> known = looks;
+    known.insert(known.end(), out.findings.begin(), out.findings.end());
+    out.channels = fitted_channels(stated, e, systems, shots, known);
     return out;
   }
 }

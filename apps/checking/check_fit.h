@@ -45,8 +45,10 @@ struct CheckFit {
 // the shots show that it holds, else transport in one channel of the material), which are open for
 // `rig` with `lit`; entirely dark or clipped shots are left out. Opens them again from where the
 // fit shows the objects to be seen, as `measure` does (apps/instrument/fitted_view.h). stated: the
-// scene before the positions of its LEDs were loosened for `rig`.
+// scene before the positions of its LEDs were loosened for `rig`. looks: what is wrong with which
+// shots by the looks before; their channels are not searched by transport.
 CheckFit fit_for_check(const Scene& stated, const Rig& rig, const capture::ShotSource& source,
-                       SeenShots& seen, LitObjects& lit, Progress* progress);
+                       SeenShots& seen, const std::vector<Finding>& looks, LitObjects& lit,
+                       Progress* progress);
 
 }  // namespace scattermeter::apps

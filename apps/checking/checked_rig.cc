@@ -206,7 +206,8 @@ CheckedRig open_checked_rig(const Rig& given, const std::string& shots_folder,
   if (!out.looks->shifts.empty()) seen.open_from(out.looks->shifts);
   if (rig.lens) out.lens = *rig.lens;
   out.leds = checked_leds(rig, shots_folder);
-  out.fit = fit_for_check(rig.scene, loose, source, seen, *geometry->lit, options.progress);
+  out.fit = fit_for_check(rig.scene, loose, source, seen, out.looks->findings, *geometry->lit,
+                          options.progress);
   out.shots = seen.whole();
   find_displaced_round_bodies(loose, geometry->objects, out.shots, shots_of(out.fit.findings),
                               frames, *out.looks);
