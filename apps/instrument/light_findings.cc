@@ -47,12 +47,13 @@ bool add_if_most_are_off(const std::vector<Image>& images, std::vector<Image>& o
   return true;
 }
 
-// "1000" or "0.25"
+// "1000", "400" or "0.25"
 std::string number(double factor) {
   const double power = std::round(std::log10(factor));
   if (std::abs(std::log10(factor) - power) < kPower)
     return fmt::format("{:g}", std::pow(10, power));
-  return fmt::format("{:.2g}", factor);
+  return factor < 100.0 ? fmt::format("{:.2g}", factor)
+                        : fmt::format("{:.0f}", 10.0 * std::round(factor / 10.0));
 }
 
 }  // namespace
