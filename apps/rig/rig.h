@@ -62,11 +62,11 @@ struct Rig {
 // and of the board.
 std::set<std::string> calibration_files(const Rig& rig);
 
-// Sets the calibration by which the rig's shots are corrected (null: none). Its responsivity is not
-// used. path: of its file; empty if it was made in code.
 // The noise that counts: the radiance calibration's (of green), or else that of camera.sensor.
 SensorNoise noise_in_force(const Rig& rig);
 
+// Sets the calibration by which the rig's shots are corrected (null: none). Its responsivity is not
+// used. path: of its file; empty if it was made in code.
 void use_radiance(Rig& rig, std::shared_ptr<const capture::RadianceCalibration> radiance,
                   const std::string& path = {});
 

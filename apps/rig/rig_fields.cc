@@ -92,9 +92,9 @@ void require_mm(const YamlField& field, double length_mm, double shortest_mm) {
 }
 
 void require_version(const YamlField& top, const std::string& key, const std::string& what) {
-  if (!top.find(key)) top.fail("expected a line \"" + key + ": 1\", as in all " + what);
-  const YamlField version = top.at(key);
-  if (version.number() != 1.0) version.fail("this program reads " + what + " of version 1");
+  const auto version = top.find(key);
+  if (!version) top.fail("expected a line \"" + key + ": 1\", as in all " + what);
+  if (version->number() != 1.0) version->fail("this program reads " + what + " of version 1");
 }
 
 }  // namespace scattermeter::apps

@@ -80,8 +80,7 @@ std::string text_of(const OutlineExplanation& e, const std::vector<std::string>&
     case OutlineCause::kShotMoved:
       return fmt::format(
           "object or camera moved in {}: its outline is {:.1f} px {} and {:.1f} px {} of that of "
-          "the "
-          "other shots",
+          "the other shots",
           shots[e.which].file, std::abs(e.value[0]), e.value[0] < 0.0 ? "left" : "right",
           std::abs(e.value[1]), e.value[1] < 0.0 ? "above" : "below");
   }
