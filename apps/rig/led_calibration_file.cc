@@ -108,6 +108,8 @@ std::string led_calibration_yaml(const calib::LedCalibration& c) {
     out << YAML::Comment("for the responsivity below: only their product counts");
     out << YAML::Key << "responsivity_counts_mm2_sr_per_W_s" << YAML::Value;
     emit_row(out, c.shots.responsivity);
+    out << YAML::Key << "radiance_corrected" << YAML::Value << c.radiance_corrected;
+    out << YAML::Comment("whether by camera.radiance, as the shots of objects then need to be");
   } else {
     out << YAML::Comment("the rig's, as no white plane was seen");
   }
@@ -137,9 +139,9 @@ std::string led_calibration_yaml(const calib::LedCalibration& c) {
 CalibratedLed read_led_calibration_file(const std::string& path) {
   const YamlField top = YamlField::load(path);
   top.only({"scattermeter_led", "light", "position_mm", "axis", "exponent", "lobe", "radius_mm",
-            "intensity_W_per_sr", "responsivity_counts_mm2_sr_per_W_s", "axis_tangents",
-            "covariance", "common_to_plane", "distance_mm", "distance_power_correlation",
-            "residuals", "warnings", "ambient"});
+            "intensity_W_per_sr", "responsivity_counts_mm2_sr_per_W_s", "radiance_corrected",
+            "axis_tangents", "covariance", "common_to_plane", "distance_mm",
+            "distance_power_correlation", "residuals", "warnings", "ambient"});
   require_version(top, "scattermeter_led", "LED calibrations");
   CalibratedLed out;
   Led& led = out.led;
@@ -152,6 +154,7 @@ CalibratedLed read_led_calibration_file(const std::string& path) {
   if (const auto f = top.find("responsivity_counts_mm2_sr_per_W_s")) {
     out.responsivity = positive_rgb(*f);
   }
+  if (const auto f = top.find("radiance_corrected")) out.radiance_corrected = f->boolean();
 
   LedUncertainty& u = out.uncertainty;
   const YamlField tangents = top.at("axis_tangents");

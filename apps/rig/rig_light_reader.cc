@@ -46,6 +46,7 @@ void read_led(const LightEntry& entry, SceneLight& light) {
     led = calibrated.led;
     led_light.calibrated = calibrated.uncertainty;
     led_light.calibrated_for = calibrated.responsivity;
+    led_light.radiance_corrected = calibrated.radiance_corrected;
     return;
   }
   led.position_mm = field.at("position_mm").vector3();

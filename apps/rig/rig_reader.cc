@@ -6,6 +6,7 @@
 #include "apps/rig/rig.h"
 #include "apps/rig/rig_camera_reader.h"
 #include "apps/rig/rig_fields.h"
+#include "apps/rig/rig_led_agreement.h"
 #include "apps/rig/rig_light_reader.h"
 #include "apps/rig/rig_place_reader.h"
 #include "apps/rig/rig_pose_reader.h"
@@ -163,57 +164,6 @@ void read_truth(const YamlField& field, Rig& rig) {
   }
 }
 
-// The intensities of calibrated LEDs are valid for the responsivity in their files. A rig without a
-// responsivity takes it, and its scale is then as uncertain as the intensities; a rig with another
-// one is refused.
-void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
-  const LedLight* first = nullptr;
-  for (const SceneLight& light : rig.scene.lights) {
-    const LedLight* led = light.led();
-    if (led == nullptr || !led->calibrated_for) continue;
-    const YamlField field = lights.at(light.name).at("calibration");
-    if (first == nullptr && !rig.scene.camera.responsivity) {
-      for (const SceneLight& other : rig.scene.lights) {
-        const bool has_responsivity = other.led() != nullptr && other.led()->calibrated_for;
-        if (!has_responsivity && !other->is_fitted()) {
-          field.fail("its intensity is valid for the responsivity in the file, but light " +
-                     other.name +
-                     " has no such calibration: camera.responsivity_counts_mm2_sr_per_W_s must "
-                     "state the responsivity for both");
-        }
-      }
-      rig.scene.camera.responsivity = led->calibrated_for;
-      rig.scene.camera.responsivity_relative_std = 0.0;
-    }
-    first = led;
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (std::abs((*led->calibrated_for)[c] / (*rig.scene.camera.responsivity)[c] - 1.0) > 1e-9) {
-        field.fail("its intensity is valid for a responsivity of " +
-                   std::to_string((*led->calibrated_for)[c]) + ", but the camera's is " +
-                   std::to_string((*rig.scene.camera.responsivity)[c]) + " (" + "RGB"[c] + ")");
-      }
-    }
-  }
-}
-
-// A lamp that was copied from another one in the file, and then not edited.
-void require_different_leds(const YamlField& lights, const Scene& scene) {
-  for (auto one = scene.lights.begin(); one != scene.lights.end(); ++one) {
-    if (one->led() == nullptr || one->led()->calibrated_for) continue;
-    const Led& led = one->led()->led;
-    for (auto other = scene.lights.begin(); other != one; ++other) {
-      if (other->led() == nullptr) continue;
-      const Led& same = other->led()->led;
-      if (led.position_mm != same.position_mm || led.axis != same.axis ||
-          (led.intensity_W_per_sr != same.intensity_W_per_sr).any()) {
-        continue;
-      }
-      lights.at(one->name).fail("has position, axis and intensity of " + other->name +
-                                ": state where it is, or list one of the two only");
-    }
-  }
-}
-
 }  // namespace
 
 Rig read_rig(const std::string& path, bool with_radiance) {
@@ -256,6 +206,7 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   }
   require_different_leds(lights, rig.scene);
   take_responsivity_of_leds(lights, rig);
+  if (with_radiance) require_radiance_of_leds(lights, rig);
   std::map<std::string, int> line_of_file;
   const YamlField shots = top.at("shots");
   for (const YamlField& field : shots.items()) {

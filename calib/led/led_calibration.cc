@@ -1,6 +1,10 @@
 #include "calib/led/led_calibration.h"
 
 #include <cmath>
+#include <string>
+
+#include "calib/led/led_mistakes.h"
+#include "calib/led/led_verdict.h"
 
 namespace scattermeter::calib {
 
@@ -17,6 +21,9 @@ LedCalibration calibrate_led(const LedCalibrationInput& input, const std::string
   options.exponent_std = std::sqrt(variance[kLedExponent]);
   options.log_intensity_std = std::sqrt(variance.segment<3>(kLedLogIntensity).maxCoeff());
   out.fit = fit_led(out.shots.scene, prior.led, options);
+  const std::string mistake = likely_mistake(input, light, frames, out.shots, out.fit, options);
+  if (!mistake.empty()) refuse_led(out.fit, LedStatus::kMisfit, mistake);
+  out.radiance_corrected = input.correction.has_value();
   return out;
 }
 

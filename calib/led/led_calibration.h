@@ -12,7 +12,8 @@ namespace scattermeter::calib {
 struct LedCalibration {
   std::string light;
   LedShots shots;
-  LedFit fit;  // valid if its status is kOk
+  LedFit fit;                       // valid if its status is kOk
+  bool radiance_corrected = false;  // whether a calibration of radiance corrected the shots
 };
 
 // Applies fit_led() to the result of read_led_shots(), starting from the LED of the input, whose

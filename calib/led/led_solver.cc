@@ -55,7 +55,8 @@ struct CellCost {
     residual[0] =
         (model.radiance(led, pose, albedo, exposure) + T(ambient_unit) * ambient[0] - T(measured)) /
         T(std);
-    return true;
+    using std::isfinite;  // of numbers; Ceres has that of its derivatives
+    return isfinite(residual[0]);
   }
 };
 

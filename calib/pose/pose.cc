@@ -54,18 +54,25 @@ bool is_consensus(int inliers, size_t pairs) {
   return inliers >= 4 && 2 * static_cast<size_t>(inliers) > pairs;
 }
 
-// The reason why there is no consensus; also tries the mirror image of the world.
-PoseFault consensus_fault(PoseScene scene, int inliers, const PoseOptions& options) {
-  const size_t n = scene.points.size();
-  // A pose with x_in_camera = -(R x + c) has the same image as one that sees the points -x in
-  // front.
+// Whether more pairs fit the mirror image of the world than the `inliers` that fit the world: a
+// pose with x_in_camera = -(R x + c) has the same image as one that sees the points -x in front.
+bool is_mirrored(PoseScene scene, int inliers, const PoseOptions& options) {
   for (Eigen::Vector3d& point : scene.points) point = -point;
-  if (is_consensus(find_consensus(scene, options.inlier_px, options.confidence).inliers, n)) {
-    return {PoseStatus::kBehindCamera,
-            "the points fit only a pose that has them behind the camera, so the world coordinates "
-            "are those of a mirror image; check the signs and the order of the world's axes, and "
-            "that image y counts downwards"};
-  }
+  const int others = find_consensus(scene, options.inlier_px, options.confidence).inliers;
+  return is_consensus(others, scene.points.size()) && others > inliers;
+}
+
+PoseFault mirror_fault() {
+  return {PoseStatus::kBehindCamera,
+          "the points fit only a pose that has them behind the camera, so the world coordinates "
+          "are those of a mirror image; check the signs and the order of the world's axes, and "
+          "that image y counts downwards"};
+}
+
+// The reason why there is no consensus.
+PoseFault consensus_fault(const PoseScene& scene, int inliers, const PoseOptions& options) {
+  const size_t n = scene.points.size();
+  if (is_mirrored(scene, inliers, options)) return mirror_fault();
   inliers = std::max(inliers, 3);  // some pose fits any three
   std::ostringstream out;
   if (2 * static_cast<size_t>(inliers) > n) {
@@ -202,6 +209,10 @@ PoseResult estimate_pose(const CameraIntrinsics& intrinsics, const std::vector<P
   const double px_per_mm =
       std::sqrt(intrinsics.fx_px * intrinsics.fy_px) / (fit.pose.center.z() * scene.scale_mm);
   auto fault = layout_fault(pairs, inlier, options.point_std_px);
+  // Those in one plane fit either way; the others then were the outliers.
+  if (!fault && inliers < static_cast<int>(pairs.size()) && is_mirrored(scene, inliers, options)) {
+    fault = mirror_fault();
+  }
   if (!fault) fault = seen_as_line_fault(pairs, inlier, px_per_mm, options.point_std_px);
   if (fault) return fault_result(pairs.size(), *fault);
 

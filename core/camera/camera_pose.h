@@ -27,9 +27,9 @@ enum class PoseStatus {
   kCollinear,
   // No pose explains more than half of the pairs within inlier_px.
   kNoConsensus,
-  // As kNoConsensus, but a pose that puts the points behind the camera (x -> -x) explains them: the
-  // world coordinates are mirrored. (Undecidable for coplanar points: the mirror image of a plane
-  // is the plane seen from behind.)
+  // A pose that puts the points behind the camera (x -> -x) explains more pairs than any before it,
+  // and more than half: the world coordinates are mirrored. (Undecidable for coplanar points alone:
+  // the mirror image of a plane is the plane seen from behind.)
   kBehindCamera,
   // Some rotation is uncertain by more than 0.05 rad, or the camera's position by more than 0.05 of
   // its distance to the points (beyond, the linearised covariance no longer holds: of 14105 random

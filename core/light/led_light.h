@@ -21,6 +21,8 @@ struct LedLight final : Light {
   // With a calibrated intensity: the responsivity (counts mm^2 sr/(W s), R G B) for which it was
   // calibrated.
   std::optional<std::array<double, 3>> calibrated_for;
+  // Whether a calibration of radiance corrected the shots that it was calibrated with, if known.
+  std::optional<bool> radiance_corrected;
 
   // Whether changes() begin with those of the position.
   bool moves() const { return calibrated || position_std_mm > 0.0; }

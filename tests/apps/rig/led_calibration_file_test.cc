@@ -184,8 +184,12 @@ TEST_F(LedCalibrationFile, IsALight) {
   ASSERT_TRUE(light.led()->calibrated.has_value());
   EXPECT_EQ(light.led()->calibrated->covariance, c.fit.uncertainty.covariance);
   EXPECT_EQ(light.led()->calibrated_for, c.shots.responsivity);
+  EXPECT_EQ(light.led()->radiance_corrected, false);
+  c.radiance_corrected = true;
+  EXPECT_EQ(as_light().led()->radiance_corrected, true);
   c.fit.lobe_fitted = false;
   EXPECT_FALSE(as_light().led()->calibrated_for.has_value());
+  EXPECT_FALSE(as_light().led()->radiance_corrected.has_value());
 }
 
 }  // namespace

@@ -199,16 +199,21 @@ TEST(EstimatePose, NoConsensusAmongRandomPairs) {
 }
 
 TEST(EstimatePose, AMirroredWorldIsRecognised) {
-  // Not of the cube: eight of its twelve points lie in one plane, and a plane's mirror image is the
-  // plane seen from behind.
   std::mt19937_64 random(97);
-  std::vector<PointPair> pairs = shot(long_lens(), camera_looking_at({0, 0, 0}, 180, 0.5, 1),
-                                      slab_points(12, 10, 20, &random), 0.3, &random);
-  for (PointPair& pair : pairs) pair.world_mm.y() = -pair.world_mm.y();
-  const PoseResult result = estimate_pose(long_lens(), pairs);
-  EXPECT_EQ(result.status, PoseStatus::kBehindCamera);
-  EXPECT_THAT(result.message, HasSubstr("mirror image"));
-  expect_no_pose(result);
+  const auto slab = slab_points(12, 10, 20, &random);
+  // Eight points of the ground, whose mirror image is the ground seen from below, and four above.
+  auto ground = slab_points(12, 10, 0, &random);
+  for (std::size_t i = 8; i < ground.size(); ++i) ground[i].z() += 12.0;
+  for (const auto& points : {slab, ground}) {
+    std::vector<PointPair> pairs =
+        shot(long_lens(), camera_looking_at({0, 0, 0}, 180, 0.5, 1), points, 0.3, &random);
+    EXPECT_EQ(estimate_pose(long_lens(), pairs).status, PoseStatus::kOk);
+    for (PointPair& pair : pairs) pair.world_mm.y() = -pair.world_mm.y();
+    const PoseResult result = estimate_pose(long_lens(), pairs);
+    EXPECT_EQ(result.status, PoseStatus::kBehindCamera);
+    EXPECT_THAT(result.message, HasSubstr("mirror image"));
+    expect_no_pose(result);
+  }
 }
 
 TEST(EstimatePose, AFarPlaneIsAmbiguous) {
