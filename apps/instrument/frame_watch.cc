@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kGreensDiffer = 0.05;
 constexpr double kMostHot = 0.01;
+constexpr double kMostEmpty = 0.005;
 
 // Light of the green sites in even rows over that in odd rows, where neither is dark or clipped; 1
 // where there are too few of them.
@@ -64,10 +65,27 @@ double hot_share(const capture::RawFrame& frame) {
   return all > 0 ? static_cast<double>(hot) / static_cast<double>(all) : 0.0;
 }
 
+// Share of the rows of which every sample is zero, although black is beyond what noise can bring
+// down to zero.
+double empty_share(const capture::RawFrame& frame) {
+  constexpr double kLeastBlack = 8.0;
+  const auto width = static_cast<std::size_t>(frame.width_px);
+  if (width == 0 ||
+      *std::min_element(frame.black_counts.begin(), frame.black_counts.end()) < kLeastBlack) {
+    return 0.0;
+  }
+  int empty = 0;
+  for (std::size_t first = 0; first + width <= frame.samples.size(); first += width) {
+    const auto row = frame.samples.begin() + static_cast<std::ptrdiff_t>(first);
+    empty += std::all_of(row, row + frame.width_px, [](auto v) { return v == 0; }) ? 1 : 0;
+  }
+  return static_cast<double>(empty) / frame.height_px;
+}
+
 }  // namespace
 
 void FrameWatch::look(std::size_t shot_idx, const capture::RawFrame& frame) {
-  const Seen seen{std::abs(green_ratio(frame) - 1.0), hot_share(frame)};
+  const Seen seen{std::abs(green_ratio(frame) - 1.0), hot_share(frame), empty_share(frame)};
   const std::lock_guard lock(mutex_);
   seen_[shot_idx] = seen;
 }
@@ -87,6 +105,12 @@ std::vector<Finding> FrameWatch::findings() const {
     return scene_.shots[shots.front()].file;
   };
   std::vector<Finding> out;
+  if (const auto& [shots, worst] = beyond(&Seen::empty_share, kMostEmpty); !shots.empty()) {
+    out.push_back({"damaged file",
+                   fmt::format("damaged file: {:.2g} % of the rows of {} contain nothing but zeros",
+                               100.0 * worst, first(shots)),
+                   "copy it from the card again, or take the shot again", shots});
+  }
   if (const auto& [shots, worst] = beyond(&Seen::greens_differ, kGreensDiffer); !shots.empty()) {
     out.push_back(
         {"colour filters",

@@ -1,5 +1,5 @@
-// What the first frames of the shots say about their colour filters and hot pixels, while they are
-// opened.
+// What the first frames of the shots say about their colour filters, hot pixels and missing rows,
+// while they are opened.
 #pragma once
 
 #include <cstddef>
@@ -26,14 +26,15 @@ class FrameWatch {
   // Shots whose two green sites differ by more than 5 %: their pattern of colour filters is not
   // that of the file. (Green sites of real sensors differ by at most 2 %.) And shots of which more
   // than 1 % of the samples stand out from their neighbours: so many are not taken for noise and
-  // not left out as single outliers, but make rows too bright.
+  // not left out as single outliers, but make rows too bright. And shots of which more
+  // than 0.5 % of the rows contain nothing but zeros, where black is not zero.
   std::vector<Finding> findings() const;
 
  private:
   const Scene& scene_;
   mutable std::mutex mutex_;
   struct Seen {
-    double greens_differ, hot_share;
+    double greens_differ, hot_share, empty_share;
   };
   std::map<std::size_t, Seen> seen_;  // by index of the shot
 };

@@ -1,5 +1,6 @@
 #include "apps/instrument/outline_finding.h"
 
+#include <cmath>
 #include <cstddef>
 
 #include <fmt/core.h>
@@ -46,9 +47,32 @@ std::string class_of(OutlineCause cause) {
   return "";
 }
 
+// Share of the distance by which all objects are nearer than the pose puts them, if the camera
+// moved along its line of sight; 0 if it did not.
+double nearer(const calib::OutlineExplanation& camera, double distance_mm) {
+  constexpr double kAlong = 0.9;
+  const Eigen::Vector3d moved_mm = camera.value.segment<3>(3);
+  const bool is_along = std::abs(moved_mm.z()) > kAlong * moved_mm.norm();
+  return is_along ? -moved_mm.z() / distance_mm : 0.0;
+}
+
 }  // namespace
 
-Finding outline_finding(const calib::OutlineDiagnosis& diagnosis, const std::string& object) {
+double board_distance_mm(const calib::PoseSource& source, const PoseResult& pose) {
+  if (!source.charuco && source.board_shot.empty()) return 0.0;
+  return pose.camera_from_world.translation_mm.norm();
+}
+
+std::string or_of_another_board(double nearer) {
+  constexpr double kVisible = 0.005;
+  if (!(std::abs(nearer) > kVisible)) return "";
+  return fmt::format(
+      ", or the squares of the board are {:.1f} % {} than stated (measure the print)",
+      100.0 * std::abs(nearer), nearer > 0.0 ? "smaller" : "larger");
+}
+
+Finding outline_finding(const calib::OutlineDiagnosis& diagnosis, const std::string& object,
+                        double distance_mm) {
   const calib::OutlineExplanation& best = diagnosis.explanations.at(1);
   Finding finding;
   finding.cause = class_of(best.cause);
@@ -56,6 +80,9 @@ Finding outline_finding(const calib::OutlineDiagnosis& diagnosis, const std::str
   for (std::size_t k = 2; k < diagnosis.explanations.size() && k <= diagnosis.likely; ++k) {
     finding.text += (k == 2 ? " (cannot be told from: " : ", ") + diagnosis.explanations[k].text;
     if (k + 1 == diagnosis.explanations.size() || k == diagnosis.likely) finding.text += ")";
+  }
+  if (best.cause == OutlineCause::kCamera && distance_mm > 0.0) {
+    finding.text += or_of_another_board(nearer(best, distance_mm));
   }
   finding.advice = advice_for(best, object);
   return finding;

@@ -10,6 +10,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/instrument/closer_look.h"
+#include "apps/instrument/other_size.h"
 #include "apps/instrument/outline_finding.h"
 #include "apps/instrument/piece_places.h"
 #include "core/view/camera_view.h"
@@ -30,23 +31,11 @@ constexpr double kLeastShare = 0.5;
 // stated object's.
 constexpr double kOtherShare = 0.9;
 constexpr double kOtherGain = 0.1;
-constexpr double kOnPlace_cells = 1.5;
-constexpr std::size_t kLeastPoints = 30;
 constexpr int kLooksAgain = 2;
 constexpr std::size_t kShotsAgain = 4;  // of each object
 
 double place_std_mm(const ObjectScene& object) {
   return std::max(kLeastPlaceStd_mm, object.stated->position_std_mm);
-}
-
-// Share of the points that lie on the contour, wherever it stands.
-double share_alone(const calib::OutlineLook& look, const std::vector<calib::ContourPoint>& contour,
-                   const CameraIntrinsics& intrinsics, const PoseResult& pose,
-                   const Eigen::Vector3d& center_mm) {
-  if (look.offsets.size() < kLeastPoints) return 0.0;
-  const calib::OutlineModel model({{"", 0, &contour, look, Eigen::Vector3d::Zero()}}, intrinsics,
-                                  pose, {center_mm});
-  return model.share_on_place(0, kOnPlace_cells) * look.found_share();
 }
 
 }  // namespace
@@ -114,7 +103,7 @@ void OutlineWatch::find_other_objects(const capture::FrameSource& frames, Looks&
     const std::size_t idx = it->first;
     const std::size_t body = body_of(idx);
     const double own =
-        share_alone(it->second.look, *it->second.contour, lens, pose_, centers_mm_[body]);
+        calib::outline_share(it->second.look, *it->second.contour, lens, pose_, centers_mm_[body]);
     double best = 0.0;
     std::string other;
     if (contours_.size() > 1) {
@@ -124,7 +113,7 @@ void OutlineWatch::find_other_objects(const capture::FrameSource& frames, Looks&
         const calib::OutlineLook look =
             calib::look_at_outline(contour, frame, noise_in_force(rig_));
         const double share =
-            share_alone(look, contour, lens, pose_, objects_.at(name).box.center_mm());
+            calib::outline_share(look, contour, lens, pose_, objects_.at(name).box.center_mm());
         if (share <= best) continue;
         best = share;
         other = name;
@@ -148,7 +137,7 @@ void OutlineWatch::find_other_objects(const capture::FrameSource& frames, Looks&
 
 void OutlineWatch::find_unseen(Looks& looks, OutlineFindings& out) const {
   for (auto it = looks.begin(); it != looks.end();) {
-    if (it->second.look.offsets.size() >= kLeastPoints) {
+    if (it->second.look.offsets.size() >= calib::kLeastOffsets) {
       ++it;
       continue;
     }
@@ -192,20 +181,40 @@ calib::OutlineDiagnosis OutlineWatch::look_again(const capture::FrameSource& fra
       }
       again[idx] = {&at->second,
                     calib::look_at_outline(at->second, pictures[i], noise_in_force(rig_))};
-      if (again[idx].look.offsets.size() < kLeastPoints) return out;
+      if (again[idx].look.offsets.size() < calib::kLeastOffsets) return out;
     }
     out = explain(again, assumed, looked_at);
   }
   return out;
 }
 
-void OutlineWatch::conclude(const Looks& looks, OutlineFindings& out) const {
+// One whose outline fits at another size than its mesh's, by its first shot.
+bool OutlineWatch::find_other_sizes(const capture::FrameSource& frames, const Looks& looks,
+                                    OutlineFindings& out) const {
+  std::map<std::size_t, std::vector<std::size_t>> shots;  // by body
+  for (const auto& [idx, seen] : looks) shots[body_of(idx)].push_back(idx);
+  bool found = false;
+  for (auto& [body, idxs] : shots) {
+    std::optional<Finding> finding =
+        other_size(objects_.at(names_[body]), rig_.scene.camera.intrinsics, pose_,
+                   frames(idxs.front(), 0), noise_in_force(rig_));
+    if (!finding) continue;
+    finding->shots = std::move(idxs);
+    out.findings.push_back(std::move(*finding));
+    found = true;
+  }
+  return found;
+}
+
+void OutlineWatch::conclude(const capture::FrameSource& frames, const Looks& looks,
+                            OutlineFindings& out) const {
   const calib::OutlineDiagnosis& d = *out.diagnosis;
   double share = 0.0;
   for (const double s : d.fitting_share) {
     share += s / static_cast<double>(d.fitting_share.size());
   }
   if (share < kLeastShare) {
+    if (find_other_sizes(frames, looks, out)) return;
     out.notes.push_back(fmt::format(
         "outlines are not judged: only {:.0f} % of their points are found where some position of "
         "the objects would put them; use a darker background, and light the objects from more "
@@ -225,7 +234,8 @@ void OutlineWatch::conclude(const Looks& looks, OutlineFindings& out) const {
   const calib::OutlineExplanation& best = d.explanations.at(1);
   const bool of_shot = best.cause == OutlineCause::kShotMoved;
   const bool of_mesh = !of_shot && best.cause != OutlineCause::kCamera;
-  Finding finding = outline_finding(d, of_mesh ? names_[best.which] : "");
+  Finding finding =
+      outline_finding(d, of_mesh ? names_[best.which] : "", board_distance_mm(rig_.pose, pose_));
   if (of_shot) {
     finding.shots = {out.looked_at[best.which]};
   } else {
@@ -272,7 +282,9 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
     }
   }
   const std::size_t others = out.findings.size();
-  conclude(looks, out);
+  conclude(*frames, looks, out);
+  const bool is_of_size = out.findings.size() > others && out.findings.back().cause == kOtherSize;
+  if (is_of_size) return out;
   if (out.findings.size() > others &&
       closer_look_agrees(rig_, objects_, pose_, *frames, out.findings.back().shots)) {
     out.findings.pop_back();

@@ -15,6 +15,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/instrument/open_objects.h"
+#include "apps/instrument/outline_finding.h"
 #include "calib/pose/piece_pose.h"
 #include "calib/pose/shot_pose.h"
 #include "calib/pose/silhouette_check.h"
@@ -100,9 +101,10 @@ Eigen::Matrix<double, 6, 6> stated_covariance(const ObjectScene& object) {
   return std.cwiseAbs2().asDiagonal();
 }
 
-// What a displacement along the line of sight may be instead: an object of another size; "" where
-// it is none.
-std::string or_of_another_size(const Eigen::Vector3d& off_mm, const Eigen::Vector3d& to_camera_mm) {
+// What a displacement along the line of sight may be instead: an object of another size, or a board
+// of another; "" where it is none.
+std::string or_of_another_size(const Eigen::Vector3d& off_mm, const Eigen::Vector3d& to_camera_mm,
+                               bool by_board) {
   constexpr double kMostAside = 0.2;
   constexpr double kVisible = 0.005;
   const double along_mm = off_mm.dot(to_camera_mm.normalized());
@@ -110,13 +112,13 @@ std::string or_of_another_size(const Eigen::Vector3d& off_mm, const Eigen::Vecto
   const double aside_mm = (off_mm - along_mm * to_camera_mm.normalized()).norm();
   if (aside_mm > kMostAside * std::abs(along_mm) || !(std::abs(growth) > kVisible)) return "";
   return fmt::format(", or is {:.1f} % {} than its mesh", 100.0 * std::abs(growth),
-                     growth > 0.0 ? "larger" : "smaller");
+                     growth > 0.0 ? "larger" : "smaller") +
+         (by_board ? or_of_another_board(growth) : "");
 }
 
-// Without shots; absent for an object that stands as stated. camera: one that sees it. by_points:
-// its pose is.
-std::optional<Finding> misplaced(const ObjectScene& object, const calib::PiecePose& found,
-                                 const PoseResult& camera, bool by_points) {
+// Without shots; absent for an object that stands as stated. camera: one that sees it.
+std::optional<Finding> misplaced(const Rig& rig, const ObjectScene& object,
+                                 const calib::PiecePose& found, const PoseResult& camera) {
   constexpr double kDoubt = 1e-4;
   const std::string& name = object.stated->name;
   const Eigen::Matrix<double, 6, 6> expected = stated_covariance(object) + found.covariance;
@@ -130,10 +132,12 @@ std::optional<Finding> misplaced(const ObjectScene& object, const calib::PiecePo
       fmt::format("mesh displaced: by its outline, {} stands [{:.2f}, {:.2f}, {:.2f}] "
                   "mm from where the rig states it, turned by {:.1f} degrees{}",
                   name, found.off[0], found.off[1], found.off[2], degrees(found.off.tail<3>()),
-                  or_of_another_size(found.off.head<3>(), to_camera_mm)),
+                  or_of_another_size(found.off.head<3>(), to_camera_mm,
+                                     board_distance_mm(rig.pose, camera) > 0.0)),
       fmt::format("put the object back, or have it found by its outline "
                   "(objects.{}.pose: {{from: silhouette}}){}; another piece needs its own mesh",
-                  name, by_points ? "; if the camera was moved, take the pose points again" : ""),
+                  name,
+                  rig.pose.charuco ? "" : "; if the camera was moved, take the pose points again"),
       {}};
 }
 
@@ -224,7 +228,7 @@ OutlineFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
       continue;
     }
     const Eigen::Matrix<double, 6, 6> stated = stated_covariance(object);
-    std::optional<Finding> finding = misplaced(object, found, telling.front()->pose, false);
+    std::optional<Finding> finding = misplaced(rig, object, found, telling.front()->pose);
     const Eigen::Matrix<double, 6, 1> probable =
         stated * SymmetricSolver(stated + found.covariance).solve(found.off);
     for (const ObservedShot& shot : shots) {
@@ -253,7 +257,7 @@ std::optional<Finding> misplaced_piece(const Rig& rig, const ObjectScenes& objec
   const calib::PiecePose found =
       found_near(rig, objects, stated, {{pose, std::move(telling)}}, frames);
   std::optional<Finding> out;
-  if (found.problem.empty()) out = misplaced(stated, found, pose, true);
+  if (found.problem.empty()) out = misplaced(rig, stated, found, pose);
   if (out) out->shots = std::move(shots);
   return out;
 }

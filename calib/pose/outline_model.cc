@@ -184,4 +184,14 @@ void OutlineModel::weigh() {
   accumulate();
 }
 
+double outline_share(const OutlineLook& look, const std::vector<ContourPoint>& contour,
+                     const CameraIntrinsics& intrinsics, const PoseResult& pose,
+                     const Eigen::Vector3d& center_mm) {
+  constexpr double kOnPlace_cells = 1.5;
+  if (look.offsets.size() < kLeastOffsets) return 0.0;
+  const OutlineModel model({{"", 0, &contour, look, Eigen::Vector3d::Zero()}}, intrinsics, pose,
+                           {center_mm});
+  return model.share_on_place(0, kOnPlace_cells) * look.found_share();
+}
+
 }  // namespace scattermeter::calib

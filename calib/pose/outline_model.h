@@ -24,6 +24,9 @@ struct OutlineShot {
   Eigen::Vector3d assumed_mm = Eigen::Vector3d::Zero();
 };
 
+// With fewer of its points found, an outline is not judged.
+inline constexpr std::size_t kLeastOffsets = 30;
+
 // Standard deviations of what is left free.
 inline constexpr double kFreePlace_mm = 50.0;
 inline constexpr double kFreeTurn_rad = 0.5;
@@ -99,5 +102,11 @@ class OutlineModel {
   Eigen::VectorXd gradient_;
   double squares_ = 0;
 };
+
+// Share of the contour's points in the frame that a look found on a body of this contour, wherever
+// it stands; 0 with hardly any of them. The pose is that of the contour; center_mm: of the body.
+double outline_share(const OutlineLook& look, const std::vector<ContourPoint>& contour,
+                     const CameraIntrinsics& intrinsics, const PoseResult& pose,
+                     const Eigen::Vector3d& center_mm);
 
 }  // namespace scattermeter::calib

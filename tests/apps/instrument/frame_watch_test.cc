@@ -72,5 +72,19 @@ TEST_F(FrameWatchOfACube, ExchangedFiltersShowInTheGreenSites) {
   EXPECT_THAT(f.sentence(), HasSubstr("colour filters exchanged: the two green sites of"));
 }
 
+TEST_F(FrameWatchOfACube, MissingRowsAreADamagedFile) {
+  capture::RawFrame damaged = frame(0);
+  const auto from = static_cast<std::ptrdiff_t>(damaged.samples.size() * 2 / 3);
+  std::fill(damaged.samples.begin() + from, damaged.samples.end(), std::uint16_t{0});
+  FrameWatch bad(rig_.scene);
+  bad.look(0, damaged);
+  ASSERT_EQ(bad.findings().size(), 1U);
+  EXPECT_THAT(bad.findings().front().sentence(), HasSubstr("damaged file: 33 % of the rows"));
+  damaged.black_counts.fill(0.0);
+  FrameWatch black_is_zero(rig_.scene);
+  black_is_zero.look(0, damaged);
+  EXPECT_TRUE(black_is_zero.findings().empty());
+}
+
 }  // namespace
 }  // namespace scattermeter::apps

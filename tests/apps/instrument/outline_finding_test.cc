@@ -43,6 +43,30 @@ TEST(OutlineFinding, ListsWhatCannotBeToldFromIt) {
   EXPECT_THAT(f.advice, HasSubstr("objects.pyramid"));
 }
 
+// The camera's distance from a board is known as well as its squares.
+TEST(OutlineFinding, ABoardOfAnotherSize) {
+  calib::OutlineDiagnosis d = diagnosis_of({OutlineCause::kCamera});
+  calib::OutlineExplanation& camera = d.explanations.at(1);
+  camera.value = Eigen::VectorXd::Zero(6);
+  camera.value.tail<3>() = Eigen::Vector3d(0.3, -0.2, 4.0);
+  EXPECT_EQ(outline_finding(d, "").text, "cause 0");
+  EXPECT_THAT(outline_finding(d, "", 200.0).text,
+              HasSubstr("or the squares of the board are 2.0 % larger than stated"));
+  camera.value.tail<3>() = Eigen::Vector3d(3.0, -0.2, 4.0);
+  EXPECT_EQ(outline_finding(d, "", 200.0).text, "cause 0");
+  EXPECT_THAT(or_of_another_board(0.03), HasSubstr("3.0 % smaller"));
+  EXPECT_EQ(or_of_another_board(0.001), "");
+}
+
+TEST(OutlineFinding, TheDistanceIsOfABoard) {
+  PoseResult pose;
+  pose.camera_from_world.translation_mm = {0, 30, 40};
+  calib::PoseSource source;
+  EXPECT_EQ(board_distance_mm(source, pose), 0.0);
+  source.board_shot = "board.dng";
+  EXPECT_DOUBLE_EQ(board_distance_mm(source, pose), 50.0);
+}
+
 TEST(OutlineFinding, CameraAndShot) {
   EXPECT_THAT(outline_finding(diagnosis_of({OutlineCause::kCamera}), "").advice,
               HasSubstr("pose points again"));

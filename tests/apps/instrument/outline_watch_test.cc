@@ -86,6 +86,19 @@ TEST_F(OutlineWatchTest, MeshDisplaced) {
   }
 }
 
+TEST_F(OutlineWatchTest, AnotherSize) {
+  const capture::ShotSource source = shots({0, 0, 0});
+  scenes_ = open_objects(rig_, [](const SceneObject& object) {
+    TriangleMesh mesh = body_mesh(object.name);
+    for (Eigen::Vector3d& v : mesh.vertices_mm) v *= object.name == "cube" ? 1.3 : 1.0;
+    return mesh;
+  });
+  const OutlineFindings found = findings(source);
+  ASSERT_EQ(found.findings.size(), 1U);
+  EXPECT_THAT(found.findings[0].text, HasSubstr("smaller than its mesh"));
+  EXPECT_EQ(found.findings[0].shots, (std::vector<std::size_t>{0, 1}));
+}
+
 TEST_F(OutlineWatchTest, FileOfAnotherObject) {
   capture::ShotSource source = shots({0, 0, 0});
   const auto frames = std::get<capture::FrameSource>(source.open);
