@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "apps/rig/rig_placeholders.h"
 #include "core/base/progress.h"
 
 namespace scattermeter::apps {
@@ -50,6 +51,10 @@ CheckReport check_report(const CheckedRig& checked) {
   }
   std::stable_partition(report.items.begin(), report.items.end(),
                         [](const CheckItem& i) { return !i.passed; });
+  if (std::string unmeasured = placeholder_note(checked.rig.path);
+      !report.passed() && !unmeasured.empty()) {
+    report.notes.insert(report.notes.begin(), std::move(unmeasured));
+  }
   report.cause = probable_cause(checked, report.items);
   return report;
 }

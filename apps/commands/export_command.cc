@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <fstream>
 #include <memory>
 #include <ostream>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -8,8 +12,26 @@
 #include "apps/commands/commands.h"
 #include "apps/export/export_formats.h"
 #include "capture/files/pending_file.h"
+#include "core/base/input_error.h"
 
 namespace scattermeter::apps {
+namespace {
+
+// Throws InputError if there is a file that no export wrote: a rig, a mesh, a raw.
+void require_export(const std::string& path) {
+  constexpr std::array<std::string_view, 3> kBegins = {"<?xml", "# Measured by scattermeter",
+                                                       "material,channel,"};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return;
+  std::string begin(32, '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(file.gcount()));
+  const auto has = [&](std::string_view b) { return begin.starts_with(b); };
+  if (begin.empty() || std::ranges::any_of(kBegins, has)) return;
+  throw InputError("--out", path + " exists and was not written by `export`: choose another name");
+}
+
+}  // namespace
 
 void add_export_command(CLI::App& app, CommandContext& context) {
   struct Options {
@@ -33,7 +55,7 @@ void add_export_command(CLI::App& app, CommandContext& context) {
   command->add_option("--format", options->format, fmt::format("{}", fmt::join(descriptions, "; ")))
       ->required()
       ->check(CLI::IsMember(names));
-  command->add_option("--out", options->out, "file to write; an existing one is replaced")
+  command->add_option("--out", options->out, "file to write; an earlier export is replaced")
       ->required();
   command->add_option("--material", options->materials,
                       "only this material; may be repeated (default: all)");
@@ -51,6 +73,7 @@ void add_export_command(CLI::App& app, CommandContext& context) {
       ->capture_default_str();
   run_if_named(*command, context, [options, &context] {
     capture::require_output_file(options->out, {options->result});
+    require_export(options->out);
     const ReadResult result = read_result(options->result);
     const std::vector<MeasuredMaterial> materials = materials_of(result, options->materials);
     const std::vector<std::string> refused = refusals(materials);

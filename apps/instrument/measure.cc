@@ -12,6 +12,7 @@
 #include "apps/instrument/open_objects.h"
 #include "apps/instrument/piece_places.h"
 #include "apps/instrument/rig_inputs.h"
+#include "apps/rig/rig_placeholders.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/digest.h"
 #include "capture/shots/shot_cache.h"
@@ -101,6 +102,10 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
     throw;
   }
   out.notes.insert(out.notes.begin(), places.begin(), places.end());
+  if (std::string unmeasured = placeholder_note(rig.path);
+      out.any_refused() && !unmeasured.empty()) {
+    out.notes.insert(out.notes.begin(), std::move(unmeasured));
+  }
   out.skipped.shots_not_asked = whole.scene.shots.size() - rig.scene.shots.size();
   if (instrument.pose_of_points() && whole.pose.board_shot.empty()) {
     const std::string points = calib::left_out_points(*instrument.pose_of_points());

@@ -35,5 +35,17 @@ TEST(ExportCommand, RefusedIsNotWritten) {
   EXPECT_THAT(slurp(exported.out()), HasSubstr("POM,B,refused,dipole,1.4,,,,,,,,,,The dipole"));
 }
 
+TEST(ExportCommand, ReplacesExportsOnly) {
+  const Exported exported(made_result(kExported));
+  for (const char* format : {"mitsuba", "pbrt", "blender", "openpbr", "materialx", "csv", "csv"}) {
+    EXPECT_EQ(exported.run_format(format).status, 0) << format;
+  }
+  write_file(exported.out(), std::string("scattermeter_rig: 1\n"));
+  const Answer answer = exported.run_format("csv");
+  EXPECT_EQ(answer.status, 2);
+  EXPECT_THAT(answer.err, HasSubstr("was not written by `export`"));
+  EXPECT_EQ(slurp(exported.out()), "scattermeter_rig: 1\n");
+}
+
 }  // namespace
 }  // namespace scattermeter::apps

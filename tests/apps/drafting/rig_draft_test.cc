@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "apps/rig/rig_placeholders.h"
 #include "core/base/input_error.h"
 
 namespace scattermeter::apps {
@@ -59,7 +60,7 @@ TEST(RigDraft, ListsWhatIsAPlaceholder) {
   EXPECT_THAT(rig.to_measure, Contains("position, axis, exponent and intensity of right"));
   EXPECT_THAT(rig.to_measure, Contains(HasSubstr("eta of pyramid")));
   for (const std::string& what : rig.to_measure) {
-    EXPECT_THAT(rig.yaml, HasSubstr("# MEASURE: " + what));
+    EXPECT_THAT(rig.yaml, HasSubstr(kPlaceholder + (": " + what)));
   }
 }
 
@@ -71,7 +72,7 @@ TEST(RigDraft, AnExampleHasATruthAndNothingToMeasure) {
   EXPECT_TRUE(rig.to_measure.empty());
   EXPECT_THAT(rig.yaml, HasSubstr("\ntruth:"));
   EXPECT_THAT(rig.yaml, HasSubstr("file: 'left.dng'"));
-  EXPECT_THAT(rig.yaml, Not(HasSubstr("# MEASURE")));
+  EXPECT_THAT(rig.yaml, Not(HasSubstr(kPlaceholder)));
 }
 
 TEST(RigDraft, OptionsAreReadOrNamed) {
