@@ -17,6 +17,7 @@
 #include "apps/instrument/open_objects.h"
 #include "apps/instrument/piece_places.h"
 #include "apps/instrument/seen_shots.h"
+#include "apps/rig/rig_led_agreement.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/file_kind.h"
 #include "capture/sensor/corrected_samples.h"
@@ -158,6 +159,7 @@ CheckDetail CheckedRig::of_channel(std::size_t shot_idx, std::size_t channel, do
 
 CheckedRig open_checked_rig(const Rig& given, const std::string& shots_folder,
                             const CheckOptions& options) {
+  require_radiance_of_leds(given);
   Rig placed = given;
   calib::take_points_from_board_shot(placed.scene, placed.decoding, shots_folder, placed.pose);
   std::vector<std::string> places = place_pieces(placed, shots_folder, options.progress);

@@ -11,6 +11,7 @@
 #include "apps/pages/watch_page.h"
 #include "apps/report/shot_picture.h"
 #include "apps/rig/rig.h"
+#include "apps/rig/rig_led_agreement.h"
 #include "apps/watching/watched_folder.h"
 #include "apps/watching/watched_shots.h"
 #include "capture/files/pending_file.h"
@@ -178,6 +179,7 @@ void add_watch_command(CLI::App& app, CommandContext& context) {
   run_if_named(*command, context, [a, &context] {
     require_results_folder(a->out, a->folder);
     const Rig rig = read_rig(a->rig);
+    require_radiance_of_leds(rig);
     return Watching(*a, rig, context).run();
   });
 }

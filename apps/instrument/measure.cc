@@ -12,6 +12,7 @@
 #include "apps/instrument/open_objects.h"
 #include "apps/instrument/piece_places.h"
 #include "apps/instrument/rig_inputs.h"
+#include "apps/rig/rig_led_agreement.h"
 #include "apps/rig/rig_placeholders.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/digest.h"
@@ -77,6 +78,7 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
                     const MeasureOptions& options, Progress* progress) {
   std::vector<std::pair<std::string, double>> timing_s;
   Stopwatch watch(timing_s);
+  require_radiance_of_leds(whole);
   Rig rig = with_materials(whole, options.materials);
   calib::take_points_from_board_shot(rig.scene, rig.decoding, shots_folder, rig.pose);
   const capture::ShotFolder folder =

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string>
 
+#include "core/base/input_error.h"
+
 namespace scattermeter::apps {
 
 void take_responsivity_of_leds(const YamlField& lights, Rig& rig) {
@@ -54,18 +56,17 @@ void require_different_leds(const YamlField& lights, const Scene& scene) {
   }
 }
 
-void require_radiance_of_leds(const YamlField& lights, const Rig& rig) {
+void require_radiance_of_leds(const Rig& rig) {
   const bool is_corrected = rig.decoding.radiance != nullptr;
   for (const SceneLight& light : rig.scene.lights) {
     if (light.led() == nullptr || !light.led()->radiance_corrected) continue;
     if (*light.led()->radiance_corrected == is_corrected) continue;
-    lights.at(light.name)
-        .at("calibration")
-        .fail(is_corrected
-                  ? "was made without camera.radiance, which corrects the shots of this rig: "
-                    "repeat `calibrate led` with it"
-                  : "was made of shots that camera.radiance corrected, and this rig has none: "
-                    "state it, or repeat `calibrate led` without it");
+    throw InputError(
+        rig.at(light.line) + ": lights." + light.name + ".calibration",
+        is_corrected ? "was made without camera.radiance, which corrects the shots of this rig: "
+                       "repeat `calibrate led`"
+                     : "was made of shots that camera.radiance corrected, and this rig has none: "
+                       "state it, or repeat `calibrate led`");
   }
 }
 

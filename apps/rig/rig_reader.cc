@@ -206,7 +206,6 @@ Rig read_rig(const std::string& path, bool with_radiance) {
   }
   require_different_leds(lights, rig.scene);
   take_responsivity_of_leds(lights, rig);
-  if (with_radiance) require_radiance_of_leds(lights, rig);
   std::map<std::string, int> line_of_file;
   const YamlField shots = top.at("shots");
   for (const YamlField& field : shots.items()) {

@@ -32,14 +32,14 @@ class RigLedAgreement : public ::testing::Test {
 
 TEST_F(RigLedAgreement, TheShotsAreCorrectedAsThoseOfTheLedsWere) {
   LedLight& led = add_led("a");
-  const auto refusal = [&] { return refusal_of([&] { require_radiance_of_leds(lights_, rig_); }); };
+  const auto refusal = [&] { return refusal_of([&] { require_radiance_of_leds(rig_); }); };
   EXPECT_EQ(refusal(), "");  // a file that does not say
   led.radiance_corrected = true;
-  EXPECT_THAT(refusal(), HasSubstr("a.calibration: was made of shots that camera.radiance"));
+  EXPECT_THAT(refusal(), HasSubstr("lights.a.calibration: was made of shots that camera.radiance"));
   rig_.decoding.radiance = std::make_shared<capture::RadianceCalibration>();
   EXPECT_EQ(refusal(), "");
   led.radiance_corrected = false;
-  EXPECT_THAT(refusal(), HasSubstr("a.calibration: was made without camera.radiance"));
+  EXPECT_THAT(refusal(), HasSubstr("lights.a.calibration: was made without camera.radiance"));
 }
 
 TEST_F(RigLedAgreement, OneResponsivityForAll) {
