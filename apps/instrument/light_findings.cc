@@ -176,6 +176,7 @@ std::vector<LightLook::PossibleFactors> LightLook::possible_factors(
         image.low = std::min(image.low, m.scales[k]);
         image.high = std::max(image.high, m.scales[k]);
       }
+      if (!(image.high > 0.0)) continue;  // lights without power in the channel
       image.is_off = image.low > least || image.high * least < 1.0;
       out.push_back(image);
     }

@@ -73,6 +73,12 @@ TEST_F(LightFindings, OneChannelOffByAFactor) {
   EXPECT_EQ(found[0].shots.size(), 2U);
 }
 
+// Red LEDs say nothing about the other channels.
+TEST_F(LightFindings, NoPowerInAChannel) {
+  for (SceneLight& light : lit_.rig.scene.lights) light.led()->led.intensity_W_per_sr[2] = 0.0;
+  for (const Finding& f : findings()) ADD_FAILURE() << f.text;
+}
+
 // A free scale says nothing about units; a factor of two is left to the fit.
 TEST_F(LightFindings, FactorsThatAreAllowed) {
   scale_light(0, 2);
