@@ -16,9 +16,10 @@
 namespace scattermeter::apps {
 namespace {
 
-// The grid of media: sigma_s' in 1/mm, and 1 - albedo.
+// The grid of media: sigma_s' in 1/mm, and 1 - albedo. A coloured material may be nearly black in
+// one channel, of which the dipole still tells the brightness to a factor of two or so.
 constexpr std::array kScattering = {0.2, 0.4, 0.7, 1.2, 2.0, 3.5, 6.0, 12.0};
-constexpr std::array kAbsorbed = {0.0005, 0.002, 0.006, 0.02, 0.06, 0.2, 0.5};
+constexpr std::array kAbsorbed = {0.0005, 0.002, 0.006, 0.02, 0.06, 0.2, 0.5, 0.8, 0.95, 0.99};
 constexpr std::size_t kRows = 800;  // of an image, evenly
 constexpr std::size_t kLeastRows = 20;
 // Covered: rows whose prediction exceeds this share of the mean, and which show less than this

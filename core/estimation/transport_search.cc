@@ -128,6 +128,7 @@ class TransportSearch {
           {round.of_cells(round.look().by_half[0]), round.of_cells(round.look().by_half[1])},
           dipole(at));
       const ScatteringPoint to = round.step().to;
+      if (!std::isfinite(to.sigma_s_per_mm) || !std::isfinite(to.sigma_a_per_mm)) break;
       if (learned && is_close(round.step(), round.blocks(), round.misfit())) {
         is_owed = !outliers_known &&
                   leave_out(outlying_rows(round, simulation_.area_mm2()), RowState::kOutlier);
@@ -168,7 +169,8 @@ class TransportSearch {
       stage_.check();
       return parts_.of_parts(simulation_.light_at_node(node, sigma_a_per_mm, kFirstBlocks / 2));
     };
-    return starting_point(dipole, simulation_.largest_size_mm(), scale_.is_free(), light);
+    return starting_point(dipole, simulation_.largest_size_mm(), scale_.is_free(),
+                          parts_.light(simulation_.area_mm2(), system_.l), light);
   }
 
   ChannelSimulation::Look look(const ScatteringPoint& at, int blocks,

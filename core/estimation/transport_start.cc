@@ -30,15 +30,17 @@ double squared_distance(const Estimate& one, const Estimate& other) {
   return scattering * scattering + 0.1 * absorption * absorption;
 }
 
-// Mean square of log(measured light over this), and the scale that was fitted for it, else 1.
-std::pair<double, double> offset_of(const Eigen::ArrayXd& light, bool has_free_scale) {
+// Mean square, by weight, of log(measured light over this), and the scale that was fitted for it,
+// else 1.
+std::pair<double, double> offset_of(const Eigen::ArrayXd& light, const Eigen::ArrayXd& weight,
+                                    bool has_free_scale) {
   constexpr double kDarkPart = 1e-3;  // of the brightest, of a part that has none
   const double brightest = light.maxCoeff();
   if (!(brightest > 0.0)) return {std::numeric_limits<double>::max(), 1.0};
   Eigen::ArrayXd offset = light.max(kDarkPart * brightest).log();
-  const double common = has_free_scale ? offset.mean() : 0.0;
+  const double common = has_free_scale ? (weight * offset).sum() / weight.sum() : 0.0;
   offset -= common;
-  return {offset.square().mean(), std::exp(-common)};
+  return {(weight * offset.square()).sum() / weight.sum(), std::exp(-common)};
 }
 
 }  // namespace
@@ -84,11 +86,12 @@ bool start_as_before(std::span<const ChannelResult> found, ChannelResult& result
   return true;
 }
 
-ScatteringPoint nearest_point(double size_mm, bool has_free_scale,
+ScatteringPoint nearest_point(double size_mm, bool has_free_scale, const Eigen::ArrayXd& weight,
                               const std::function<Eigen::ArrayXd(int, double)>& light) {
   constexpr double kMost = 300.0;  // mean free paths across
   constexpr int kStep = 2;         // nodes
-  constexpr std::array<double, 9> kDark = {1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8};
+  constexpr std::array<double, 17> kDark = {1e-4, 1e-3, 3e-3, 0.01, 0.02, 0.035, 0.06, 0.1, 0.15,
+                                            0.22, 0.32, 0.45, 0.65, 0.9,  1.3,   2.0,  4.0};
   const auto node_at = [&](double paths_across) {
     return std::log(paths_across / size_mm) / TransportAtlas::kSpacing;
   };
@@ -100,7 +103,7 @@ ScatteringPoint nearest_point(double size_mm, bool has_free_scale,
     for (Eigen::Index k = 0; k < distance.cols(); ++k) {
       std::tie(distance(i, k), scale(i, k)) = offset_of(
           light(node, kDark[static_cast<std::size_t>(k)] * TransportAtlas::sigma_s_per_mm(node)),
-          has_free_scale);
+          weight, has_free_scale);
     }
   }
   Eigen::Index i = 0, k = 0;
@@ -116,12 +119,13 @@ ScatteringPoint nearest_point(double size_mm, bool has_free_scale,
 }
 
 ScatteringPoint starting_point(const Estimate& dipole, double size_mm, bool has_free_scale,
+                               const Eigen::ArrayXd& weight,
                                const std::function<Eigen::ArrayXd(int, double)>& light) {
   // Of the image: the dipole's estimates are then off by factors.
   constexpr double kFarOff = 5e-3;
   const Quantity& s = dipole.sigma_s_prime_per_mm;
   if (is_undetermined(s) || (misses_image(dipole) && dipole.misfit_relative > kFarOff)) {
-    return nearest_point(size_mm, has_free_scale, light);
+    return nearest_point(size_mm, has_free_scale, weight, light);
   }
   return {std::max(s.value, kThinnest / size_mm), dipole.sigma_a_per_mm.value,
           has_free_scale ? dipole.scale.value : 1.0};

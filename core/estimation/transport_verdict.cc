@@ -23,8 +23,10 @@ constexpr double kMisfit = 0.003;
 // A residual that exceeds noise and Monte Carlo by this share of the image is refused: more than
 // what rows may scatter.
 constexpr double kUnexplained = 0.05;
-// The same for the stated scale, a single direction: an offset of three standard deviations widens
-// the result by it, one of 4.4 that exceeds a per cent refuses it.
+// Beyond this share, the paths are so noisy that the image tells nothing against the answer.
+constexpr double kNoisiest = 0.3;
+// The same as for misfits for the stated scale, a single direction: an offset of three standard
+// deviations widens the result by it, one of 4.4 that exceeds a per cent refuses it.
 constexpr double kWideningScalePValue = 3e-3;
 constexpr double kRefusedScalePValue = 1e-5;
 constexpr double kRefusedScale = 0.01;
@@ -171,6 +173,12 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
         fmt::format("transport does not explain the shots: the residual is {:.2g} %, and noise and "
                     "Monte Carlo errors leave {:.2g} % unexplained",
                     100.0 * estimate.rms_relative, 100.0 * unexplained));
+  }
+  if (estimate.rms_relative > kNoisiest) {
+    estimate.reasons.push_back(fmt::format(
+        "the paths of transport are too noisy to judge these shots: the residual is {:.2g} %; use "
+        "a larger --time-limit, or a channel in which the material absorbs less",
+        100.0 * estimate.rms_relative));
   }
   if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {
     estimate.reasons.push_back(fmt::format(

@@ -70,6 +70,15 @@ ShotParts::ShotParts(const std::vector<Eigen::Index>& shot_rows,
   about_parts_ -= Sums(Sums(holds.transpose()) * parts_);
 }
 
+Eigen::VectorXd ShotParts::light(const std::vector<double>& area_mm2,
+                                 const Eigen::VectorXd& l) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(n_parts());
+  for (Eigen::Index j = 0; j < l.size(); ++j) {
+    out[part_of_row(j)] += area_mm2[static_cast<std::size_t>(j)] * l[j];
+  }
+  return out;
+}
+
 Eigen::VectorXd ShotParts::levelled(const Eigen::VectorXd& light,
                                     const Eigen::VectorXd& rows) const {
   const Eigen::VectorXd ratio = of_parts(rows).cwiseQuotient(of_parts(light));

@@ -112,5 +112,15 @@ TEST(LightFindingsOfTransport, GoodRig) {
   }
 }
 
+// A red material, which is nearly black in blue.
+TEST(LightFindingsOfTransport, ColouredMaterial) {
+  for (const double sigma_a_per_mm : {1.0, 5.0}) {
+    LitShots lit("cube", true, Medium{1.5, sigma_a_per_mm, 1.0});
+    for (const Finding& f : LightLook(lit.rig.scene, *lit.lit, lit.shots, lit.weights).findings()) {
+      ADD_FAILURE() << sigma_a_per_mm << ": " << f.text;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scattermeter::apps

@@ -176,6 +176,18 @@ TEST(TransportVerdict, UnexplainedResidualsAndContradictionsAreReasons) {
   EXPECT_EQ(estimate.pulls.size(), 2U);
 }
 
+// However well Monte Carlo explains it.
+TEST(TransportVerdict, NoisyPathsJudgeNothing) {
+  Estimate estimate = trusted();
+  estimate.rms_relative = 0.25;
+  add_refusals({}, 0.0, {}, {}, kLeastBlocks, estimate);
+  EXPECT_TRUE(estimate.reasons.empty());
+  estimate.rms_relative = 2.9;
+  add_refusals({}, 0.0, {}, {}, kLeastBlocks, estimate);
+  ASSERT_EQ(estimate.reasons.size(), 1U);
+  EXPECT_NE(estimate.reasons[0].find("too noisy"), std::string::npos);
+}
+
 TEST(TransportVerdict, SmallOrInsignificantScalesAreNoReason) {
   Estimate estimate = trusted();
   add_refusals({}, 0.0, {}, {0.009, 0.001, 1e-12}, kLeastBlocks, estimate);
