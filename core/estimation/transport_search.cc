@@ -251,6 +251,7 @@ class TransportSearch {
   void report(const TransportRound& round, ChannelResult& result) const {
     const Eigen::VectorXd variance = round.row_variance(simulation_.area_mm2(), 1.0);
     report_fit(round, system_, scale_, variance, result);
+    refuse_unresolved(simulation_.area_mm2(), result.estimate);
     report_rows(channel_, rows_, result);
     std::vector<ShotRows> rows =
         shot_rows(channel_, rows_, system_.l - round.residual(), variance.cwiseSqrt());

@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include "core/base/median.h"
 #include "core/estimation/channel_result.h"
 #include "core/estimation/material_channel.h"
 #include "core/estimation/transport_round.h"
@@ -187,6 +188,19 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
         100.0 * std::abs(std::expm1(scale.offset)), 100.0 * scale.std,
         scale.offset > 0.0 ? "larger" : "smaller"));
   }
+}
+
+void refuse_unresolved(const std::vector<double>& area_mm2, Estimate& estimate) {
+  constexpr double kOfPatch = 0.1;
+  const double sigma_a = estimate.sigma_a_per_mm.value;
+  const double sigma_t = estimate.sigma_s_prime_per_mm.value + sigma_a;
+  const double reach_mm = 1.0 / std::sqrt(3.0 * sigma_a * sigma_t);
+  const double patch_mm = std::sqrt(upper_median(area_mm2));
+  if (reach_mm >= kOfPatch * patch_mm) return;
+  estimate.reasons.push_back(
+      fmt::format("the light dies off within {:.2g} mm, a small part of a patch of {:.2g} mm: the "
+                  "shots tell little more than the ratio of sigma_a and sigma_s'",
+                  reach_mm, patch_mm));
 }
 
 std::vector<Eigen::Index> outlying_rows(const TransportRound& round,

@@ -76,6 +76,11 @@ std::vector<Eigen::Index> outlying_rows(const TransportRound& round,
 void report_fit(const TransportRound& round, const DenseSystem& system, const ScalePrior& scale,
                 const Eigen::VectorXd& variance, ChannelResult& result);
 
+// Adds a reason where the light of the estimate's medium reaches less than a tenth of a patch
+// (1 / sqrt(3 sigma_a sigma_t'), of the median patch): then the patches show the ratio of both
+// coefficients, and little of either. area_mm2: of the patches.
+void refuse_unresolved(const std::vector<double>& area_mm2, Estimate& estimate);
+
 // Adds the misfit, the pulls and any reasons for refusal to an estimate whose values are already
 // set. unexplained: see TransportRound::unexplained().
 void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<PriorPull> pulls,

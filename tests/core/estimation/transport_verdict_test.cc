@@ -176,6 +176,21 @@ TEST(TransportVerdict, UnexplainedResidualsAndContradictionsAreReasons) {
   EXPECT_EQ(estimate.pulls.size(), 2U);
 }
 
+TEST(TransportVerdict, LightThatDiesOffWithinAPatchIsNotResolved) {
+  const std::vector<double> area_mm2 = {0.16, 0.25, 0.25};  // patches of 0.5 mm
+  const auto reasons = [&](double sigma_s_prime, double sigma_a) {
+    Estimate estimate = trusted();
+    estimate.sigma_s_prime_per_mm = normal_quantity(sigma_s_prime, 0.1);
+    estimate.sigma_a_per_mm = normal_quantity(sigma_a, 0.1);
+    refuse_unresolved(area_mm2, estimate);
+    return estimate.reasons.size();
+  };
+  EXPECT_EQ(reasons(12.0, 0.002), 0U);
+  EXPECT_EQ(reasons(8.0, 4.0), 0U);   // 0.083 mm
+  EXPECT_EQ(reasons(3.5, 15.0), 1U);  // 0.035 mm
+  EXPECT_EQ(reasons(3.0, 0.0), 0U);
+}
+
 // However well Monte Carlo explains it.
 TEST(TransportVerdict, NoisyPathsJudgeNothing) {
   Estimate estimate = trusted();
