@@ -24,10 +24,8 @@ constexpr double kMisfit = 0.003;
 // A residual that exceeds noise and Monte Carlo by this share of the image is refused: more than
 // what rows may scatter.
 constexpr double kUnexplained = 0.05;
-// Beyond this share, the paths are so noisy that the image tells nothing against the answer.
-constexpr double kNoisiest = 0.3;
-// The same as for misfits for the stated scale, a single direction: an offset of three standard
-// deviations widens the result by it, one of 4.4 that exceeds a per cent refuses it.
+// The same for the stated scale, a single direction: an offset of three standard deviations widens
+// the result by it, one of 4.4 that exceeds a per cent refuses it.
 constexpr double kWideningScalePValue = 3e-3;
 constexpr double kRefusedScalePValue = 1e-5;
 constexpr double kRefusedScale = 0.01;
@@ -175,12 +173,6 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
                     "Monte Carlo errors leave {:.2g} % unexplained",
                     100.0 * estimate.rms_relative, 100.0 * unexplained));
   }
-  if (estimate.rms_relative > kNoisiest) {
-    estimate.reasons.push_back(fmt::format(
-        "the paths of transport are too noisy to judge these shots: the residual is {:.2g} %; use "
-        "a larger --time-limit, or a channel in which the material absorbs less",
-        100.0 * estimate.rms_relative));
-  }
   if (scale.p_value < kRefusedScalePValue && std::abs(scale.offset) > kRefusedScale) {
     estimate.reasons.push_back(fmt::format(
         "the shots contradict the scale that the rig states: it should be at least "
@@ -188,6 +180,16 @@ void add_refusals(const LackOfFit& misfit, double unexplained, std::vector<Prior
         100.0 * std::abs(std::expm1(scale.offset)), 100.0 * scale.std,
         scale.offset > 0.0 ? "larger" : "smaller"));
   }
+}
+
+void refuse_noisy(double rest_relative, Estimate& estimate) {
+  constexpr double kNoisiest = 0.3;
+  if (!(rest_relative > kNoisiest)) return;
+  estimate.reasons.push_back(
+      fmt::format("the paths of transport are too noisy to judge these shots: the residual is "
+                  "{:.0f} %; use a larger --time-limit, or a channel in which the material absorbs "
+                  "less",
+                  100.0 * rest_relative));
 }
 
 void refuse_unresolved(const std::vector<double>& area_mm2, Estimate& estimate) {
@@ -222,10 +224,12 @@ void report_fit(const TransportRound& round, const DenseSystem& system, const Sc
     const double settled = std::exp(round.equation().settled_log_scale(rest));
     estimate.scale = normal_quantity(settled, settled * scale.relative_std);
   }
-  report_residual(system, rest, round.equation().without_nuisances(rest), variance, estimate);
+  const Eigen::VectorXd settled = round.equation().without_nuisances(rest);
+  report_residual(system, rest, settled, variance, estimate);
   ModelJudgement judgement = round.judgement();
   add_refusals(round.misfit(), round.unexplained(), std::move(judgement.pulls), scale_test,
                round.blocks(), estimate);
+  refuse_noisy(settled.norm() / system.l.norm(), estimate);
   result.evidence = std::move(judgement.evidence);
 }
 

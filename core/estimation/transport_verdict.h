@@ -76,6 +76,10 @@ std::vector<Eigen::Index> outlying_rows(const TransportRound& round,
 void report_fit(const TransportRound& round, const DenseSystem& system, const ScalePrior& scale,
                 const Eigen::VectorXd& variance, ChannelResult& result);
 
+// Adds a reason where what is left of the image, the nuisances at their most probable values,
+// exceeds 30 % of it: paths that are so noisy explain any image.
+void refuse_noisy(double rest_relative, Estimate& estimate);
+
 // Adds a reason where the light of the estimate's medium reaches less than a tenth of a patch
 // (1 / sqrt(3 sigma_a sigma_t'), of the median patch): then the patches show the ratio of both
 // coefficients, and little of either. area_mm2: of the patches.

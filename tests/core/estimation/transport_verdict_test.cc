@@ -191,16 +191,13 @@ TEST(TransportVerdict, LightThatDiesOffWithinAPatchIsNotResolved) {
   EXPECT_EQ(reasons(3.0, 0.0), 0U);
 }
 
-// However well Monte Carlo explains it.
 TEST(TransportVerdict, NoisyPathsJudgeNothing) {
   Estimate estimate = trusted();
-  estimate.rms_relative = 0.25;
-  add_refusals({}, 0.0, {}, {}, kLeastBlocks, estimate);
+  refuse_noisy(0.25, estimate);
   EXPECT_TRUE(estimate.reasons.empty());
-  estimate.rms_relative = 2.9;
-  add_refusals({}, 0.0, {}, {}, kLeastBlocks, estimate);
+  refuse_noisy(2.9, estimate);
   ASSERT_EQ(estimate.reasons.size(), 1U);
-  EXPECT_NE(estimate.reasons[0].find("too noisy"), std::string::npos);
+  EXPECT_NE(estimate.reasons[0].find("the residual is 290 %"), std::string::npos);
 }
 
 TEST(TransportVerdict, SmallOrInsignificantScalesAreNoReason) {
