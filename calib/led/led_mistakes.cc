@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "core/base/input_error.h"
 #include "core/base/median.h"
 
 namespace scattermeter::calib {
@@ -104,7 +105,7 @@ class Mistakes {
 
   void try_exchanged_leds() {
     for (const std::string& name : input_.shots.lights()) {
-      if (name == light_) continue;
+      if (name == light_ || shots_of(LedShotKind::kSpheres, name).empty()) continue;
       LedCalibrationInput other = input_;
       for (LedCalibrationShot& shot : other.shots.shots) {
         if (shot.kind != LedShotKind::kSpheres) continue;
@@ -153,7 +154,10 @@ class Mistakes {
   }
 
   void try_input(const LedCalibrationInput& input, const std::string& text) {
-    take(departure_of(read_led_shots(input, light_, frames_).scene), text);
+    try {
+      take(departure_of(read_led_shots(input, light_, frames_).scene), text);
+    } catch (const InputError&) {  // a plane out of view: that is not how the shots were taken
+    }
   }
 
   void take(double departure, const std::string& text) {

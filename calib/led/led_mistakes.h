@@ -15,7 +15,7 @@ namespace scattermeter::calib {
 // radius, the shots of two planes exchanged, and those of the spheres exchanged with another
 // LED's; if it is none of these, a plane up to 10 mm from its stated height. A lobe that departs
 // from the model does so with each of them. Reads the shots again, and fits some of their cells up
-// to twelve times a plane. Throws InputError as read_led_shots() does.
+// to twelve times a plane.
 std::string likely_mistake(const LedCalibrationInput& input, const std::string& light,
                            const LedFrames& frames, const LedShots& shots, const LedFit& fit,
                            const LedFitOptions& options);
