@@ -51,10 +51,7 @@ CheckReport check_report(const CheckedRig& checked) {
   }
   std::stable_partition(report.items.begin(), report.items.end(),
                         [](const CheckItem& i) { return !i.passed; });
-  if (std::string unmeasured = placeholder_note(checked.rig.path);
-      !report.passed() && !unmeasured.empty()) {
-    report.notes.insert(report.notes.begin(), std::move(unmeasured));
-  }
+  if (!report.passed()) tell_placeholders(checked.rig.path, report.notes);
   report.cause = probable_cause(checked, report.items);
   return report;
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <fstream>
 #include <memory>
 #include <ostream>

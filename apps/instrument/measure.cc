@@ -104,10 +104,7 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
     throw;
   }
   out.notes.insert(out.notes.begin(), places.begin(), places.end());
-  if (std::string unmeasured = placeholder_note(rig.path);
-      out.any_refused() && !unmeasured.empty()) {
-    out.notes.insert(out.notes.begin(), std::move(unmeasured));
-  }
+  if (out.any_refused()) tell_placeholders(rig.path, out.notes);
   out.skipped.shots_not_asked = whole.scene.shots.size() - rig.scene.shots.size();
   if (instrument.pose_of_points() && whole.pose.board_shot.empty()) {
     const std::string points = calib::left_out_points(*instrument.pose_of_points());

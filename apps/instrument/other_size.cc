@@ -59,7 +59,7 @@ std::optional<Finding> other_size(const ObjectScene& object, const CameraIntrins
   if (best < kOfItsSize || std::abs(std::log(size)) < kOfThisSize) return std::nullopt;
   const std::string& name = object.stated->name;
   return Finding{
-      kOtherSize,
+      "mesh scaled",
       fmt::format("mesh scaled: {} has the outline of a body about {:.2g} times the size of "
                   "its mesh ({:.0f} % of it fits)",
                   name, size, 100.0 * best),

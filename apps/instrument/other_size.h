@@ -12,12 +12,10 @@
 
 namespace scattermeter::apps {
 
-inline constexpr const char* kOtherSize = "mesh scaled";  // Finding::cause
-
 // The size from half to twice that of the mesh, 5 % and more off, with which the outline in the
 // frame fits by nine tenths, wherever the object stands, to a tenth or so; absent where there is
-// none. Without shots.
-// Looks some fifty times, for where the outline of the mesh itself fits nowhere.
+// none. Without shots. Looks some fifty times, for where the outline of the mesh itself fits
+// nowhere.
 std::optional<Finding> other_size(const ObjectScene& object, const CameraIntrinsics& intrinsics,
                                   const PoseResult& pose, const capture::RawFrame& frame,
                                   const SensorNoise& noise);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <variant>
 
@@ -36,6 +37,13 @@ constexpr std::size_t kShotsAgain = 4;  // of each object
 
 double place_std_mm(const ObjectScene& object) {
   return std::max(kLeastPlaceStd_mm, object.stated->position_std_mm);
+}
+
+std::string not_judged(double share) {
+  return fmt::format(
+      "outlines are not judged: only {:.0f} % of their points are found where some position of the "
+      "objects would put them; use a darker background, and light the objects from more sides",
+      100.0 * share);
 }
 
 }  // namespace
@@ -206,22 +214,8 @@ bool OutlineWatch::find_other_sizes(const capture::FrameSource& frames, const Lo
   return found;
 }
 
-void OutlineWatch::conclude(const capture::FrameSource& frames, const Looks& looks,
-                            OutlineFindings& out) const {
+void OutlineWatch::conclude(const Looks& looks, OutlineFindings& out) const {
   const calib::OutlineDiagnosis& d = *out.diagnosis;
-  double share = 0.0;
-  for (const double s : d.fitting_share) {
-    share += s / static_cast<double>(d.fitting_share.size());
-  }
-  if (share < kLeastShare) {
-    if (find_other_sizes(frames, looks, out)) return;
-    out.notes.push_back(fmt::format(
-        "outlines are not judged: only {:.0f} % of their points are found where some position of "
-        "the objects would put them; use a darker background, and light the objects from more "
-        "sides",
-        100.0 * share));
-    return;
-  }
   if (d.agrees) {
     if (d.shifts.empty()) return;
     for (std::size_t b = 0; b < names_.size(); ++b) out.shifts[names_[b]] = d.shifts[b];
@@ -281,10 +275,15 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
       out.diagnosis = look_again(*frames, looks, *out.diagnosis, out.looked_at);
     }
   }
+  const std::vector<double>& fitting = out.diagnosis->fitting_share;
+  const double share = std::accumulate(fitting.begin(), fitting.end(), 0.0) /
+                       std::max<double>(1.0, static_cast<double>(fitting.size()));
+  if (share < kLeastShare) {
+    if (!find_other_sizes(*frames, looks, out)) out.notes.push_back(not_judged(share));
+    return out;
+  }
   const std::size_t others = out.findings.size();
-  conclude(*frames, looks, out);
-  const bool is_of_size = out.findings.size() > others && out.findings.back().cause == kOtherSize;
-  if (is_of_size) return out;
+  conclude(looks, out);
   if (out.findings.size() > others &&
       closer_look_agrees(rig_, objects_, pose_, *frames, out.findings.back().shots)) {
     out.findings.pop_back();

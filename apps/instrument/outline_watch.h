@@ -64,7 +64,7 @@ class OutlineWatch {
                                      std::vector<std::size_t>& looked_at) const;
   bool find_other_sizes(const capture::FrameSource& frames, const Looks& looks,
                         OutlineFindings& out) const;
-  void conclude(const capture::FrameSource& frames, const Looks& looks, OutlineFindings& out) const;
+  void conclude(const Looks& looks, OutlineFindings& out) const;
   void say_exactly(const capture::FrameSource& frames, OutlineFindings& out) const;
 
   const Rig& rig_;

@@ -1,7 +1,7 @@
 #include "apps/rig/rig_placeholders.h"
 
 #include <fstream>
-#include <vector>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,6 +20,12 @@ std::string placeholder_note(const std::string& rig_path) {
       "{}: placeholders of `init` may be left (marked MEASURE in line {}): replace them by what "
       "your rig is, and delete the marks",
       rig_path, fmt::join(lines, ", "));
+}
+
+void tell_placeholders(const std::string& rig_path, std::vector<std::string>& notes) {
+  if (std::string note = placeholder_note(rig_path); !note.empty()) {
+    notes.insert(notes.begin(), std::move(note));
+  }
 }
 
 }  // namespace scattermeter::apps

@@ -42,19 +42,18 @@ bool uses_all_highlights(const LedFit& fit) {
 }
 
 // The scene with a plane moved along its normal: its cells are where the camera's rays meet it.
-LedScene with_height(LedScene scene, std::size_t plane_idx, double height_mm) {
+LedScene with_height(const LedScene& stated, std::size_t plane_idx, double height_mm) {
+  LedScene scene = stated;
   WhitePlane& plane = scene.planes[plane_idx];
-  const WhitePlane stated = plane;
   plane.origin_mm += height_mm * plane.normal();
   for (ShadedCell& cell : scene.cells) {
     if (cell.plane != plane_idx) continue;
     const Eigen::Vector3d eye_mm = inverse(scene.views[cell.view].camera_from_world).translation_mm;
-    const Eigen::Vector3d at_mm = stated.origin_mm + cell.on_plane_mm.x() * stated.x_axis +
-                                  cell.on_plane_mm.y() * stated.y_axis;
-    const auto met = plane.meet_mm(eye_mm, at_mm - eye_mm);
+    const auto met = plane.meet_mm(eye_mm, stated.cell_mm(cell) - eye_mm);
     if (!met) continue;
     cell.on_plane_mm = *met;
-    const double size = 1.0 - height_mm / stated.normal().dot(eye_mm - stated.origin_mm);
+    const double eye_above_mm = plane.normal().dot(eye_mm - plane.origin_mm);
+    const double size = eye_above_mm / (eye_above_mm + height_mm);
     cell.spread_mm2 *= size * size;
   }
   return scene;

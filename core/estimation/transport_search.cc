@@ -169,8 +169,8 @@ class TransportSearch {
       stage_.check();
       return parts_.of_parts(simulation_.light_at_node(node, sigma_a_per_mm, kFirstBlocks / 2));
     };
-    return starting_point(dipole, simulation_.largest_size_mm(), scale_.is_free(),
-                          parts_.light(simulation_.area_mm2(), system_.l), light);
+    return starting_point(dipole, simulation_.largest_size_mm(), scale_.is_free(), parts_.light(),
+                          light);
   }
 
   ChannelSimulation::Look look(const ScatteringPoint& at, int blocks,

@@ -224,12 +224,12 @@ void report_fit(const TransportRound& round, const DenseSystem& system, const Sc
     const double settled = std::exp(round.equation().settled_log_scale(rest));
     estimate.scale = normal_quantity(settled, settled * scale.relative_std);
   }
-  const Eigen::VectorXd settled = round.equation().without_nuisances(rest);
-  report_residual(system, rest, settled, variance, estimate);
+  const Eigen::VectorXd settled_rest = round.equation().without_nuisances(rest);
+  report_residual(system, rest, settled_rest, variance, estimate);
   ModelJudgement judgement = round.judgement();
   add_refusals(round.misfit(), round.unexplained(), std::move(judgement.pulls), scale_test,
                round.blocks(), estimate);
-  refuse_noisy(settled.norm() / system.l.norm(), estimate);
+  refuse_noisy(settled_rest.norm() / system.l.norm(), estimate);
   result.evidence = std::move(judgement.evidence);
 }
 

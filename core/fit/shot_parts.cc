@@ -47,12 +47,12 @@ ShotParts::ShotParts(const std::vector<Eigen::Index>& shot_rows,
   for (Eigen::Index j = 0; j < rows; ++j) {
     light[cell_of_row(j)] += area_mm2[static_cast<std::size_t>(j)] * l[j];
   }
-  Eigen::VectorXd of_part = Eigen::VectorXd::Zero(n_parts);
+  light_ = Eigen::VectorXd::Zero(n_parts);
   std::vector<Eigen::Triplet<double>> in_part, in_cell;
   for (Eigen::Index c = 0; c < n_cells; ++c) {
     const Eigen::Index part = part_of_cell[static_cast<std::size_t>(c)];
     in_part.emplace_back(part, c, light[c]);
-    of_part[part] += light[c];
+    light_[part] += light[c];
   }
   for (Eigen::Index j = 0; j < rows; ++j) {
     const Eigen::Index c = cell_of_row(j);
@@ -64,19 +64,10 @@ ShotParts::ShotParts(const std::vector<Eigen::Index>& shot_rows,
   parts_.setFromTriplets(in_part.begin(), in_part.end());
   Sums holds = parts_;  // 0 or 1
   holds.coeffs().setOnes();
-  parts_ = of_part.cwiseInverse().asDiagonal() * parts_;
+  parts_ = light_.cwiseInverse().asDiagonal() * parts_;
   about_parts_ = Sums(n_cells, n_cells);
   about_parts_.setIdentity();
   about_parts_ -= Sums(Sums(holds.transpose()) * parts_);
-}
-
-Eigen::VectorXd ShotParts::light(const std::vector<double>& area_mm2,
-                                 const Eigen::VectorXd& l) const {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(n_parts());
-  for (Eigen::Index j = 0; j < l.size(); ++j) {
-    out[part_of_row(j)] += area_mm2[static_cast<std::size_t>(j)] * l[j];
-  }
-  return out;
 }
 
 Eigen::VectorXd ShotParts::levelled(const Eigen::VectorXd& light,

@@ -44,13 +44,14 @@ class ShotParts {
   const Sums& about_parts() const { return about_parts_; }
   // From the light of the rows to that of the parts, relative to their l.
   Eigen::VectorXd of_parts(const Eigen::VectorXd& rows) const { return parts_ * (cells_ * rows); }
-  // Sums of the rows' light over the parts; both arguments by row.
-  Eigen::VectorXd light(const std::vector<double>& area_mm2, const Eigen::VectorXd& l) const;
+  // Of every part, l times area.
+  const Eigen::VectorXd& light() const { return light_; }
   // By row: `light`, scaled in every part to the sum of `rows` there. Precondition: no part of
   // `light` is dark.
   Eigen::VectorXd levelled(const Eigen::VectorXd& light, const Eigen::VectorXd& rows) const;
 
  private:
+  Eigen::VectorXd light_;
   Sums cells_, parts_, about_parts_;
   std::vector<Eigen::Index> part_of_row_, cell_of_row_;
 };
