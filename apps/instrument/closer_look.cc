@@ -5,8 +5,6 @@
 
 #include <fmt/core.h>
 
-#include "calib/pose/silhouette_check.h"
-
 namespace scattermeter::apps {
 namespace {
 
@@ -21,6 +19,8 @@ double line_std_px(const Rig& rig, const ObjectScenes& objects, const PoseResult
   return out;
 }
 
+}  // namespace
+
 calib::SilhouetteCheck careful_search(const Rig& rig, const ObjectScenes& objects,
                                       const PoseResult& pose, const capture::FrameSource& frames,
                                       std::vector<std::size_t> shots, double line_std_px) {
@@ -31,8 +31,6 @@ calib::SilhouetteCheck careful_search(const Rig& rig, const ObjectScenes& object
   options.explanation.scale_relative_std = mesh_scale_std(rig.scene);
   return calib::check_silhouettes(rig.scene, rig.pose, objects, frames, shots, pose, options);
 }
-
-}  // namespace
 
 double mesh_scale_std(const Scene& scene) {
   double out = 0.0;

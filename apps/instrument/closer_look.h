@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "apps/rig/rig.h"
+#include "calib/pose/silhouette_check.h"
 #include "capture/shots/shot_source.h"
 #include "core/camera/camera_pose.h"
 #include "core/scene/object_scene.h"
@@ -22,6 +23,12 @@ double px_per_mm(const CameraIntrinsics& intrinsics, const ObjectScene& object,
 // back by edge_std_mm, of which the outline of a bevel seen from any side shows some 0.7.
 double edge_cut_px(const CameraIntrinsics& intrinsics, const ObjectScene& object,
                    const PoseResult& pose);
+
+// The careful search of the outlines of these shots (of four, if there are more), with the sizes of
+// the meshes as uncertain as the rig states. line_std_px: SilhouetteOptions.
+calib::SilhouetteCheck careful_search(const Rig& rig, const ObjectScenes& objects,
+                                      const PoseResult& pose, const capture::FrameSource& frames,
+                                      std::vector<std::size_t> shots, double line_std_px);
 
 // Whether the careful search finds the outline in all of these shots (in four, if there are more)
 // where the rig puts it. The quick look may take the dark side of a body for background.

@@ -13,7 +13,7 @@ using calib::OutlineCause;
 std::string advice_for(const calib::OutlineExplanation& e, const std::string& object) {
   switch (e.cause) {
     case OutlineCause::kMeshScale:
-      return fmt::format("measure the object and scale the mesh of objects.{}", object);
+      return advice_on_scale(object);
     case OutlineCause::kCamera:
       return "take the pose points again, or all shots";
     case OutlineCause::kShotMoved:
@@ -57,6 +57,10 @@ double nearer(const calib::OutlineExplanation& camera, double distance_mm) {
 }
 
 }  // namespace
+
+std::string advice_on_scale(const std::string& object) {
+  return fmt::format("measure the object and scale the mesh of objects.{}", object);
+}
 
 double board_distance_mm(const calib::PoseSource& source, const PoseResult& pose) {
   if (!source.charuco && source.board_shot.empty()) return 0.0;

@@ -10,6 +10,9 @@
 
 namespace scattermeter::apps {
 
+// The next step for an object that is not of its mesh's size.
+std::string advice_on_scale(const std::string& object);
+
 // Distance of a camera whose pose is from a board (pose.charuco, pose.shot), which is known as well
 // as the size of the board's squares; 0: its pose is from points.
 double board_distance_mm(const calib::PoseSource& source, const PoseResult& pose);

@@ -11,9 +11,11 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include "apps/instrument/closer_look.h"
+#include "apps/instrument/other_outline.h"
 #include "apps/instrument/other_size.h"
 #include "apps/instrument/outline_finding.h"
 #include "apps/instrument/piece_places.h"
+#include "apps/instrument/scaled_piece.h"
 #include "core/view/camera_view.h"
 
 namespace scattermeter::apps {
@@ -28,10 +30,6 @@ constexpr double kLeastPlaceStd_mm = 0.1;
 // Below this share of points that lie on one outline it is not judged: the background is bright, or
 // too little of the object is lit.
 constexpr double kLeastShare = 0.5;
-// Another object explains a shot if this share of its outline fits, and so much more than of the
-// stated object's.
-constexpr double kOtherShare = 0.9;
-constexpr double kOtherGain = 0.1;
 constexpr int kLooksAgain = 2;
 constexpr std::size_t kShotsAgain = 4;  // of each object
 
@@ -70,6 +68,13 @@ void OutlineWatch::look(std::size_t shot_idx, const capture::RawFrame& frame) {
   looks_[shot_idx] = std::move(seen);
 }
 
+std::map<std::size_t, std::vector<std::size_t>> OutlineWatch::shots_of_bodies(
+    const Looks& looks) const {
+  std::map<std::size_t, std::vector<std::size_t>> out;
+  for (const auto& [idx, seen] : looks) out[body_of(idx)].push_back(idx);
+  return out;
+}
+
 std::size_t OutlineWatch::body_of(std::size_t shot_idx) const {
   const auto at = std::find(names_.begin(), names_.end(), rig_.scene.shots.at(shot_idx).object);
   return static_cast<std::size_t>(at - names_.begin());
@@ -106,39 +111,14 @@ calib::OutlineDiagnosis OutlineWatch::explain(const Looks& looks,
 // Shots of another object than the stated one; they are taken out of the looks.
 void OutlineWatch::find_other_objects(const capture::FrameSource& frames, Looks& looks,
                                       OutlineFindings& out) const {
-  const CameraIntrinsics& lens = rig_.scene.camera.intrinsics;
   for (auto it = looks.begin(); it != looks.end();) {
-    const std::size_t idx = it->first;
-    const std::size_t body = body_of(idx);
-    const double own =
-        calib::outline_share(it->second.look, *it->second.contour, lens, pose_, centers_mm_[body]);
-    double best = 0.0;
-    std::string other;
-    if (contours_.size() > 1) {
-      const capture::RawFrame frame = frames(idx, 0);
-      for (const auto& [name, contour] : contours_) {
-        if (name == names_[body]) continue;
-        const calib::OutlineLook look =
-            calib::look_at_outline(contour, frame, noise_in_force(rig_));
-        const double share =
-            calib::outline_share(look, contour, lens, pose_, objects_.at(name).box.center_mm());
-        if (share <= best) continue;
-        best = share;
-        other = name;
-      }
-    }
-    if (best < kOtherShare || best < own + kOtherGain) {
+    std::optional<Finding> finding =
+        other_outline(rig_, objects_, pose_, contours_, it->first, it->second.look, frames);
+    if (!finding) {
       ++it;
       continue;
     }
-    Finding finding;
-    finding.cause = "file exchanged";
-    finding.text = fmt::format(
-        "file exchanged: {} has the outline of {} ({:.0f} % of it fits), not of {} ({:.0f} %)",
-        rig_.scene.shots[idx].file, other, 100.0 * best, names_[body], 100.0 * own);
-    finding.advice = "give the file its right name, or correct shots.object";
-    finding.shots = {idx};
-    out.findings.push_back(finding);
+    out.findings.push_back(std::move(*finding));
     it = looks.erase(it);
   }
 }
@@ -199,10 +179,8 @@ calib::OutlineDiagnosis OutlineWatch::look_again(const capture::FrameSource& fra
 // One whose outline fits at another size than its mesh's, by its first shot.
 bool OutlineWatch::find_other_sizes(const capture::FrameSource& frames, const Looks& looks,
                                     OutlineFindings& out) const {
-  std::map<std::size_t, std::vector<std::size_t>> shots;  // by body
-  for (const auto& [idx, seen] : looks) shots[body_of(idx)].push_back(idx);
   bool found = false;
-  for (auto& [body, idxs] : shots) {
+  for (auto& [body, idxs] : shots_of_bodies(looks)) {
     std::optional<Finding> finding =
         other_size(objects_.at(names_[body]), rig_.scene.camera.intrinsics, pose_,
                    frames(idxs.front(), 0), noise_in_force(rig_));
@@ -212,6 +190,22 @@ bool OutlineWatch::find_other_sizes(const capture::FrameSource& frames, const Lo
     found = true;
   }
   return found;
+}
+
+void OutlineWatch::find_scaled_pieces(const capture::FrameSource& frames, const Looks& looks,
+                                      OutlineFindings& out) const {
+  for (const auto& [body, idxs] : shots_of_bodies(looks)) {
+    const ObjectScene& object = objects_.at(names_[body]);
+    if (!seems_scaled(out.diagnosis->growth_px[body], looks.at(idxs.front()).look.cell_px,
+                      edge_cut_px(rig_.scene.camera.intrinsics, object, pose_))) {
+      continue;
+    }
+    if (std::optional<Finding> finding = scaled_piece(rig_, objects_, *object.stated,
+                                                      place_std_mm(object), pose_, frames, idxs)) {
+      out.findings.push_back(std::move(*finding));
+      out.diagnosis->agrees = false;
+    }
+  }
 }
 
 void OutlineWatch::conclude(const Looks& looks, OutlineFindings& out) const {
@@ -290,6 +284,8 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
     out.diagnosis->agrees = true;
   } else if (out.findings.size() > others) {
     say_exactly(*frames, out);
+  } else {
+    find_scaled_pieces(*frames, looks, out);
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/instrument/finding.h"
+#include "apps/instrument/other_outline.h"
 #include "apps/rig/rig.h"
 #include "calib/pose/outline_causes.h"
 #include "capture/raw/raw_frame.h"
@@ -53,6 +54,7 @@ class OutlineWatch {
   using Looks = std::map<std::size_t, Seen>;  // by index of the shot in the scene
 
   std::size_t body_of(std::size_t shot_idx) const;
+  std::map<std::size_t, std::vector<std::size_t>> shots_of_bodies(const Looks& looks) const;
   calib::OutlineDiagnosis explain(const Looks& looks,
                                   const std::vector<Eigen::Vector3d>& assumed_mm,
                                   std::vector<std::size_t>& looked_at) const;
@@ -64,14 +66,16 @@ class OutlineWatch {
                                      std::vector<std::size_t>& looked_at) const;
   bool find_other_sizes(const capture::FrameSource& frames, const Looks& looks,
                         OutlineFindings& out) const;
+  void find_scaled_pieces(const capture::FrameSource& frames, const Looks& looks,
+                          OutlineFindings& out) const;
   void conclude(const Looks& looks, OutlineFindings& out) const;
   void say_exactly(const capture::FrameSource& frames, OutlineFindings& out) const;
 
   const Rig& rig_;
   const ObjectScenes& objects_;
   const PoseResult& pose_;
-  std::map<std::string, std::vector<calib::ContourPoint>> contours_;  // by object
-  std::vector<std::string> names_;                                    // of the objects in the scene
+  Contours contours_;
+  std::vector<std::string> names_;           // of the objects in the scene
   std::vector<Eigen::Vector3d> centers_mm_;  // likewise; 0 for objects without a shot
   Looks looks_;
   mutable std::mutex mutex_;

@@ -210,6 +210,9 @@ OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
   }
   const OutlineModel::Fit exact = model.fit(errors, false);
   const OutlineModel::Fit known = model.fit(causes.known(), true);
+  for (std::size_t b = 0; b < centers_mm.size(); ++b) {
+    out.growth_px.push_back(known.value[model.growth(b)]);
+  }
   double n = 0;
   for (std::size_t s = 0; s < shots.size(); ++s) {
     Eigen::VectorXd one = errors;

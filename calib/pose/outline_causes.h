@@ -54,6 +54,9 @@ struct OutlineDiagnosis {
   // uncertainty (p below 10^-4): the shift from the given pose to the most probable one relative to
   // the body. Empty otherwise.
   std::vector<PoseShift> shifts;
+  // Of each body: by how much its contour lies farther out than its mesh's, pose, place and size as
+  // stated.
+  std::vector<double> growth_px;
 };
 
 struct OutlineOptions {

@@ -1,0 +1,67 @@
+#include "apps/instrument/scaled_piece.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "apps/instrument/closer_look.h"
+#include "apps/instrument/outline_finding.h"
+#include "core/base/chi_square.h"
+#include "core/camera/pose_shift.h"
+
+namespace scattermeter::apps {
+namespace {
+
+PoseResult loosened(const PoseResult& pose, const ObjectScene& object, double place_std_mm) {
+  Eigen::Matrix<double, 6, 1> std;
+  std.head<3>().setConstant(place_std_mm);
+  std.tail<3>().setConstant(place_std_mm / object.size_mm());
+  const Eigen::Matrix<double, 6, 6> by_place =
+      pose_shift_by_place(pose.camera_from_world, object.box.center_mm()) * std.asDiagonal();
+  PoseResult out = pose;
+  out.covariance += by_place * by_place.transpose();
+  return out;
+}
+
+const calib::EdgeExplanation* by_scale(const calib::EdgeDiagnosis& diagnosis) {
+  for (const calib::EdgeExplanation& e : diagnosis.explanations) {
+    if (e.cause == calib::EdgeCause::kMeshScale) return &e;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+bool seems_scaled(double growth_px, double cell_px, double edge_cut_px) {
+  constexpr double kVisible = 0.35;  // cells
+  constexpr double kFarCut = 2.5;    // deviations
+  const double least_px = kVisible * cell_px;
+  return growth_px > least_px || growth_px < -least_px - kFarCut * edge_cut_px;
+}
+
+std::optional<Finding> scaled_piece(const Rig& rig, const ObjectScenes& objects,
+                                    const SceneObject& piece, double place_std_mm,
+                                    const PoseResult& pose, const capture::FrameSource& frames,
+                                    const std::vector<std::size_t>& shots) {
+  constexpr std::size_t kShots = 2;
+  constexpr double kChance = 1e-4;
+  const auto last = static_cast<std::ptrdiff_t>(std::min(kShots, shots.size()));
+  const calib::SilhouetteCheck check =
+      careful_search(rig, objects, loosened(pose, objects.at(piece.name), place_std_mm), frames,
+                     {shots.begin(), shots.begin() + last}, rig.pose.edge_std_px);
+  if (check.shots.empty() || check.shots_found < check.shots.size()) return std::nullopt;
+  const calib::EdgeExplanation* scaled = by_scale(check.diagnosis);
+  if (scaled == nullptr) return std::nullopt;
+  const double gain = check.diagnosis.explanations.at(0).chi2 - scaled->chi2;
+  if (chi_square_tail(std::max(0.0, gain), 1) >= kChance) return std::nullopt;
+  const bool is_larger = scaled->value > 0.0;
+  return Finding{"mesh scaled",
+                 fmt::format("mesh of {} scaled: the object is {:.2f} ± {:.2f} % {}", piece.name,
+                             100.0 * std::abs(scaled->value), std::max(0.01, 100.0 * scaled->std),
+                             is_larger ? "larger than its mesh"
+                                       : "smaller than its mesh, or its edges are cut back"),
+                 advice_on_scale(piece.name), shots};
+}
+
+}  // namespace scattermeter::apps
