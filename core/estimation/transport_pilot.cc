@@ -52,6 +52,11 @@ Eigen::MatrixXd expected_coefficients(bool is_free) {
   return out;
 }
 
+double variance_by_learning(int blocks) {
+  constexpr double kLearningBlocks = 64.0;
+  return 1.0 + kLearningBlocks / std::max(1, blocks);
+}
+
 bool PathPilots::have_learned() const {
   constexpr double kBlocks = 32.0;
   return light_[0].blocks() >= kBlocks;

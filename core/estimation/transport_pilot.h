@@ -37,6 +37,11 @@ Eigen::MatrixXd further_images(const ShotParts& parts, const ScatteringImage& im
 // EquationPilot::expected of these, 5 x unknowns: half of the dipole's detail is found, about.
 Eigen::MatrixXd expected_coefficients(bool is_free);
 
+// Variance of an estimate from so many blocks of paths, over what the covariance of these paths
+// alone says: its weights and derivatives are learned from them, too. In repeated draws for a cube
+// it was 2 at 75 blocks and 1 from 400 on.
+double variance_by_learning(int blocks);
+
 // The pilots of a search: the dipole's image and derivatives, corrected part by part by what either
 // half of the paths shows.
 class PathPilots {

@@ -113,6 +113,11 @@ Eigen::SparseMatrix<double> TransportRound::projection(std::size_t half) const {
   return all;
 }
 
+Eigen::MatrixXd TransportRound::covariance_between(Eigen::Index a, Eigen::Index b) const {
+  return variance_by_learning(blocks()) *
+         look_.covariance.block(a * instruments(), b * instruments(), instruments(), instruments());
+}
+
 void TransportRound::take(ChannelSimulation::Look look) {
   look_ = std::move(look);
   const DenseSystem::BeyondColumn& beyond = shots_.system.beyond_column;
@@ -120,7 +125,7 @@ void TransportRound::take(ChannelSimulation::Look look) {
     const Eigen::Index n = single.system.l.size();
     if (beyond.nuisance >= 0) single.system.beyond_column.l = beyond.l.segment(single.first, n);
   }
-  const Eigen::MatrixXd own = look_.covariance.topLeftCorner(instruments(), instruments());
+  const Eigen::MatrixXd own = covariance_between(0, 0);
   step_ = joint_.step(look_.halves, own, at_);
   // Smoothed images, such as renderings, scatter less from row to row than over several rows; both
   // are noise. Offsets of whole parts are not.
@@ -139,9 +144,8 @@ void TransportRound::take(ChannelSimulation::Look look) {
   misfit_ = misfit_of(rest);
   if (misfit_.p_value < kWideningPValue) scatter_ *= std::max(1.0, misfit_.chi2 / misfit_.dof);
   step_ = joint_.step(look_.halves, own, at_, scatter_);
-  const bool is_first_precise =
-      precise_blocks_ == 0 && is_precise(step_, at_.sigma_a_per_mm, blocks());
-  if (is_first_precise) precise_blocks_ = blocks();
+  const bool is_precise_now = is_precise(step_, at_.sigma_a_per_mm, blocks());
+  if (precise_blocks_ == 0 && is_precise_now) precise_blocks_ = blocks();
 }
 
 Eigen::VectorXd TransportRound::row_variance(const std::vector<double>& area_mm2,
@@ -191,12 +195,12 @@ std::vector<std::size_t> TransportRound::shots() const {
 std::vector<ScatteringEquation::Step> TransportRound::steps_of_shots() const {
   std::vector<ScatteringEquation::Step> steps;
   for (std::size_t i = 0; i < singles_.size(); ++i) {
-    const Eigen::Index first = static_cast<Eigen::Index>(i + 1) * instruments();
-    const Eigen::Index n = singles_[i].system.l.size();
-    steps.push_back(singles_[i].equation->step(
-        {part_of(look_.halves[0], singles_[i].first, n),
-         part_of(look_.halves[1], singles_[i].first, n)},
-        look_.covariance.block(first, first, instruments(), instruments()), at_, scatter_));
+    const auto own = static_cast<Eigen::Index>(i + 1);
+    const auto part = [&, first = singles_[i].first](std::size_t half) {
+      return part_of(look_.halves[half], first, singles_[i].system.l.size());
+    };
+    steps.push_back(singles_[i].equation->step({part(0), part(1)}, covariance_between(own, own),
+                                               at_, scatter_));
   }
   return steps;
 }
@@ -212,10 +216,7 @@ ShotAgreement TransportRound::agreement(const std::vector<ScatteringEquation::St
     for (Eigen::Index k = 0; k < i; ++k) {
       const ScatteringEquation::Step& b = steps[static_cast<std::size_t>(k)];
       // Shots under the same light share paths.
-      const Eigen::MatrixXd paths =
-          at_.scale * at_.scale *
-          look_.covariance.block((i + 1) * instruments(), (k + 1) * instruments(), instruments(),
-                                 instruments());
+      const Eigen::MatrixXd paths = at_.scale * at_.scale * covariance_between(i + 1, k + 1);
       const Eigen::MatrixXd shared =
           a.common_causes * b.common_causes.transpose() + a.inverse * paths * b.inverse.transpose();
       all.block<2, 2>(2 * i, 2 * k) = shared.topLeftCorner<2, 2>();

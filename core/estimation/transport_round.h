@@ -118,6 +118,9 @@ class TransportRound {
   Eigen::Index unknowns() const { return joint_.unknowns(); }
   Eigen::Index instruments() const { return joint_.projection(0).rows(); }
   bool tests_scale() const;
+  // Monte Carlo covariance of the projections of two estimates: 0 the joint one, then the single
+  // shots'. With that of the weights and derivatives, which few paths teach badly.
+  Eigen::MatrixXd covariance_between(Eigen::Index a, Eigen::Index b) const;
   Eigen::SparseMatrix<double> projection(std::size_t half) const;
   double scatter_of_cells(const Eigen::VectorXd& rest) const;
   // Covariance of the light of the parts by noise, Monte Carlo and scatter within them.

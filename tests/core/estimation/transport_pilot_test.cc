@@ -84,6 +84,12 @@ TEST(TransportPilot, PathVarianceFollowsLightOverArea) {
 // Paths with alpha a deviation larger and smaller, 0.45 and 0.15: the light of the whole image, 2.2
 // % more by paths and 2.8 % by the column, and of its rows, whose chi-square is 3.3 a row without
 // the column and 1.5 with it.
+TEST(TransportPilot, FewPathsTeachBadly) {
+  EXPECT_NEAR(variance_by_learning(75), 1.9, 0.1);
+  EXPECT_LT(variance_by_learning(400), 1.2);
+  EXPECT_GE(variance_by_learning(0), variance_by_learning(1));
+}
+
 TEST(TransportPilot, RoughnessIsThatOfPaths) {
   const Medium medium{0.9, 0.01, 1.3};
   constexpr double kAlpha = 0.3;

@@ -1,5 +1,6 @@
 #include "core/estimation/transport_round.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -117,6 +118,18 @@ TEST_F(RoundOfTheCube, AnImageThatIsPredictedMovesNothing) {
   // From so few blocks the parts' covariance is unusable: no misfit is stated.
   EXPECT_EQ(round_->misfit().dof, 0.0);
   EXPECT_LT((round_->cell_covariance() - cell_covariance_).norm(), 1e-9 * cell_covariance_.norm());
+}
+
+TEST_F(RoundOfTheCube, MonteCarloErrorsCountWhatTheWeightsLearnedToo) {
+  take();
+  const Eigen::MatrixXd& inverse = round_->step().inverse;
+  const Eigen::MatrixXd paths =
+      inverse * round_->look().covariance.topLeftCorner(5, 5) * inverse.transpose();
+  const auto stated = std::find_if(
+      round_->step().causes.begin(), round_->step().causes.end(),
+      [](const ScatteringEquation::Step::Cause& c) { return c.name == "Monte Carlo"; });
+  ASSERT_NE(stated, round_->step().causes.end());
+  EXPECT_NEAR(stated->covariance(1, 1) / paths(1, 1), variance_by_learning(round_->blocks()), 1e-6);
 }
 
 // The equation is linear: an image that departs along a derivative is met by exactly that step.
