@@ -169,8 +169,12 @@ FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
   }
   const std::vector<Finding> of_frames = frame_watch.findings();
   // Shots of which something is wrong or a little off are looked at again next time.
-  if (!of_frames.empty() || !outlines.findings.empty() || !outlines.shifts.empty()) seen.forget();
+  if (!of_frames.empty() || !outlines.findings.empty() || !outlines.shifts.empty() ||
+      !outlines.sizes_open.empty()) {
+    seen.forget();
+  }
   if (!outlines.shifts.empty()) seen.open_from(outlines.shifts);
+  if (!outlines.sizes_open.empty()) seen.leave_sizes_open(outlines.sizes_open);
   outlines.findings.insert(outlines.findings.begin(), of_frames.begin(), of_frames.end());
   watch.lap("shots");
   std::vector<Finding> of_light;

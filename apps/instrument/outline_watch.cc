@@ -196,14 +196,19 @@ void OutlineWatch::find_scaled_pieces(const capture::FrameSource& frames, const 
                                       OutlineFindings& out) const {
   for (const auto& [body, idxs] : shots_of_bodies(looks)) {
     const ObjectScene& object = objects_.at(names_[body]);
-    if (!seems_scaled(out.diagnosis->growth_px[body], looks.at(idxs.front()).look.cell_px,
-                      edge_cut_px(rig_.scene.camera.intrinsics, object, pose_))) {
-      continue;
+    const SizeLook seen = size_look(out.diagnosis->growth_px[body],
+                                    looks.at(idxs.front()).look.cell_px, rig_, object, pose_);
+    std::optional<Finding> finding;
+    if (seems_scaled(seen)) {
+      finding =
+          scaled_piece(rig_, objects_, *object.stated, place_std_mm(object), pose_, frames, idxs);
     }
-    if (std::optional<Finding> finding = scaled_piece(rig_, objects_, *object.stated,
-                                                      place_std_mm(object), pose_, frames, idxs)) {
+    if (finding) {
       out.findings.push_back(std::move(*finding));
       out.diagnosis->agrees = false;
+    } else if (const double open = size_left_open(seen); open > 0.0) {
+      out.sizes_open[names_[body]] = open;
+      out.notes.push_back(size_note(names_[body], seen));
     }
   }
 }
@@ -282,7 +287,8 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
       closer_look_agrees(rig_, objects_, pose_, *frames, out.findings.back().shots)) {
     out.findings.pop_back();
     out.diagnosis->agrees = true;
-  } else if (out.findings.size() > others) {
+  }
+  if (out.findings.size() > others) {
     say_exactly(*frames, out);
   } else {
     find_scaled_pieces(*frames, looks, out);

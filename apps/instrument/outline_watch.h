@@ -26,6 +26,9 @@ struct OutlineFindings {
   // By ObservedShot::view_name(), if the outlines show where the objects stand within the rig's
   // uncertainty: the shift of the pose relative to them. Empty otherwise.
   std::map<std::string, PoseShift> shifts;
+  // By object, where its outline does not tell cut edges from another size:
+  // ObservedShot::size_open_relative.
+  std::map<std::string, double> sizes_open;
   // Absent without a shot whose outline was seen.
   std::optional<calib::OutlineDiagnosis> diagnosis;
   std::vector<std::size_t> looked_at;  // indices of the shots in the scene, as in the diagnosis

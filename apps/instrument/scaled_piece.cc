@@ -13,6 +13,8 @@
 namespace scattermeter::apps {
 namespace {
 
+constexpr double kVisibleGrowth = 0.35;  // cells
+
 PoseResult loosened(const PoseResult& pose, const ObjectScene& object, double place_std_mm) {
   Eigen::Matrix<double, 6, 1> std;
   std.head<3>().setConstant(place_std_mm);
@@ -33,11 +35,29 @@ const calib::EdgeExplanation* by_scale(const calib::EdgeDiagnosis& diagnosis) {
 
 }  // namespace
 
-bool seems_scaled(double growth_px, double cell_px, double edge_cut_px) {
-  constexpr double kVisible = 0.35;  // cells
-  constexpr double kFarCut = 2.5;    // deviations
-  const double least_px = kVisible * cell_px;
-  return growth_px > least_px || growth_px < -least_px - kFarCut * edge_cut_px;
+SizeLook size_look(double growth_px, double cell_px, const Rig& rig, const ObjectScene& object,
+                   const PoseResult& pose) {
+  const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
+  return {growth_px, cell_px, edge_cut_px(lens, object, pose),
+          object.size_mm() * px_per_mm(lens, object, pose)};
+}
+
+double size_left_open(const SizeLook& seen) {
+  if (seen.growth_px > -kVisibleGrowth * seen.cell_px || seen.edge_cut_px <= 0.0) return 0.0;
+  return 0.5 * -seen.growth_px / (0.5 * seen.size_px);
+}
+
+std::string size_note(const std::string& piece, const SizeLook& seen) {
+  return fmt::format(
+      "outline of {} lies {:.1f} px inside that of its mesh: its edges are cut back, or it is "
+      "smaller, so its size counts as known to {:.2g} %",
+      piece, -seen.growth_px, 100.0 * size_left_open(seen));
+}
+
+bool seems_scaled(const SizeLook& seen) {
+  constexpr double kFarCut = 2.5;  // deviations
+  const double least_px = kVisibleGrowth * seen.cell_px;
+  return seen.growth_px > least_px || seen.growth_px < -least_px - kFarCut * seen.edge_cut_px;
 }
 
 std::optional<Finding> scaled_piece(const Rig& rig, const ObjectScenes& objects,

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/instrument/finding.h"
@@ -13,10 +14,25 @@
 
 namespace scattermeter::apps {
 
-// Whether a contour that the quick look sees so much farther out than the mesh's, px, asks for a
-// closer look. That look is good to a sixth of a cell, and edges cut back (edge_cut_px(), a
-// standard deviation) let a piece seem smaller, but never larger.
-bool seems_scaled(double growth_px, double cell_px, double edge_cut_px);
+// How the quick look sees the size of a piece, px.
+struct SizeLook {
+  double growth_px = 0;    // of the contour, outwards from the mesh's; good to a sixth of a cell
+  double cell_px = 0;      // of the look
+  double edge_cut_px = 0;  // a standard deviation by which its edges may be cut back
+  double size_px = 0;      // of the mesh in the picture
+};
+
+SizeLook size_look(double growth_px, double cell_px, const Rig& rig, const ObjectScene& object,
+                   const PoseResult& pose);
+
+// Whether that asks for a closer look: edges cut back let a piece seem smaller, but never larger.
+bool seems_scaled(const SizeLook& seen);
+
+// What a contour farther in leaves open of the piece's size, where its edges may be cut back as
+// well: half of the size that would explain it, relative; 0 within the look's own error.
+double size_left_open(const SizeLook& seen);
+// The note on that.
+std::string size_note(const std::string& piece, const SizeLook& seen);
 
 // The finding that a piece is larger or smaller than its mesh by more than its scale_relative_std
 // explains (p below 10^-4), by the careful search in two of its shots. The piece may stand anywhere

@@ -50,6 +50,15 @@ void SeenShots::open(const capture::ShotSource& from) {
   if (!is_worth_choosing(shots_) || std::any_of(shots_.begin(), shots_.end(), is_blurred)) {
     levels_ = std::nullopt;
   }
+  leave_sizes_open(sizes_open_);
+}
+
+void SeenShots::leave_sizes_open(std::map<std::string, double> of_objects) {
+  sizes_open_ = std::move(of_objects);
+  for (ObservedShot& shot : shots_) {
+    const auto open = sizes_open_.find(shot.stated->object);
+    shot.size_open_relative = open == sizes_open_.end() ? 0.0 : open->second;
+  }
   choose(levels_);
 }
 

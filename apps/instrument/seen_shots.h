@@ -55,6 +55,8 @@ class SeenShots {
   void open(const capture::ShotSource& from);
   // Again, from views that are shifted: by ObservedShot::view_name(). Precondition: they are open.
   void open_from(const std::map<std::string, PoseShift>& shifts);
+  // Of the objects of all shots, open now and later: ObservedShot::size_open_relative.
+  void leave_sizes_open(std::map<std::string, double> of_objects);
   // Takes these shots out of the cache, and keeps none from now on.
   void forget();
 
@@ -71,6 +73,7 @@ class SeenShots {
   capture::ShotSource source_;
   std::optional<SharedView> view_;
   std::map<std::string, OwnView> own_;  // without a common view
+  std::map<std::string, double> sizes_open_;
   bool on_smooth_knots_;
   std::optional<int> levels_;
   KeptLight shifted_;

@@ -58,23 +58,16 @@ class DipoleEstimator {
     e_.watch.lap("first fit");
     std::vector<bool> open(work_.size());
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = work_[i].estimated;
-    // What ambient light adds depends on the material itself: those channels are repeated until
-    // they settle (an error falls to a sixth each time).
+    // What ambient light adds depends on the material itself, and so does what an eta that is off
+    // changes: those channels are repeated until they settle (an error falls to a sixth each time).
     constexpr int kRounds = 8;
     for (int round = 0; round < kRounds; ++round) {
       final_fits(open);
-      bool again = false;
-      for (std::size_t i = 0; i < open.size(); ++i) {
-        open[i] = open[i] && !work_[i].settled && e_.results[i].estimate.converged;
-        again = again || open[i];
-      }
-      if (!again) break;
-    }
-    constexpr int kChangesRounds = 3;
-    for (int round = 0; round < kChangesRounds; ++round) {
       open = take_found(e_.scene, e_.results, changes_at_);
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        open[i] = open[i] || (!work_[i].settled && e_.results[i].estimate.converged);
+      }
       if (std::find(open.begin(), open.end(), true) == open.end()) break;
-      final_fits(open);
     }
     fit_with_joint_pulls();
     e_.watch.lap("fit");
@@ -91,8 +84,9 @@ class DipoleEstimator {
       const Estimate before = e_.results[i].estimate;
       final_fit(i);
       constexpr double kOfStd = 0.02;
-      work_[i].settled = !has_fitted_light(e_.scene, e_.channels[i]) ||
-                         is_near(before, e_.results[i].estimate, kOfStd);
+      const Estimate& now = e_.results[i].estimate;
+      work_[i].settled = !(has_fitted_light(e_.scene, e_.channels[i]) || finds_other_eta(now)) ||
+                         is_near(before, now, kOfStd);
     });
     e_.watch.lap("fit");
   }

@@ -7,9 +7,16 @@
 
 namespace scattermeter {
 
+bool finds_other_eta(const Estimate& estimate) {
+  constexpr double kOther = 0.005;
+  return !misses_image(estimate) &&
+         std::any_of(estimate.pulls.begin(), estimate.pulls.end(), [](const PriorPull& p) {
+           return p.group == "eta" && std::abs(p.offset) > kOther;
+         });
+}
+
 std::vector<bool> take_far_etas(const std::vector<ChannelResult>& results, EtaOffsets& offsets) {
-  constexpr double kGrid = 0.01;
-  constexpr double kNear = 0.03;
+  constexpr double kGrid = 0.005;
   constexpr double kNew = 1.5 * kGrid;
   constexpr double kFarthest = 0.2;  // a fit that is still on its way
   std::vector<bool> taken(results.size());
@@ -20,9 +27,7 @@ std::vector<bool> take_far_etas(const std::vector<ChannelResult>& results, EtaOf
     if (!e.converged || misses_image(e)) continue;
     for (const PriorPull& p : e.pulls) {
       if (p.group != "eta" || std::abs(p.offset - offsets[i]) < kNew) continue;
-      const double rounded =
-          kGrid * std::round(std::clamp(p.offset, -kFarthest, kFarthest) / kGrid);
-      const double offset = std::abs(rounded) < kNear - 0.5 * kGrid ? 0.0 : rounded;
+      const double offset = kGrid * std::round(std::clamp(p.offset, -kFarthest, kFarthest) / kGrid);
       taken[i] = offset != offsets[i];
       offsets[i] = offset;
     }

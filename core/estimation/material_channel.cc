@@ -85,7 +85,7 @@ std::string shot_problem(const ObservedShot& shot, std::size_t channel) {
 void widen_by_mesh_scale(const MaterialChannel& channel, Estimate& estimate) {
   double relative = 0.0;
   for (const ObservedShot* shot : channel.shots) {
-    relative = std::max(relative, shot->seen->object->stated->scale_relative_std);
+    relative = std::max(relative, shot->size_relative_std());
   }
   if (!(relative > 0.0)) return;
   const double by_s = relative * estimate.sigma_s_prime_per_mm.value;

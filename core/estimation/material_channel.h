@@ -36,7 +36,7 @@ double patch_size_mm(const MaterialChannel& channel);
 // An object that is larger than its mesh by a factor 1 + s, with light and camera at the matching
 // scale, looks like the mesh with coefficients that are larger by the same factor: lengths are
 // known by their products with the coefficients alone. Widens deviations and 95 % intervals by the
-// largest SceneObject::scale_relative_std of the channel's objects, common to both coefficients,
+// largest ObservedShot::size_relative_std() of the channel, common to both coefficients,
 // and adds the budget's line "mesh scale".
 void widen_by_mesh_scale(const MaterialChannel& channel, Estimate& estimate);
 

@@ -57,13 +57,15 @@ Eigen::MatrixXd relative_change(const Eigen::MatrixXd& changed, const Eigen::Mat
   return (l.array() > 0.0).select((changed - l).array() / (by * l.array()), 0.0);
 }
 
-// Of the l that are observed, for the same radiance.
-void subtract_observed(const SeenObject& seen, const Eigen::MatrixXd& l, double step,
+// What eta changes in the l that are observed for the same radiance, by growth g a unit, taken off
+// the change r of those that are predicted: (1 + s r) / (1 + s g) = 1 + s (r - g) / (1 + s g).
+void take_off_observed(const SeenObject& seen, const Eigen::MatrixXd& l, double step,
                        Eigen::MatrixXd& per_eta) {
   for (std::size_t j = 0; j < seen.sites.size(); ++j) {
     const auto row = static_cast<Eigen::Index>(j);
-    per_eta.row(row) -= l.row(row) * observed_growth(seen.object->stated->eta_int_over_ext,
-                                                     seen.cos_to_camera(j), step);
+    const double growth =
+        observed_growth(seen.object->stated->eta_int_over_ext, seen.cos_to_camera(j), step);
+    per_eta.row(row) = (per_eta.row(row) - growth * l.row(row)) / (1.0 + step * growth);
   }
 }
 
@@ -224,7 +226,7 @@ LightSensitivity sensitivity(const SeenObject& seen, const WeightMatrix& nominal
     }
   }
   out.per_eta = of_light(images.other_eta, kEtaStep);
-  if (out.per_eta.size() > 0) subtract_observed(seen, out.l, kEtaStep, out.per_eta);
+  if (out.per_eta.size() > 0) take_off_observed(seen, out.l, kEtaStep, out.per_eta);
   return out;
 }
 
@@ -255,7 +257,7 @@ void set_far_per_eta(const SeenObject& seen, const SceneLight& light, std::size_
     Eigen::MatrixXd per_eta = relative_change(image(coarse.nominal(there), there, some),
                                               image(nominal, eta, some), offset)
                                   .cwiseProduct(l);
-    subtract_observed(seen, l, offset, per_eta);
+    take_off_observed(seen, l, offset, per_eta);
     sensitivity.per_eta(Eigen::all, columns) = per_eta;
   }
 }

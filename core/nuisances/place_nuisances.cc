@@ -169,7 +169,7 @@ void SceneNuisances::add_place(const ObservedShot& shot, const SeenChange& seen_
                                Columns& columns) const {
   const SeenObject& seen = *shot.seen;
   const SceneObject& stated = *seen.object->stated;
-  if (!(stated.position_std_mm > 0.0) && !(stated.scale_relative_std > 0.0)) return;
+  if (!(stated.position_std_mm > 0.0) && !(shot.size_relative_std() > 0.0)) return;
   const Rigid3d& pose = shot.pose.camera_from_world;
   const Eigen::Vector3d& center_mm = seen.object->box.center_mm();
   const auto n = static_cast<Eigen::Index>(columns.rows().size());
@@ -203,8 +203,8 @@ void SceneNuisances::add_place(const ObservedShot& shot, const SeenChange& seen_
     columns.add(stated.name + ".position" + std::to_string(k), "mesh position",
                 k < 3 ? std_mm : std_mm / seen.object->size_mm(), change.col(k));
   }
-  if (stated.scale_relative_std > 0.0) {
-    columns.add(stated.piece_name() + ".size", "mesh scale", stated.scale_relative_std,
+  if (shot.size_relative_std() > 0.0) {
+    columns.add(stated.piece_name() + ".size", "mesh scale", shot.size_relative_std(),
                 change.col(6));
   }
 }

@@ -77,11 +77,17 @@ struct ObservedShot : DecodedShot {
   PoseResult pose;
   bool has_own_pose = false;        // estimated from this shot alone; otherwise common to all shots
   std::size_t samples_outside = 0;  // in no object's rectangle: not converted
+  // What the object's outline leaves open of its size, besides scale_relative_std.
+  double size_open_relative = 0;
 
   // The name of its view: shots of one object with a common pose have the same.
   const std::string& view_name() const { return has_own_pose ? stated->file : stated->object; }
   // The name of its pose among the nuisances, without the number of the combination.
   std::string pose_name() const { return has_own_pose ? "pose " + stated->file : "pose"; }
+  // Of all lengths of the object.
+  double size_relative_std() const {
+    return std::hypot(seen->object->stated->scale_relative_std, size_open_relative);
+  }
   // Size of a pixel on the object.
   double px_mm(double fx_px) const {
     return (pose.camera_from_world * seen->object->box.center_mm()).z() / fx_px;

@@ -123,6 +123,30 @@ TEST_F(InstrumentTest, ATabulatedLobeIsTheLobe) {
   }
 }
 
+// What an eta that is off changes is followed at the medium that is found, not at the first guess.
+TEST_F(InstrumentTest, FollowsAnEtaThatIsOff) {
+  const auto measured = [&](double eta_off) {
+    Rig off = rig_;
+    for (SceneObject& object : off.scene.objects) {
+      object.eta_int_over_ext += eta_off;
+      object.eta_std = 0.04;
+    }
+    const ObjectScenes scenes = open_objects(off);
+    Instrument instrument(off, scenes, options_);
+    return instrument.measure(
+        capture::shots_from(off.scene, capture::all_shots(off.scene), frames(3)));
+  };
+  const Measurement stated = measured(0.0);
+  const Measurement off = measured(0.06);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Estimate& a = stated.results[c].estimate;
+    const Estimate& b = off.results[c].estimate;
+    ASSERT_TRUE(a.converged && b.converged);
+    EXPECT_NEAR(b.sigma_s_prime_per_mm.value / a.sigma_s_prime_per_mm.value, 1.0, 0.005) << c;
+    EXPECT_NEAR(b.sigma_a_per_mm.value / a.sigma_a_per_mm.value, 1.0, 0.02) << c;
+  }
+}
+
 TEST_F(InstrumentTest, IdealSamplesNeedAPose) {
   Rig board = rig_;
   board.pose.points.clear();

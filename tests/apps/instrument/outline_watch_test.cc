@@ -58,6 +58,7 @@ TEST_F(OutlineWatchTest, GoodRig) {
   for (const Finding& f : found.findings) ADD_FAILURE() << f.text;
   EXPECT_TRUE(found.notes.empty());
   EXPECT_TRUE(found.shifts.empty());
+  EXPECT_TRUE(found.sizes_open.empty());
   ASSERT_TRUE(found.diagnosis);
   EXPECT_EQ(found.looked_at.size(), 4U);
 }
@@ -97,6 +98,25 @@ TEST_F(OutlineWatchTest, AnotherSize) {
   ASSERT_EQ(found.findings.size(), 1U);
   EXPECT_THAT(found.findings[0].text, HasSubstr("smaller than its mesh"));
   EXPECT_EQ(found.findings[0].shots, (std::vector<std::size_t>{0, 1}));
+}
+
+// A mesh a little larger than the piece: its edges may be cut back as well.
+TEST_F(OutlineWatchTest, ALittleSmallerThanItsMesh) {
+  const capture::ShotSource source = shots({0, 0, 0});
+  rig_.scene.objects[0].edge_std_mm = 0.2;
+  scenes_ = open_objects(rig_, [](const SceneObject& object) {
+    TriangleMesh mesh = body_mesh(object.name);
+    for (Eigen::Vector3d& v : mesh.vertices_mm) v *= object.name == "cube" ? 1.015 : 1.0;
+    return mesh;
+  });
+  const OutlineFindings found = findings(source);
+  EXPECT_TRUE(found.findings.empty());
+  ASSERT_EQ(found.sizes_open.size(), 1U);
+  // From a third of the true difference to all of it.
+  EXPECT_GT(found.sizes_open.at("cube"), 0.005);
+  EXPECT_LT(found.sizes_open.at("cube"), 0.015);
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_THAT(found.notes[0], HasSubstr("outline of cube lies"));
 }
 
 TEST_F(OutlineWatchTest, FileOfAnotherObject) {

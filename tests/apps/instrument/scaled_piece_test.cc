@@ -70,12 +70,21 @@ TEST_F(ScaledPieceTest, AStatedDeviationIsAllowed) {
   EXPECT_FALSE(told(0.98, {0, 0, 0}).has_value());
 }
 
-TEST(SeemsScaled, EdgesCutBackMakeAPieceSmallerOnly) {
-  EXPECT_TRUE(seems_scaled(4.0, 8.0, 4.0));
-  EXPECT_FALSE(seems_scaled(1.3, 8.0, 0.0));
-  EXPECT_FALSE(seems_scaled(-8.0, 8.0, 4.0));
-  EXPECT_TRUE(seems_scaled(-15.0, 8.0, 4.0));
-  EXPECT_TRUE(seems_scaled(-4.0, 8.0, 0.0));
+TEST(SizeLook, EdgesCutBackMakeAPieceSmallerOnly) {
+  EXPECT_TRUE(seems_scaled({4.0, 8.0, 4.0, 1000.0}));
+  EXPECT_FALSE(seems_scaled({1.3, 8.0, 0.0, 1000.0}));
+  EXPECT_FALSE(seems_scaled({-8.0, 8.0, 4.0, 1000.0}));
+  EXPECT_TRUE(seems_scaled({-15.0, 8.0, 4.0, 1000.0}));
+  EXPECT_TRUE(seems_scaled({-4.0, 8.0, 0.0, 1000.0}));
+}
+
+// 8 px on either side of 1000 px are 1.6 % of the size.
+TEST(SizeLook, LeavesHalfOfItsExplanationBySizeOpen) {
+  EXPECT_NEAR(size_left_open({-8.0, 8.0, 4.0, 1000.0}), 0.008, 1e-12);
+  EXPECT_EQ(size_left_open({-2.0, 8.0, 4.0, 1000.0}), 0.0);
+  EXPECT_EQ(size_left_open({8.0, 8.0, 4.0, 1000.0}), 0.0);
+  EXPECT_EQ(size_left_open({-8.0, 8.0, 0.0, 1000.0}), 0.0);
+  EXPECT_THAT(size_note("cube", {-8.0, 8.0, 4.0, 1000.0}), ::testing::HasSubstr("known to 0.8 %"));
 }
 
 }  // namespace

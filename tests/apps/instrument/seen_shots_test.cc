@@ -54,6 +54,18 @@ TEST_F(SeenShotsTest, OpensFromWhereTheObjectIsSeen) {
   EXPECT_TRUE(shots->kept().weights.contains({shot.seen.get(), shot.stated->lights.at(0), 0}));
 }
 
+TEST_F(SeenShotsTest, SizesStayOpenWhenShotsAreOpenedAgain) {
+  const auto shots = seen(setup_.view);
+  shots->open();
+  EXPECT_EQ(shots->shots()[0].size_open_relative, 0.0);
+  shots->leave_sizes_open({{"cube", 0.004}});
+  EXPECT_EQ(shots->shots()[0].size_open_relative, 0.004);
+  PoseShift shift = PoseShift::Zero();
+  shift[3] = 0.1;
+  shots->open_from({{"cube", shift}});
+  for (const ObservedShot& shot : shots->shots()) EXPECT_EQ(shot.size_open_relative, 0.004);
+}
+
 // Each from its own pose, of which only the shift changes.
 TEST_F(SeenShotsTest, OpensShotsWithTheirOwnPosesFromElsewhere) {
   setup_.rig.pose.refine_by_silhouette = setup_.rig.pose.per_shot = true;

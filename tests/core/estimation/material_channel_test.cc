@@ -121,6 +121,12 @@ TEST(MaterialChannel, CoefficientsAreAsUncertainAsLengths) {
   ASSERT_EQ(e.budget.size(), 1U);
   EXPECT_EQ(e.budget[0].cause, "mesh scale");
   EXPECT_NEAR(e.budget[0].std_sigma_s_prime_per_mm, 0.004, 1e-15);
+  // An outline that does not tell cut edges from another size leaves more open.
+  cube.shots[0].size_open_relative = 0.0015;
+  Estimate open = exact;
+  widen_by_mesh_scale(channel, open);
+  ASSERT_EQ(open.budget.size(), 1U);
+  EXPECT_NEAR(open.budget[0].std_sigma_s_prime_per_mm, 2.0 * 0.0025, 1e-15);
 }
 
 }  // namespace
