@@ -28,9 +28,9 @@ LitMedium lit_medium(const Estimate& first);  // with an eta of 1
 // Change of l (per unit of the light's power) on the rows of a view for each medium: rows x media.
 // Those by the light's quantities that are stated as exact are left out.
 struct LightSensitivity {
-  Eigen::MatrixXd l;                        // nominal
-  std::vector<Eigen::MatrixXd> per_change;  // by each quantity of Light::changes()
-  Eigen::MatrixXd per_eta;                  // by eta, of predicted - observed l: both depend on it
+  Eigen::MatrixXd l;                              // nominal
+  std::vector<Eigen::MatrixXd> per_change;        // by each quantity of Light::changes()
+  Eigen::MatrixXd per_eta;                        // by eta, of the l observed with the stated one
   std::array<Eigen::MatrixXd, 2> per_tangent_mm;  // by a shift of the sites along tangents()
   Eigen::MatrixXd per_albedo;                     // by the albedo of the plane below; of LEDs only
   Eigen::MatrixXd per_edge_mm;  // by the mm by which edges are cut back; of LEDs only; may be empty
