@@ -34,10 +34,11 @@ double size_left_open(const SizeLook& seen);
 // The note on that.
 std::string size_note(const std::string& piece, const SizeLook& seen);
 
-// The finding that a piece is larger or smaller than its mesh by more than its scale_relative_std
-// explains (p below 10^-4), by the careful search in two of its shots. The piece may stand anywhere
-// within place_std_mm of its place (each coordinate), and turned by as much at a distance of its
-// size. Absent where that does not show. shots: indices into the scene's, all of this object.
+// The finding that a piece is larger or smaller than its mesh by more than the largest
+// scale_relative_std of the rig's objects explains (p below 10^-4), by the careful search in two of
+// its shots. The piece may stand anywhere within place_std_mm of its place (each coordinate), and
+// turned by as much at a distance of its size. Absent where that does not show. shots: indices into
+// the scene's, all of this object.
 std::optional<Finding> scaled_piece(const Rig& rig, const ObjectScenes& objects,
                                     const SceneObject& piece, double place_std_mm,
                                     const PoseResult& pose, const capture::FrameSource& frames,
