@@ -67,6 +67,17 @@ void read_marks(Rig& rig, const DeviationDraw& d) {
   }
 }
 
+void bend_towards_white(std::vector<ColourFrame>& frames, const DeviationDraw& d) {
+  std::mt19937_64 random(d.seed + 3);
+  std::normal_distribution<double> normal(0.0, d.size * stated::kNonLinearity);
+  const double at_white = normal(random);
+  for (ColourFrame& frame : frames) {
+    for (std::vector<float>& plane : frame.counts) {
+      for (float& c : plane) c *= static_cast<float>(1.0 + at_white * c / frame.range_counts);
+    }
+  }
+}
+
 void shift_second(std::vector<ColourFrame>& frames, const DeviationDraw& d) {
   if (frames.size() < 2) return;
   std::mt19937_64 random(d.seed + 2);
@@ -84,7 +95,11 @@ std::vector<Deviation> drawn_deviations() {
            .sizes = {1},
            .within = 1,
            .truth = draw_all,
-           .frames = shift_second,
+           .frames =
+               [](std::vector<ColourFrame>& frames, const DeviationDraw& d) {
+                 shift_second(frames, d);
+                 bend_towards_white(frames, d);
+               },
            .stated = read_marks}};
 }
 

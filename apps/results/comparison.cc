@@ -14,9 +14,9 @@
 namespace scattermeter::apps {
 namespace {
 
-constexpr std::array<std::string_view, 11> kOfTheRig = {
-    "scale", "LED power", "LED position", "LED axis",      "LED exponent", "LED calibration",
-    "lens",  "pose",      "vignetting",   "veiling glare", "surroundings"};
+constexpr std::array<std::string_view, 12> kOfTheRig = {
+    "scale", "LED power", "LED position", "LED axis",      "LED exponent",  "LED calibration",
+    "lens",  "pose",      "vignetting",   "non-linearity", "veiling glare", "surroundings"};
 
 // Of one error that both measurements had: not of a piece, and not of a shot ("pose a.dng0").
 bool is_of_the_rig(const RigResponse& r) {

@@ -33,7 +33,10 @@ void use_radiance(Rig& rig, std::shared_ptr<const capture::RadianceCalibration> 
                   const std::string& path) {
   rig.scene.camera.glare_std =
       radiance ? radiance->correction.glare_std : std::array<double, kRgb>{};
-  if (radiance) rig.scene.camera.vignetting_std = 0.0;  // corrected by its flats
+  if (radiance) {  // corrected by its flats
+    rig.scene.camera.vignetting_std = 0.0;
+    rig.scene.camera.non_linearity_std = 0.0;
+  }
   rig.decoding.radiance = std::move(radiance);
   rig.decoding.radiance_path = path;
 }

@@ -91,7 +91,7 @@ SceneSensor read_sensor(const YamlField& field) {
 void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
   field.only({"model", "image_size_px", "intrinsics", "intrinsics_std",
               "responsivity_counts_mm2_sr_per_W_s", "responsivity_relative_std", "radiance",
-              "vignetting_std", "sensor", "exposure_s", "iso", "f_number"});
+              "vignetting_std", "non_linearity_std", "sensor", "exposure_s", "iso", "f_number"});
   SceneCamera& camera = rig.scene.camera;
   if (const auto f = field.find("model")) {
     camera.model = f->text();
@@ -141,9 +141,14 @@ void read_camera(const YamlField& field, bool with_radiance, Rig& rig) {
   }
   camera.vignetting_std =
       field.number_or("vignetting_std", default_uncertainty::kVignetting, 0.0, 1.0);
+  camera.non_linearity_std =
+      field.number_or("non_linearity_std", default_uncertainty::kNonLinearity, 0.0, 0.3);
   if (const auto f = field.find("radiance"); f && with_radiance) {
     if (const auto given = field.find("vignetting_std")) {
       given->fail("the file of camera.radiance corrects the vignetting");
+    }
+    if (const auto given = field.find("non_linearity_std")) {
+      given->fail("the file of camera.radiance corrects the response");
     }
     const std::string file = file_beside(rig.path, *f);
     auto radiance = std::make_shared<const capture::RadianceCalibration>(read_radiance_file(file));

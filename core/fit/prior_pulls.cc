@@ -43,7 +43,7 @@ double over_root(double value, double variance) {
 
 // The next step for a contradiction, by the group of the quantity.
 const char* advice(const std::string& group) {
-  constexpr std::array<std::pair<const char*, const char*>, 22> kAdvice = {{
+  constexpr std::array<std::pair<const char*, const char*>, 23> kAdvice = {{
       {"pose", "check the pose points, and that neither camera nor object has moved"},
       {"camera shift", "fasten camera and object, and take the shot again"},
       {"lens", "calibrate the camera at this focus, and check the mesh's proportions"},
@@ -64,6 +64,7 @@ const char* advice(const std::string& group) {
       {"pedestal", "check the black level, and look for stray light and glare in the lens"},
       {"halo", "clean the lens, shade it from the LEDs, and darken what lies beside the object"},
       {"vignetting", "take flats, and calibrate the camera's radiance"},
+      {"non-linearity", "take flats, and calibrate the camera's radiance"},
       {"exposure time", "calibrate the camera's radiance"},
       {"radiance", "measure the radiance of the environment again"},
   }};

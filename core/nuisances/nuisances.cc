@@ -61,7 +61,8 @@ Eigen::VectorXd SceneNuisances::light_by_plane(const ObservedShot& shot,
   return plane_below(scene_, *shot.seen->object).in(channel_).albedo * change;
 }
 
-// The uncertainties of the radiance calibration: each shot's black, the glare, the shutter.
+// The uncertainties of counts as a measure of light: each shot's black and pedestal, the shutter,
+// the response, glare.
 void SceneNuisances::add_radiance(const ObservedShot& shot, const ChannelObservation& observed,
                                   const Eigen::VectorXd& predicted, Columns& columns) const {
   const std::vector<Eigen::Index>& rows = columns.rows();
@@ -70,6 +71,9 @@ void SceneNuisances::add_radiance(const ObservedShot& shot, const ChannelObserva
                                              static_cast<Eigen::Index>(of_row.size()))(rows);
   };
   const Eigen::VectorXd l_per_count = pick(observed.l_per_count);
+  const SceneSensor& sensor = scene_.camera.sensor;
+  const double range_counts = sensor.white_counts - *std::min_element(sensor.black_counts.begin(),
+                                                                      sensor.black_counts.end());
   for (std::size_t k = 0; k < shot.exposures.size(); ++k) {
     const ShotExposure& e = shot.exposures[k];
     // Share of the rows' l that comes from this exposure.
@@ -87,6 +91,14 @@ void SceneNuisances::add_radiance(const ObservedShot& shot, const ChannelObserva
     if (e.relative_std > 0.0) {
       columns.add(fmt::format("exposure {:.4g}", e.stated_s), "exposure time", e.relative_std,
                   part.cwiseProduct(predicted));
+    }
+    if (scene_.camera.non_linearity_std > 0.0) {
+      // The counts of a row of this exposure, as a share of the sensor's range.
+      const Eigen::VectorXd filled =
+          (e.true_s / shot.exposure_s / range_counts) *
+          (l_per_count.array() > 0.0).select(predicted.array() / l_per_count.array(), 0.0).matrix();
+      columns.add("non-linearity", "non-linearity", scene_.camera.non_linearity_std,
+                  part.cwiseProduct(predicted).cwiseProduct(filled));
     }
   }
   const double glare_std = scene_.camera.glare_std[channel_];

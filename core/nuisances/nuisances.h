@@ -36,10 +36,11 @@ struct NuisanceColumn {
 // each with the resulting change of the pose fitted with that lens; its effect on calibrated LEDs
 // and scale is not included); eta; the gloss of a surface that is stated as smooth; the albedo of
 // the plane below the object; the halo of the lens, where the background shows light beside the
-// object; the fall-off of light towards the frame's corners; each file's black level, the pedestal,
-// glare and the exposure times (common to files of the same stated time; in a bracket each affects
-// the part of a row that comes from it). Those with a standard deviation of 0 are left out, but for
-// eta, which is then tested against the image.
+// object; the fall-off of light towards the frame's corners; the response's departure from a
+// straight line; each file's black level, the pedestal, glare and the exposure times (common to
+// files of the same stated time; in a bracket each affects the part of a row that comes from it).
+// Those with a standard deviation of 0 are left out, but for eta, which is then tested against the
+// image.
 class SceneNuisances {
  public:
   // Of one channel. sensitivities: for every view and light of the shots passed to columns().

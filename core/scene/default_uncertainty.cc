@@ -32,6 +32,7 @@ void take_where_none(Scene& scene) {
   take(scene.shot_shift_std_px, kShotShift_px);
   SceneCamera& camera = scene.camera;
   take(camera.vignetting_std, kVignetting);
+  take(camera.non_linearity_std, kNonLinearity);
   if (camera.lens_root.cols() == 0) {
     camera.lens_root = lens_root(camera.intrinsics, lens(camera.intrinsics));
   }

@@ -45,9 +45,12 @@ LensDeviations lens(const CameraIntrinsics& intrinsics);
 // Of a lens stopped down, without flats: a frame whose corners are 13 degrees off its centre has a
 // tenth less light there by geometry alone (the cosine to the fourth power).
 inline constexpr double kVignetting = 0.1;
+// A sensor and its amplifier, without flats: at the white level, towards which most of them bend.
+inline constexpr double kNonLinearity = 0.005;
 
 // Gives every object and every LED without a calibration these deviations where it has none, and
-// the scene its even light and the shift of its shots, and the camera's lens and fall-off.
+// the scene its even light and the shift of its shots, and the camera's lens, fall-off and
+// response.
 void take_where_none(Scene& scene);
 
 }  // namespace scattermeter::default_uncertainty

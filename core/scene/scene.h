@@ -48,6 +48,9 @@ struct SceneCamera {
   // Standard deviation of the share of the light that is lost from the frame's centre to its
   // corners, in proportion to the distance squared.
   double vignetting_std = 0;
+  // Standard deviation of the response's departure from proportionality to the light at the white
+  // level; it grows in proportion to the counts (truth.sensor's non_linearity).
+  double non_linearity_std = 0;
   SceneSensor sensor;
   std::optional<double> exposure_s;  // for simulated shots; absent: so that nothing clips
   int iso = 100;

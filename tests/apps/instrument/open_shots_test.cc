@@ -170,10 +170,8 @@ TEST_F(OpenShots, UncertainTimesStayInTheAnswer) {
   const auto measured = [&](double short_std, double long_std, double black_std) {
     c.shutter = {{0.005, 1.0, short_std}, {0.25, 1.0, long_std}};
     c.black_std_counts = black_std;
-    rig.decoding.radiance = std::make_shared<const capture::RadianceCalibration>(*radiance);
-    MeasureOptions options;
-
-    Instrument instrument(rig, scenes, options);
+    use_radiance(rig, std::make_shared<const capture::RadianceCalibration>(*radiance), "");
+    Instrument instrument(rig, scenes, {});
     const capture::FrameSource frames = [&](std::size_t i, std::size_t k) {
       return shots.frame(i, 1, k);
     };

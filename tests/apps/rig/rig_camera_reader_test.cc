@@ -114,6 +114,11 @@ TEST_F(RigCameraReader, RadianceCalibration) {
   EXPECT_EQ(camera(kCamera + "vignetting_std: 0.03\n").scene.camera.vignetting_std, 0.03);
   EXPECT_THAT(refused(text + "vignetting_std: 0.03\n"),
               HasSubstr("vignetting_std: the file of camera.radiance corrects the vignetting"));
+  EXPECT_EQ(rig.scene.camera.non_linearity_std, 0.0);
+  EXPECT_EQ(camera(kCamera).scene.camera.non_linearity_std, default_uncertainty::kNonLinearity);
+  EXPECT_EQ(camera(kCamera + "non_linearity_std: 0.01\n").scene.camera.non_linearity_std, 0.01);
+  EXPECT_THAT(refused(text + "non_linearity_std: 0.01\n"),
+              HasSubstr("non_linearity_std: the file of camera.radiance corrects the response"));
   EXPECT_THAT(refused(text + "responsivity_counts_mm2_sr_per_W_s: [1, 1, 1]\n"),
               HasSubstr("radiance: contains a responsivity"));
   made.correction.width_px = 480;

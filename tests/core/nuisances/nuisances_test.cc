@@ -72,16 +72,11 @@ TEST_F(CalibratedNuisances, AgreeWithTheSingleDeviations) {
   EXPECT_GT(measured(joint).sigma_s_prime_per_mm.std, b.sigma_s_prime_per_mm.std);
 }
 
-// Shots through a lens whose corners are darker are told from those of a flat frame, and the value
-// moves with what is found.
-TEST_F(CalibratedNuisances, LightFallsOffTowardsTheCorners) {
-  constexpr double kLost = 0.2;
-  Rig dark = exact_;
-  for (std::vector<double>& radial : dark.truth.sensor.vignetting_radial) radial = {-kLost};
-  const VirtualShots shots(dark, scenes_, {.noise = true});
-  const auto measured_by = [&](double std) {
-    Rig rig = exact_;
-    rig.scene.camera.vignetting_std = std;
+// Shots of a camera that differs from the rig in one quantity, measured by the dipole in G with
+// that quantity stated as exact and as uncertain.
+class UncalibratedCamera : public CalibratedNuisances {
+ protected:
+  Estimate measured_by(const Rig& rig, const VirtualShots& shots) {
     MeasureOptions options;
     options.estimate.model = "dipole";
     Instrument instrument(rig, scenes_, options);
@@ -89,22 +84,48 @@ TEST_F(CalibratedNuisances, LightFallsOffTowardsTheCorners) {
       return shots.frame(i, 1, k);
     };
     return instrument.measure(capture::shots_from(rig.scene, {0}, frames)).results.at(1).estimate;
-  };
-  const Estimate flat = measured_by(0.0), open = measured_by(0.2), unlit = measured(exact_);
-  const auto of_vignetting = [](const Estimate& e) {
-    return std::find_if(e.pulls.begin(), e.pulls.end(),
-                        [](const PriorPull& p) { return p.name == "vignetting"; });
-  };
-  EXPECT_EQ(of_vignetting(flat), flat.pulls.end());
-  EXPECT_EQ(part(flat, "vignetting"), 0.0);
-  ASSERT_NE(of_vignetting(open), open.pulls.end());
-  EXPECT_NEAR(of_vignetting(open)->offset, -kLost, 0.25 * kLost);
-  EXPECT_GT(part(open, "vignetting"), 0.0);
-  const auto error = [&](const Estimate& e) {
-    return std::abs(e.sigma_a_per_mm.value - unlit.sigma_a_per_mm.value);
-  };
-  EXPECT_LT(error(open), 0.5 * error(flat));
-  EXPECT_LT(error(open), 3.0 * open.sigma_a_per_mm.std);
+  }
+  // `named`: the nuisance. value: of the truth. std: of the rig, a quantity of its camera.
+  void expect_found(const Rig& truth, const std::string& named, double value,
+                    double SceneCamera::*std) {
+    const VirtualShots shots(truth, scenes_, {.noise = true});
+    Rig taken_as_exact = exact_, uncertain = exact_;
+    uncertain.scene.camera.*std = std::abs(value);
+    const Estimate exact = measured_by(taken_as_exact, shots);
+    const Estimate open = measured_by(uncertain, shots);
+    const auto pull = [&](const Estimate& e) {
+      return std::find_if(e.pulls.begin(), e.pulls.end(),
+                          [&](const PriorPull& p) { return p.name == named; });
+    };
+    EXPECT_EQ(pull(exact), exact.pulls.end());
+    EXPECT_EQ(part(exact, named.c_str()), 0.0);
+    ASSERT_NE(pull(open), open.pulls.end());
+    EXPECT_NEAR(pull(open)->offset, value, 0.25 * std::abs(value));
+    EXPECT_GT(part(open, named.c_str()), 0.0);
+    const double without = measured(exact_).sigma_a_per_mm.value;
+    const auto error = [&](const Estimate& e) {
+      return std::abs(e.sigma_a_per_mm.value - without);
+    };
+    EXPECT_LT(error(open), 0.5 * error(exact));
+    EXPECT_LT(error(open), 3.0 * open.sigma_a_per_mm.std);
+  }
+};
+
+// Shots through a lens whose corners are darker are told from those of a flat frame, and the value
+// moves with what is found.
+TEST_F(UncalibratedCamera, LightFallsOffTowardsTheCorners) {
+  constexpr double kLost = 0.2;
+  Rig dark = exact_;
+  for (std::vector<double>& radial : dark.truth.sensor.vignetting_radial) radial = {-kLost};
+  expect_found(dark, "vignetting", -kLost, &SceneCamera::vignetting_std);
+}
+
+// So are those of a sensor that records too little of much light.
+TEST_F(UncalibratedCamera, ResponseIsNotAStraightLine) {
+  constexpr double kAtWhite = -0.02;
+  Rig bent = exact_;
+  bent.truth.sensor.non_linearity = kAtWhite;
+  expect_found(bent, "non-linearity", kAtWhite, &SceneCamera::non_linearity_std);
 }
 
 // Distance and power that are known together only: far less is lost than if both were open.
