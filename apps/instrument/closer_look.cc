@@ -49,6 +49,26 @@ double edge_cut_px(const CameraIntrinsics& intrinsics, const ObjectScene& object
   return kOfCut * object.stated->edge_std_mm * px_per_mm(intrinsics, object, pose);
 }
 
+double quick_place_std_mm(const ObjectScene& object) {
+  constexpr double kLeast_mm = 0.1;
+  return std::max(kLeast_mm, object.stated->position_std_mm);
+}
+
+calib::OutlineOptions outline_options(const Rig& rig, const ObjectScenes& objects,
+                                      const PoseResult& pose) {
+  calib::OutlineOptions out;
+  out.scale_relative_std = mesh_scale_std(rig.scene);
+  for (const auto& [name, object] : objects) {
+    const double std_mm = quick_place_std_mm(object);
+    out.place_std_mm = std::max(out.place_std_mm, std_mm);
+    // Its orientation is as uncertain at a distance of its own size.
+    out.turn_std_rad = std::max(out.turn_std_rad, std_mm / object.size_mm());
+    out.growth_std_px =
+        std::max(out.growth_std_px, edge_cut_px(rig.scene.camera.intrinsics, object, pose));
+  }
+  return out;
+}
+
 std::string shift_phrase(const Eigen::Vector2d& shift_px) {
   return fmt::format("{:.1f} px {} and {:.1f} px {}", std::abs(shift_px.x()),
                      shift_px.x() < 0 ? "left" : "right", std::abs(shift_px.y()),

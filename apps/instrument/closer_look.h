@@ -1,4 +1,5 @@
-// The careful search of outlines, where the quick look found something.
+// What a rig leaves open of the outlines of its objects, and the careful search of outlines, where
+// the quick look found something.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "apps/rig/rig.h"
+#include "calib/pose/outline_causes.h"
 #include "calib/pose/silhouette_check.h"
 #include "capture/shots/shot_source.h"
 #include "core/camera/camera_pose.h"
@@ -23,6 +25,14 @@ double px_per_mm(const CameraIntrinsics& intrinsics, const ObjectScene& object,
 // back by edge_std_mm, of which the outline of a bevel seen from any side shows some 0.7.
 double edge_cut_px(const CameraIntrinsics& intrinsics, const ObjectScene& object,
                    const PoseResult& pose);
+
+// Standard deviation of an object's position in each coordinate, mm: at least 0.1, also of one
+// stated as exact, as a quick look is no better.
+double quick_place_std_mm(const ObjectScene& object);
+
+// The largest deviations of the objects in `objects`, in each quantity.
+calib::OutlineOptions outline_options(const Rig& rig, const ObjectScenes& objects,
+                                      const PoseResult& pose);
 
 // The careful search of the outlines of these shots (of four, if there are more), with the sizes of
 // the meshes as uncertain as the rig states. line_std_px: SilhouetteOptions.

@@ -23,19 +23,11 @@ namespace {
 
 using calib::OutlineCause;
 
-// Least standard deviation of an object's position in each coordinate, also of one stated as exact:
-// a quick look is no better.
-constexpr double kLeastPlaceStd_mm = 0.1;
-
 // Below this share of points that lie on one outline it is not judged: the background is bright, or
 // too little of the object is lit.
 constexpr double kLeastShare = 0.5;
 constexpr int kLooksAgain = 2;
 constexpr std::size_t kShotsAgain = 4;  // of each object
-
-double place_std_mm(const ObjectScene& object) {
-  return std::max(kLeastPlaceStd_mm, object.stated->position_std_mm);
-}
 
 std::string not_judged(double share) {
   return fmt::format(
@@ -91,21 +83,8 @@ calib::OutlineDiagnosis OutlineWatch::explain(const Looks& looks,
                      assumed_mm[body]});
     looked_at.push_back(idx);
   }
-  calib::OutlineOptions options;
-  for (const std::string& name : names_) {
-    const auto object = objects_.find(name);
-    if (object == objects_.end()) continue;
-    const double std_mm = place_std_mm(object->second);
-    options.place_std_mm = std::max(options.place_std_mm, std_mm);
-    // Its orientation is as uncertain at a distance of its own size.
-    options.turn_std_rad = std::max(options.turn_std_rad, std_mm / object->second.size_mm());
-    options.scale_relative_std =
-        std::max(options.scale_relative_std, object->second.stated->scale_relative_std);
-    options.growth_std_px = std::max(
-        options.growth_std_px, edge_cut_px(rig_.scene.camera.intrinsics, object->second, pose_));
-  }
   return calib::explain_outlines(shots, rig_.scene.camera.intrinsics, pose_, names_, centers_mm_,
-                                 options);
+                                 outline_options(rig_, objects_, pose_));
 }
 
 // Shots of another object than the stated one; they are taken out of the looks.
@@ -176,6 +155,19 @@ calib::OutlineDiagnosis OutlineWatch::look_again(const capture::FrameSource& fra
   return out;
 }
 
+// What the quick look leaves open is told by the careful search.
+void OutlineWatch::find_misplaced_pieces(const capture::FrameSource& frames, const Looks& looks,
+                                         OutlineFindings& out) const {
+  for (auto& [body, idxs] : shots_of_bodies(looks)) {
+    if (!calib::may_be_misplaced(*out.diagnosis, body)) continue;
+    std::optional<Finding> finding =
+        misplaced_piece(rig_, objects_, names_[body], pose_, std::move(idxs), frames);
+    if (!finding) continue;
+    out.findings.push_back(std::move(*finding));
+    out.diagnosis->agrees = false;
+  }
+}
+
 // One whose outline fits at another size than its mesh's, by its first shot.
 bool OutlineWatch::find_other_sizes(const capture::FrameSource& frames, const Looks& looks,
                                     OutlineFindings& out) const {
@@ -200,8 +192,8 @@ void OutlineWatch::find_scaled_pieces(const capture::FrameSource& frames, const 
                                     looks.at(idxs.front()).look.cell_px, rig_, object, pose_);
     std::optional<Finding> finding;
     if (seems_scaled(seen)) {
-      finding =
-          scaled_piece(rig_, objects_, *object.stated, place_std_mm(object), pose_, frames, idxs);
+      finding = scaled_piece(rig_, objects_, *object.stated, quick_place_std_mm(object), pose_,
+                             frames, idxs);
     }
     if (finding) {
       out.findings.push_back(std::move(*finding));
@@ -292,6 +284,7 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
     say_exactly(*frames, out);
   } else {
     find_scaled_pieces(*frames, looks, out);
+    if (out.findings.size() == others) find_misplaced_pieces(*frames, looks, out);
   }
   return out;
 }

@@ -69,6 +69,8 @@ class OutlineWatch {
                                      std::vector<std::size_t>& looked_at) const;
   bool find_other_sizes(const capture::FrameSource& frames, const Looks& looks,
                         OutlineFindings& out) const;
+  void find_misplaced_pieces(const capture::FrameSource& frames, const Looks& looks,
+                             OutlineFindings& out) const;
   void find_scaled_pieces(const capture::FrameSource& frames, const Looks& looks,
                           OutlineFindings& out) const;
   void conclude(const Looks& looks, OutlineFindings& out) const;

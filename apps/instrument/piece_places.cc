@@ -121,8 +121,14 @@ std::optional<Finding> misplaced(const Rig& rig, const ObjectScene& object,
                                  const calib::PiecePose& found, const PoseResult& camera) {
   constexpr double kDoubt = 1e-4;
   const std::string& name = object.stated->name;
+  // As a displacement or a turn from four stated deviations on, as by the fit, or as both.
   const Eigen::Matrix<double, 6, 6> expected = stated_covariance(object) + found.covariance;
-  if (chi_square_tail(found.off.dot(SymmetricSolver(expected).solve(found.off)), 6.0) > kDoubt) {
+  const auto chi2 = [&](Eigen::Index first, Eigen::Index n) {
+    const Eigen::VectorXd off = found.off.segment(first, n);
+    return off.dot(SymmetricSolver(expected.block(first, first, n, n)).solve(off));
+  };
+  if (std::max(chi2(0, 3), chi2(3, 3)) < kMostPull * kMostPull &&
+      chi_square_tail(chi2(0, 6), 6.0) > kDoubt) {
     return std::nullopt;
   }
   const Eigen::Vector3d to_camera_mm =

@@ -26,11 +26,11 @@ std::vector<std::string> place_pieces(Rig& rig, const std::string& shots_folder,
 
 // What the outlines of the objects say in shots that have their own poses, without a diagnosis, by
 // up to four shots of each object: those that stand elsewhere than position_std_mm, the size of the
-// mesh and the outline's own errors allow (p below 1e-4); for the others the shifts to their most
-// probable position, by outline and rig, where these move a view visibly (kVisibleMotion). Not
-// judged: objects without straight edges, those that are to be found, and those whose outline is
-// not found or differs between the shots. Takes some tenths of a second a shot. frames: of the
-// source of the shots.
+// mesh and the outline's own errors allow (by four of their deviations, or p below 1e-4); for the
+// others the shifts to their most probable position, by outline and rig, where these move a view
+// visibly (kVisibleMotion). Not judged: objects without straight edges, those that are to be found,
+// and those whose outline is not found or differs between the shots. Takes some tenths of a second
+// a shot. frames: of the source of the shots.
 OutlineFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
                                const std::vector<ObservedShot>& shots,
                                const capture::FrameSource& frames);

@@ -173,6 +173,18 @@ PoseShift shift_of(const OutlineModel& model, const OutlineModel::Fit& fit, cons
 
 }  // namespace
 
+bool may_be_misplaced(const OutlineDiagnosis& diagnosis, std::size_t body) {
+  constexpr double kChance = 0.02;
+  const std::vector<OutlineExplanation>& all = diagnosis.explanations;
+  return std::any_of(all.begin(), all.end(), [&](const OutlineExplanation& e) {
+    const bool of_place = e.cause == OutlineCause::kMeshDisplaced ||
+                          e.cause == OutlineCause::kMeshTurned ||
+                          e.cause == OutlineCause::kMeshMisplaced;
+    return of_place && e.which == body &&
+           chi_square_tail(std::max(0.0, all.front().chi2 - e.chi2), e.parameters) < kChance;
+  });
+}
+
 OutlineDiagnosis explain_outlines(const std::vector<OutlineShot>& shots,
                                   const CameraIntrinsics& intrinsics, const PoseResult& pose,
                                   const std::vector<std::string>& names,

@@ -59,6 +59,10 @@ struct OutlineDiagnosis {
   std::vector<double> growth_px;
 };
 
+// Whether a displacement or turn of the body beyond what is stated would explain the outlines
+// better than chance does once in 50 times: too little to tell, enough for a closer look.
+bool may_be_misplaced(const OutlineDiagnosis& diagnosis, std::size_t body);
+
 struct OutlineOptions {
   double place_std_mm = 0;  // of every body, in each coordinate
   double turn_std_rad = 0;  // of every body, about each axis

@@ -57,5 +57,25 @@ TEST_F(CloserLookTest, SaysHowFarTheOutlinesAreOff) {
   EXPECT_NE(right.find("px right"), std::string::npos) << right;
 }
 
+TEST(OutlineOptions, AreThoseOfTheLeastCertainObject) {
+  Rig rig = bodies_rig(480, 1.4, {{"m", plastic()}}, {"cube", "pyramid"});
+  for (SceneObject& object : rig.scene.objects) {
+    object.position_std_mm = object.name == "cube" ? 0.0 : 0.4;
+    object.scale_relative_std = object.name == "cube" ? 0.02 : 0.0;
+    object.edge_std_mm = object.name == "cube" ? 0.3 : 0.0;
+  }
+  const ObjectScenes objects = bodies_scenes(rig);
+  const PoseResult pose = calib::pose_from_points(rig.scene, rig.pose);
+  EXPECT_EQ(quick_place_std_mm(objects.at("cube")), 0.1);
+  EXPECT_EQ(quick_place_std_mm(objects.at("pyramid")), 0.4);
+  const calib::OutlineOptions options = outline_options(rig, objects, pose);
+  EXPECT_EQ(options.place_std_mm, 0.4);
+  EXPECT_EQ(options.turn_std_rad, 0.4 / objects.at("pyramid").size_mm());
+  EXPECT_EQ(options.scale_relative_std, 0.02);
+  EXPECT_EQ(options.growth_std_px,
+            edge_cut_px(rig.scene.camera.intrinsics, objects.at("cube"), pose));
+  EXPECT_GT(options.growth_std_px, 0.0);
+}
+
 }  // namespace
 }  // namespace scattermeter::apps

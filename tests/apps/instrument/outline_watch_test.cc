@@ -1,5 +1,6 @@
 #include "apps/instrument/outline_watch.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include <gmock/gmock.h>
@@ -85,6 +86,23 @@ TEST_F(OutlineWatchTest, MeshDisplaced) {
     const Eigen::Vector3d off = value - moved;
     EXPECT_LT((off - sight * sight.dot(off)).norm(), 0.1 * moved.norm()) << f.text;
   }
+}
+
+// By too little for the quick look, and by more than the rig states.
+TEST_F(OutlineWatchTest, MeshALittleDisplaced) {
+  const auto at_mm = [](const Finding& f) {
+    Eigen::Vector3d out(NAN, NAN, NAN);
+    std::sscanf(f.text.c_str(), "mesh displaced: by its outline, cube stands [%lf, %lf, %lf]",
+                &out.x(), &out.y(), &out.z());
+    return out;
+  };
+  const Eigen::Vector3d far(0.0, 0.6, 0.0), near(0.0, 0.2, 0.0);
+  const OutlineFindings found = findings(shots(far));
+  ASSERT_EQ(found.findings.size(), 1U);
+  EXPECT_LT((at_mm(found.findings[0]) - far).norm(), 0.05) << found.findings[0].text;
+  EXPECT_EQ(found.findings[0].shots, (std::vector<std::size_t>{0, 1}));
+  EXPECT_FALSE(found.diagnosis->agrees);
+  for (const Finding& f : findings(shots(near)).findings) ADD_FAILURE() << f.text;
 }
 
 TEST_F(OutlineWatchTest, AnotherSize) {

@@ -61,6 +61,18 @@ TEST_F(OutlineCausesTest, GoodRig) {
   }
 }
 
+// What might as well be chance is not told, but asks for a closer look.
+TEST_F(OutlineCausesTest, MayBeDisplaced) {
+  add(0, {0, 0.6, 0});
+  const OutlineDiagnosis d = explain(0.1);
+  EXPECT_TRUE(d.agrees) << d.explanations[1].text;
+  EXPECT_TRUE(may_be_misplaced(d, 0));
+  EXPECT_FALSE(may_be_misplaced(d, 1));
+  shots_.clear();
+  add(0, {0, 0, 0});
+  EXPECT_FALSE(may_be_misplaced(explain(0.1), 0));
+}
+
 TEST_F(OutlineCausesTest, MeshDisplaced) {
   add(0, {2, 0, 0});
   const OutlineDiagnosis d = explain();
