@@ -89,11 +89,12 @@ bool closer_look_agrees(const Rig& rig, const ObjectScenes& objects, const PoseR
           }));
 }
 
-std::string outline_shift(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
-                          const capture::FrameSource& frames,
-                          const std::vector<std::size_t>& shots) {
+std::string outline_departure(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
+                              const capture::FrameSource& frames,
+                              const std::vector<std::size_t>& shots) {
   constexpr double kSmall_px = 1.0;
   constexpr double kStds = 1.5;
+  constexpr double kOfShift = 0.5;
   // An error of the mesh's size shifts no outline as a whole.
   const calib::SilhouetteCheck check =
       careful_search(rig, objects, pose, frames, shots, rig.pose.edge_std_px);
@@ -105,7 +106,18 @@ std::string outline_shift(const Rig& rig, const ObjectScenes& objects, const Pos
     std_px = std::max(std_px, s.shift_std_px.maxCoeff());
   }
   if (shift_px.norm() < std::max(kSmall_px, kStds * std_px)) return "";
-  return fmt::format("{} (± {:.1f} px)", shift_phrase(shift_px), std::max(0.1, std_px));
+  // A shift moves some edge by most of itself; what would be less is another shape.
+  if (check.worst_px < kOfShift * shift_px.norm()) {
+    return fmt::format(
+        "shape or lens: the outlines depart by up to {:.1f} px from those of the mesh, and not by "
+        "a "
+        "shift; measure the object along all its edges, and calibrate the lens",
+        check.worst_px);
+  }
+  return fmt::format(
+      "pose or position: the outlines stand {} (± {:.1f} px) of where pose and mesh put them; take "
+      "the pose points again, or place the mesh where the object stands",
+      shift_phrase(shift_px), std::max(0.1, std_px));
 }
 
 }  // namespace scattermeter::apps

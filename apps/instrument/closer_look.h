@@ -52,10 +52,10 @@ double mesh_scale_std(const Scene& scene);
 std::string shift_phrase(const Eigen::Vector2d& shift_px);
 
 // By how much the careful search finds the outlines of these shots (of four, if there are more)
-// away from where the rig puts them, as "0.1 px right and 2.0 px low (± 0.1 px)"; "" within 1 px or
-// one and a half standard deviations, or where an outline is not found.
-std::string outline_shift(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
-                          const capture::FrameSource& frames,
-                          const std::vector<std::size_t>& shots);
+// away from where the rig puts them, as a reason with the next step: shifted, or of another shape;
+// "" within 1 px or one and a half standard deviations, or where an outline is not found.
+std::string outline_departure(const Rig& rig, const ObjectScenes& objects, const PoseResult& pose,
+                              const capture::FrameSource& frames,
+                              const std::vector<std::size_t>& shots);
 
 }  // namespace scattermeter::apps

@@ -96,16 +96,10 @@ void tell_of_background(const std::vector<ObservedShot>& shots,
   }
 }
 
-void tell_of_outline(const std::string& shift, std::vector<ChannelResult>& results) {
-  if (shift.empty()) return;
+void tell_of_outline(const std::string& departure, std::vector<ChannelResult>& results) {
+  if (departure.empty()) return;
   for (ChannelResult& r : results) {
-    if (!is_fitted_and_refused(r)) continue;
-    add_first_reason(
-        fmt::format("pose or position: the outlines stand {} of where pose and mesh put "
-                    "them; take the pose points again, or place the mesh where the "
-                    "object stands",
-                    shift),
-        r);
+    if (is_fitted_and_refused(r)) add_first_reason(departure, r);
   }
 }
 

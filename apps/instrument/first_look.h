@@ -48,8 +48,8 @@ void add_first_reason(std::string reason, ChannelResult& result);
 void tell_of_background(const std::vector<ObservedShot>& shots,
                         std::vector<ChannelResult>& results);
 
-// Makes a shift of the outlines (closer_look.h) the first reason of the results that the fit
+// Makes the outlines' departure (closer_look.h) the first reason of the results that the fit
 // refused, unless it is "".
-void tell_of_outline(const std::string& shift, std::vector<ChannelResult>& results);
+void tell_of_outline(const std::string& departure, std::vector<ChannelResult>& results);
 
 }  // namespace scattermeter::apps

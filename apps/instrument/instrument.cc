@@ -237,7 +237,7 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
   if (!without_noise && frames != nullptr && look.findings.empty() &&
       std::any_of(out.results.begin(), out.results.end(), is_fitted_and_refused)) {
     if (view_) {
-      tell_of_outline(outline_shift(rig_, objects_, *pose_, *frames, source.shot_idxs),
+      tell_of_outline(outline_departure(rig_, objects_, *pose_, *frames, source.shot_idxs),
                       out.results);
     }
     tell_of_displaced_round_bodies(rig_, objects_, seen.shots(), *frames, out.results);

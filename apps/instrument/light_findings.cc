@@ -130,9 +130,13 @@ void LightLook::find_covered(const std::vector<ShotLikeness>& likeness,
     finding.shots = {index_of(i)};
     if (share > kCoveredShare) {
       finding.cause = "object covered";
+      // The outlines of others show where they stand.
+      const char* elsewhere = shots_[i].seen->object->is_round
+                                  ? ", or the object is not where or as large as its mesh"
+                                  : "";
       finding.text = fmt::format(
-          "object covered or shadowed: {:.0f} % of the patches that {} lights are dark in {}",
-          100.0 * share, joined(shots_[i].stated->lights), file);
+          "object covered or shadowed: {:.0f} % of the patches that {} lights are dark in {}{}",
+          100.0 * share, joined(shots_[i].stated->lights), file, elsewhere);
       finding.advice =
           "remove what stands before the object or its light, or put the object where its mesh is, "
           "and take the shot again";

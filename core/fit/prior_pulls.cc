@@ -211,7 +211,8 @@ const PriorPull* contradiction(const std::vector<PriorPull>& pulls, double most_
     if (!(std::abs(p.pull) > (is_visible(p) ? most_pull : std::max(most_pull, kClearPull)))) {
       continue;
     }
-    if (!(p.explained_relative > least_explained)) continue;
+    const bool is_far = is_visible(p) && std::abs(p.pull) > kFarPull;
+    if (!is_far && !(p.explained_relative > least_explained)) continue;
     if (worst == nullptr || std::pair(is_visible(p), std::abs(p.pull)) >
                                 std::pair(is_visible(*worst), std::abs(worst->pull))) {
       worst = &p;

@@ -1,5 +1,7 @@
 #include "apps/instrument/closer_look.h"
 
+#include <cstdio>
+
 #include <gtest/gtest.h>
 
 #include "apps/simulation/bodies_rig.h"
@@ -19,10 +21,13 @@ class CloserLookTest : public ::testing::Test {
     rig_.pose.options.point_std_px = 0.2;
     pose_ = calib::pose_from_points(rig_.scene, rig_.pose);
   }
-  capture::ShotSource shots(const Eigen::Vector3d& moved_mm) {
+  capture::ShotSource shots(const Eigen::Vector3d& moved_mm, double stretch_x = 1.0) {
     moved_ = open_objects(rig_, [&](const SceneObject& object) {
       TriangleMesh mesh = body_mesh(object.name);
-      for (Eigen::Vector3d& v : mesh.vertices_mm) v += moved_mm;
+      for (Eigen::Vector3d& v : mesh.vertices_mm) {
+        v.x() *= stretch_x;
+        v += moved_mm;
+      }
       return mesh;
     });
     virtual_ = std::make_unique<VirtualShots>(rig_, moved_, VirtualShotOptions{.noise = true});
@@ -47,14 +52,32 @@ TEST_F(CloserLookTest, AgreesWithAGoodRigOnly) {
 // A millimetre is some five pixels in this frame.
 TEST_F(CloserLookTest, SaysHowFarTheOutlinesAreOff) {
   const auto said = [&](const capture::ShotSource& s) {
-    return outline_shift(rig_, scenes_, pose_, std::get<capture::FrameSource>(s.open), s.shot_idxs);
+    return outline_departure(rig_, scenes_, pose_, std::get<capture::FrameSource>(s.open),
+                             s.shot_idxs);
   };
   EXPECT_EQ(said(shots({0, 0, 0})), "");
   const std::string right = said(shots({0.7, 0, 0}));
   const double px = 0.7 * rig_.scene.camera.intrinsics.fx_px /
                     (pose_.camera_from_world * scenes_.at("cube").box.center_mm()).z();
-  EXPECT_NEAR(std::stod(right), px, 0.5) << right;
-  EXPECT_NE(right.find("px right"), std::string::npos) << right;
+  double said_px = 0.0;
+  ASSERT_EQ(
+      std::sscanf(right.c_str(), "pose or position: the outlines stand %lf px right", &said_px), 1)
+      << right;
+  EXPECT_NEAR(said_px, px, 0.5) << right;
+}
+
+// A cube that is narrower than its mesh has edges a few pixels off, on both sides.
+TEST_F(CloserLookTest, TellsAnotherShapeFromAShift) {
+  const capture::ShotSource narrow = shots({0, 0, 0}, 0.95);
+  const std::string said = outline_departure(
+      rig_, scenes_, pose_, std::get<capture::FrameSource>(narrow.open), narrow.shot_idxs);
+  double px = 0.0;
+  ASSERT_EQ(
+      std::sscanf(said.c_str(), "shape or lens: the outlines depart by up to %lf px from", &px), 1)
+      << said;
+  const double half_mm = 0.5 * 0.05 * 20.0;
+  EXPECT_LT(px, 2.0 * half_mm * px_per_mm(rig_.scene.camera.intrinsics, scenes_.at("cube"), pose_));
+  EXPECT_GT(px, 1.0);
 }
 
 TEST(OutlineOptions, AreThoseOfTheLeastCertainObject) {

@@ -47,7 +47,7 @@ TEST(FirstLook, OutlineIsTheFirstReasonOfWhatWasFitted) {
   results[2].estimate.reasons = {"dark"};
   tell_of_outline("", results);
   EXPECT_EQ(results[0].estimate.reasons.size(), 1U);
-  tell_of_outline("2.0 px low (± 0.1 px)", results);
+  tell_of_outline("the outlines stand 2.0 px low", results);
   ASSERT_EQ(results[0].estimate.reasons.size(), 2U);
   EXPECT_THAT(results[0].estimate.reasons[0], testing::HasSubstr("stand 2.0 px low"));
   EXPECT_TRUE(results[1].estimate.reasons.empty());

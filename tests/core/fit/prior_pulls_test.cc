@@ -262,6 +262,17 @@ TEST(PriorPulls, AClearContradictionNeedNotBeVisible) {
   EXPECT_EQ(contradiction(clear, 6.0, 1e-3), nullptr);
 }
 
+// In a frame whose noise is small, what explains little may yet be far from what the rig states.
+TEST(PriorPulls, AFarContradictionNeedNotExplainMuch) {
+  const auto of_lens = [](double pull, double image_relative) {
+    return std::vector<PriorPull>{{"lens1", "lens", pull, 1.0, image_relative, 6e-5}};
+  };
+  EXPECT_EQ(contradiction(of_lens(4.9, 7e-3), 4.0, 1e-3), nullptr);
+  EXPECT_EQ(contradiction(of_lens(9.4, 5e-4), 4.0, 1e-3), nullptr);
+  const std::vector<PriorPull> far = of_lens(-5.1, 7e-3);
+  EXPECT_EQ(contradiction(far, 4.0, 1e-3), &far.front());
+}
+
 TEST(PriorPulls, EtaFartherThanTablesAreOff) {
   std::vector<PriorPull> pulls(2);
   pulls[0].group = "scale";
