@@ -109,9 +109,8 @@ std::string outline_departure(const Rig& rig, const ObjectScenes& objects, const
   // A shift moves some edge by most of itself; what would be less is another shape.
   if (check.worst_px < kOfShift * shift_px.norm()) {
     return fmt::format(
-        "shape or lens: the outlines depart by up to {:.1f} px from those of the mesh, and not by "
-        "a "
-        "shift; measure the object along all its edges, and calibrate the lens",
+        "shape or lens: the outlines depart by up to {:.1f} px from those of the mesh, which no "
+        "shift explains; measure the object along all its edges, and calibrate the lens",
         check.worst_px);
   }
   return fmt::format(

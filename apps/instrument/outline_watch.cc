@@ -274,6 +274,7 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
     return out;
   }
   const std::size_t others = out.findings.size();
+  const std::size_t notes = out.notes.size();
   conclude(looks, out);
   if (out.findings.size() > others &&
       closer_look_agrees(rig_, objects_, pose_, *frames, out.findings.back().shots)) {
@@ -285,6 +286,10 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
   } else {
     find_scaled_pieces(*frames, looks, out);
     if (out.findings.size() == others) find_misplaced_pieces(*frames, looks, out);
+    if (out.findings.size() > others) {  // nothing lies within what is stated
+      out.notes.resize(notes);
+      out.shifts.clear();
+    }
   }
   return out;
 }

@@ -102,6 +102,8 @@ TEST_F(OutlineWatchTest, MeshALittleDisplaced) {
   EXPECT_LT((at_mm(found.findings[0]) - far).norm(), 0.05) << found.findings[0].text;
   EXPECT_EQ(found.findings[0].shots, (std::vector<std::size_t>{0, 1}));
   EXPECT_FALSE(found.diagnosis->agrees);
+  EXPECT_TRUE(found.notes.empty());
+  EXPECT_TRUE(found.shifts.empty());
   for (const Finding& f : findings(shots(near)).findings) ADD_FAILURE() << f.text;
 }
 
