@@ -20,12 +20,14 @@ double hidden_by_noise(const ChannelResult& result) {
 std::string why_transport(const ChannelResult& result) {
   constexpr double kVisible = 5e-3;
   const Estimate& e = result.estimate;
-  if (!e.reasons.empty()) return "the dipole is refused: " + e.reasons.front();
-  if (misses_image(e)) {
+  const double visible = hidden_by_noise(result);
+  const bool misses = misses_image(e), disagree = result.agreement.disagree();
+  const bool explains = e.converged && !misses && !disagree && visible <= kVisible;
+  if (!e.reasons.empty() && !explains) return "the dipole is refused: " + e.reasons.front();
+  if (misses) {
     return fmt::format("the dipole misses {:.2g} % of the image", 100.0 * e.misfit_relative);
   }
-  if (result.agreement.disagree()) return "the shots do not agree under the dipole";
-  const double visible = hidden_by_noise(result);
+  if (disagree) return "the shots do not agree under the dipole";
   if (visible > kVisible) {
     return fmt::format("noise hides what the dipole may miss, up to {:.2g} % of the image",
                        100.0 * visible);

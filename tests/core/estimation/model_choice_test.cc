@@ -24,8 +24,21 @@ TEST(ModelChoice, KeepsADipoleThatHolds) {
   EXPECT_EQ(why_transport(slight), "");
 }
 
+// What contradicts the rig although the dipole explains the image is not the dipole.
+TEST(ModelChoice, KeepsARefusedDipoleThatExplainsTheImage) {
+  ChannelResult contradicted = good();
+  contradicted.estimate.reasons = {"the shots contradict the lens"};
+  EXPECT_EQ(why_transport(contradicted), "");
+  contradicted.estimate.converged = false;
+  EXPECT_EQ(why_transport(contradicted), "the dipole is refused: the shots contradict the lens");
+  contradicted.estimate.converged = true;
+  contradicted.estimate.misfit_p_value = 1e-12;
+  contradicted.estimate.misfit_relative = 0.04;
+  EXPECT_EQ(why_transport(contradicted), "the dipole is refused: the shots contradict the lens");
+}
+
 TEST(ModelChoice, SaysWhyNot) {
-  ChannelResult refused = good();
+  ChannelResult refused = good(0.2);
   refused.estimate.reasons = {"too dark"};
   EXPECT_EQ(why_transport(refused), "the dipole is refused: too dark");
   ChannelResult off = good();
