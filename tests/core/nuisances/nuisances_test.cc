@@ -89,9 +89,9 @@ class UncalibratedCamera : public CalibratedNuisances {
   void expect_found(const Rig& truth, const std::string& named, double value,
                     double SceneCamera::*std) {
     const VirtualShots shots(truth, scenes_, {.noise = true});
-    Rig taken_as_exact = exact_, uncertain = exact_;
+    Rig uncertain = exact_;
     uncertain.scene.camera.*std = std::abs(value);
-    const Estimate exact = measured_by(taken_as_exact, shots);
+    const Estimate exact = measured_by(exact_, shots);
     const Estimate open = measured_by(uncertain, shots);
     const auto pull = [&](const Estimate& e) {
       return std::find_if(e.pulls.begin(), e.pulls.end(),
