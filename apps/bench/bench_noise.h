@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/bench/estimate_statistics.h"
-#include "apps/instrument/open_objects.h"
 #include "apps/report/plot.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "core/base/progress.h"
 

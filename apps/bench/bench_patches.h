@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "core/base/progress.h"
 

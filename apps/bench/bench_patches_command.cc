@@ -5,7 +5,7 @@
 
 #include "apps/bench/bench_command.h"
 #include "apps/bench/bench_patches.h"
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/bodies_rig.h"
 #include "apps/simulation/plastics_rig.h"
 #include "apps/simulation/pyramid_rig.h"

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "core/estimation/channel_rows.h"
 #include "core/estimation/channel_simulation.h"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "apps/checking/image_causes.h"
-#include "apps/instrument/finding.h"
-#include "apps/instrument/light_look.h"
 #include "apps/instrument/measure.h"
 #include "apps/instrument/seen_shots.h"
+#include "apps/looks/finding.h"
+#include "apps/looks/light_look.h"
 #include "capture/shots/shot_source.h"
 #include "core/base/progress.h"
 #include "core/fit/linear_shot.h"
@@ -38,7 +38,7 @@ struct CheckedChannel {
 struct CheckFit {
   std::vector<CheckedChannel> channels;
   std::vector<ShotLikeness> likeness;  // by opened shot
-  std::vector<Finding> findings;       // of the light (apps/instrument/light_look.h)
+  std::vector<Finding> findings;       // of the light (apps/looks/light_look.h)
 };
 
 // Fits the material to all shots of the source by the model that would measure it (the dipole where

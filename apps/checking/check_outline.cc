@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "apps/checking/check.h"
-#include "apps/instrument/closer_look.h"
+#include "apps/looks/closer_look.h"
 
 namespace scattermeter::apps {
 namespace {

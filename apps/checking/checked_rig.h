@@ -10,10 +10,10 @@
 
 #include "apps/checking/check_fit.h"
 #include "apps/checking/check_item.h"
-#include "apps/instrument/finding.h"
 #include "apps/instrument/measure.h"
 #include "apps/instrument/open_shots.h"
-#include "apps/instrument/outline_watch.h"
+#include "apps/looks/finding.h"
+#include "apps/looks/outline_watch.h"
 #include "apps/rig/rig.h"
 #include "calib/led/led_check.h"
 #include "calib/lens/camera_calibration_file.h"

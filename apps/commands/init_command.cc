@@ -11,7 +11,7 @@
 #include "apps/commands/questions.h"
 #include "apps/drafting/drafted_body.h"
 #include "apps/drafting/rig_draft.h"
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "capture/files/pending_file.h"
 #include "core/base/input_error.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "capture/sensor/virtual_sensor.h"
 
 namespace scattermeter::apps {

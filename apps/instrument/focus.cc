@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/core.h>
 
-#include "apps/instrument/closer_look.h"
+#include "apps/looks/closer_look.h"
 #include "calib/pose/edge_points.h"
 #include "calib/pose/limb_blur.h"
 #include "calib/pose/silhouette_check.h"

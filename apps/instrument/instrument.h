@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "apps/instrument/atlas_folder.h"
-#include "apps/instrument/first_look.h"
 #include "apps/instrument/measure.h"
 #include "apps/instrument/sample_map_folder.h"
 #include "apps/instrument/weight_folder.h"
+#include "apps/looks/first_look.h"
 #include "apps/rig/rig.h"
 #include "capture/shots/shot_source.h"
 #include "core/base/progress.h"

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "apps/instrument/instrument.h"
-#include "apps/instrument/open_objects.h"
-#include "apps/instrument/piece_places.h"
 #include "apps/instrument/rig_inputs.h"
+#include "apps/looks/piece_places.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig_led_agreement.h"
 #include "apps/rig/rig_placeholders.h"
 #include "calib/pose/shot_pose.h"

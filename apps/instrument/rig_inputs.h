@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/instrument/measure.h"
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "capture/files/digest.h"
 

@@ -11,9 +11,9 @@
 #include <fmt/core.h>
 
 #include "apps/instrument/instrument.h"
-#include "apps/instrument/open_objects.h"
 #include "apps/instrument/rig_inputs.h"
 #include "apps/planning/shot_forecaster.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/simulate.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/sensor/radiance_calibration.h"

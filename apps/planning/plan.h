@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "apps/instrument/measure.h"
-#include "apps/instrument/open_objects.h"
 #include "apps/planning/expected_materials.h"
 #include "apps/planning/exposure_advice.h"
 #include "apps/planning/suggested_shots.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "apps/simulation/virtual_shots.h"
 #include "capture/sensor/noise_model.h"

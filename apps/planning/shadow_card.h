@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "core/mesh/ray_scene.h"
 
 namespace scattermeter::apps {

@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
-#include "apps/instrument/open_objects.h"
 #include "apps/planning/shot_forecaster.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "core/base/progress.h"
 #include "core/fit/estimate.h"

@@ -1,6 +1,6 @@
 #include "apps/simulation/bodies_rig.h"
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/synthetic_camera.h"
 #include "core/mesh/bodies.h"
 

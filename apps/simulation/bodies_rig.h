@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "core/material/medium.h"
 

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/synthetic_camera.h"
 #include "core/mesh/bodies.h"
 

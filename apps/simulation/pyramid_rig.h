@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "core/light/environment.h"
 

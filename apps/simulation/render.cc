@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "core/base/input_error.h"
 #include "core/base/nearest_name.h"
 #include "core/base/progress.h"

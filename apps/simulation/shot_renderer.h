@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "core/camera/cfa_samples.h"
 #include "core/diffusion/dipole_image.h"

@@ -8,7 +8,7 @@
 
 #include <fmt/core.h>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/chosen_exposure.h"
 #include "apps/simulation/simulate_camera_calibration.h"
 #include "apps/simulation/simulate_led_calibration.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "apps/simulation/shot_renderer.h"
 #include "capture/raw/raw_frame.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/rig/rig.h"
 #include "apps/simulation/virtual_shots.h"
 #include "capture/shots/shot_source.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/instrument/first_look.h"
+#include "apps/looks/first_look.h"
 #include "core/scene/observed_shot.h"
 
 namespace scattermeter::apps {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/instrument/open_objects.h"
-#include "apps/instrument/piece_places.h"
+#include "apps/looks/piece_places.h"
+#include "apps/rig/open_objects.h"
 #include "apps/watching/linked_file.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/file_kind.h"

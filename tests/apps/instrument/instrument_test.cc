@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/instrument/open_objects.h"
 #include "apps/results/result_json.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/virtual_shots.h"
 #include "core/mesh/bodies.h"
 #include "tests/fixtures/apps/small_rig.h"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/instrument/instrument.h"
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/virtual_shots.h"
 #include "capture/sensor/radiance_calibration.h"
 #include "core/base/input_error.h"

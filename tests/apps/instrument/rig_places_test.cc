@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "core/camera/camera_model.h"
 #include "core/view/camera_view.h"
 #include "tests/fixtures/apps/small_rig.h"

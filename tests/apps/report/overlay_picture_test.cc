@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/bodies_rig.h"
 #include "apps/simulation/plastics_rig.h"
 #include "apps/simulation/virtual_shots.h"

@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/shot_renderer.h"
 #include "capture/files/exr_file.h"
 #include "tests/fixtures/apps/made_result.h"

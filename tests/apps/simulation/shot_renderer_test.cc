@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "tests/fixtures/apps/small_rig.h"
 
 namespace scattermeter::apps {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/virtual_shots.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/raw/raw_reader.h"

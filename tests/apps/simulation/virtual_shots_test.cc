@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/bodies_rig.h"
 #include "capture/raw/raw_reader.h"
 #include "tests/fixtures/apps/small_rig.h"

@@ -8,7 +8,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/virtual_shots.h"
 #include "calib/pose/shot_pose.h"
 #include "core/camera/camera_model.h"

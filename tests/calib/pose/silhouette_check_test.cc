@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/instrument/open_objects.h"
+#include "apps/rig/open_objects.h"
 #include "apps/simulation/virtual_shots.h"
 #include "calib/pose/shot_pose.h"
 #include "core/view/camera_view.h"
