@@ -15,6 +15,8 @@
 #include "apps/looks/displaced_round_bodies.h"
 #include "apps/looks/first_look.h"
 #include "apps/looks/frame_watch.h"
+#include "apps/looks/moved_piece.h"
+#include "apps/looks/piece_look.h"
 #include "apps/looks/piece_places.h"
 #include "apps/rig/open_objects.h"
 #include "apps/rig/rig_led_agreement.h"
@@ -137,36 +139,11 @@ calib::SilhouetteCheck checked_outline(const CheckedGeometry& geometry,
                                         source.shot_idxs, poses, options);
 }
 
-}  // namespace
-
-std::vector<Finding> CheckedRig::findings() const {
-  return in_order(looks ? looks->findings : std::vector<Finding>(), fit.findings);
-}
-
-CheckDetail CheckedRig::of_shot(std::size_t shot_idx, double value) const {
-  CheckDetail out;
-  out.where = rig.scene.shots.at(shot_idx).file;
-  out.value = value;
-  out.shot_idx = shot_idx;
-  return out;
-}
-
-CheckDetail CheckedRig::of_channel(std::size_t shot_idx, std::size_t channel, double value) const {
-  CheckDetail out = of_shot(shot_idx, value);
-  out.where += fmt::format(" {}", kRgbName.at(channel));
-  return out;
-}
-
-CheckedRig open_checked_rig(const Rig& given, const std::string& shots_folder,
-                            const CheckOptions& options) {
-  require_radiance_of_leds(given);
-  Rig placed = given;
-  calib::take_points_from_board_shot(placed.scene, placed.decoding, shots_folder, placed.pose);
-  std::vector<std::string> places = place_pieces(placed, shots_folder, options.progress);
+CheckedRig open_placed(Rig placed, const std::string& shots_folder, const CheckOptions& options,
+                       std::vector<std::string> places, bool is_moved) {
   const auto geometry = geometry_of(std::move(placed));
   const Rig& rig = geometry->stated;
-  CheckedRig out{rig,      options,      {}, {}, {}, {}, std::move(places),
-                 geometry, shots_folder, {}, {}, {}};
+  CheckedRig out{rig, options, {}, {}, {}, {}, places, geometry, shots_folder, {}, {}, {}};
   const capture::ShotFolder folder =
       capture::match_shots(rig.scene, calibration_files(rig), shots_folder);
   for (const std::string& name : folder.unlisted) {
@@ -201,6 +178,13 @@ CheckedRig open_checked_rig(const Rig& given, const std::string& shots_folder,
   });
   out.looks = watch ? watch->findings(source)
                     : look_at_pieces(loose, geometry->objects, seen.whole(), frames);
+  // `measure` measures there, too.
+  if (!is_moved && !out.looks->moved.empty()) {
+    Rig moved = rig;
+    move_pieces(out.looks->moved, moved.scene);
+    for (const auto& [name, piece] : out.looks->moved) places.push_back(piece.note);
+    return open_placed(std::move(moved), shots_folder, options, std::move(places), true);
+  }
   out.notes.insert(out.notes.end(), out.looks->notes.begin(), out.looks->notes.end());
   const std::vector<Finding> of_frames = frame_watch.findings();
   out.looks->findings.insert(out.looks->findings.begin(), of_frames.begin(), of_frames.end());
@@ -219,6 +203,35 @@ CheckedRig open_checked_rig(const Rig& given, const std::string& shots_folder,
         "no responsivity in the rig: the scale is free, sigma_a will be uncertain");
   }
   return out;
+}
+
+}  // namespace
+
+std::vector<Finding> CheckedRig::findings() const {
+  return in_order(looks ? looks->findings : std::vector<Finding>(), fit.findings);
+}
+
+CheckDetail CheckedRig::of_shot(std::size_t shot_idx, double value) const {
+  CheckDetail out;
+  out.where = rig.scene.shots.at(shot_idx).file;
+  out.value = value;
+  out.shot_idx = shot_idx;
+  return out;
+}
+
+CheckDetail CheckedRig::of_channel(std::size_t shot_idx, std::size_t channel, double value) const {
+  CheckDetail out = of_shot(shot_idx, value);
+  out.where += fmt::format(" {}", kRgbName.at(channel));
+  return out;
+}
+
+CheckedRig open_checked_rig(const Rig& given, const std::string& shots_folder,
+                            const CheckOptions& options) {
+  require_radiance_of_leds(given);
+  Rig placed = given;
+  calib::take_points_from_board_shot(placed.scene, placed.decoding, shots_folder, placed.pose);
+  std::vector<std::string> places = place_pieces(placed, shots_folder, options.progress);
+  return open_placed(std::move(placed), shots_folder, options, std::move(places), false);
 }
 
 }  // namespace scattermeter::apps

@@ -48,7 +48,7 @@ bool any_curved(const std::vector<ObservedShot>& shots) {
 std::vector<ChannelResult> fitted_from_where_seen(
     const Scene& scene, SeenShots& seen, EstimateOptions options,
     const std::function<std::vector<ChannelResult>(const EstimateOptions&)>& fit,
-    Stopwatch& watch) {
+    const std::function<bool()>& finds_elsewhere, Stopwatch& watch) {
   // Where the dipole does not describe the medium, its misfit may move the object from fit to fit:
   // unless a view brings it so much nearer to the image, transport looks from the stated position.
   constexpr double kNearer = 0.5;
@@ -109,6 +109,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
       }
       return results;
     }
+    if (views == 1 && finds_elsewhere()) return results;
     if (by_transport) options.found = std::move(results);
     is_stated = is_vain;
     motion_before = found.motion;

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/core.h>
-
 #include "apps/instrument/fitted_view.h"
 #include "apps/instrument/focus.h"
 #include "apps/instrument/rig_places.h"
@@ -16,9 +14,9 @@
 #include "apps/looks/frame_watch.h"
 #include "apps/looks/light_look.h"
 #include "apps/looks/outline_watch.h"
-#include "apps/looks/piece_places.h"
+#include "apps/looks/piece_look.h"
+#include "apps/looks/pose_points.h"
 #include "calib/pose/shot_pose.h"
-#include "core/base/chi_square.h"
 #include "core/base/input_error.h"
 #include "core/base/progress.h"
 
@@ -41,28 +39,6 @@ double distance_to_camera_mm(const Rig& rig, const ObjectScenes& objects,
         std::max(distance_mm, (view.center_in_world_mm() - object.box.center_mm()).norm());
   }
   return distance_mm;
-}
-
-// Pose points that scatter by far more than the rig states about the best pose: lens or marks are
-// not as stated, and no pose is right.
-std::optional<Finding> scattered_points(const Rig& rig, const PoseResult& pose,
-                                        const std::vector<std::size_t>& shots) {
-  constexpr double kMostRatio = 2.0;
-  constexpr double kLeastProbability = 1e-6;
-  const double stated_px = rig.pose.options.point_std_px;
-  const double dof =
-      2.0 * static_cast<double>(std::count(pose.inlier.begin(), pose.inlier.end(), true)) - 6.0;
-  const double ratio = pose.noise_std_px / stated_px;
-  if (!(ratio > kMostRatio) || chi_square_tail(dof * ratio * ratio, dof) > kLeastProbability) {
-    return std::nullopt;
-  }
-  return Finding{"pose points",
-                 fmt::format("pose points scatter by {:.2g} px about the best camera pose, {:.1f} "
-                             "times the {:.2g} px of pose.point_std_px",
-                             pose.noise_std_px, ratio, stated_px),
-                 "check camera.intrinsics (was the lens focused again?) and the marks' positions, "
-                 "or state how well they were read",
-                 shots};
 }
 
 // The estimate of all channels but those that the findings refuse.
@@ -140,17 +116,15 @@ FirstLook Instrument::look(const capture::ShotSource& source) {
   Stopwatch watch(timing_s);
   SeenShots seen(rig_, objects_, lit_, source, view_of(source), true, std::nullopt, kept_,
                  progress_);
-  FirstLook out = look_first(source, true, seen, watch);
+  FirstLook out = look_first(source, true, open_and_look(source, seen), seen, watch);
   out.shots = seen.shots();
   LightLook light(rig_.scene, lit_, out.shots, seen.kept().weights);
   for (std::size_t i = 0; i < out.shots.size(); ++i) out.likeness.push_back(light.likeness(i));
   return out;
 }
 
-// Opens the shots, looks at outlines, frames, lights and pose points meanwhile, and opens the shots
-// again from where the outlines show the objects.
-FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth, SeenShots& seen,
-                                 Stopwatch& watch) {
+// Opens the shots and looks at outlines and frames meanwhile.
+OutlineFindings Instrument::open_and_look(const capture::ShotSource& source, SeenShots& seen) {
   FrameWatch frame_watch(rig_.scene);
   std::optional<OutlineWatch> looks;
   if (view_) looks.emplace(rig_, objects_, *pose_);
@@ -170,12 +144,20 @@ FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
   const std::vector<Finding> of_frames = frame_watch.findings();
   // Shots of which something is wrong or a little off are looked at again next time.
   if (!of_frames.empty() || !outlines.findings.empty() || !outlines.shifts.empty() ||
-      !outlines.sizes_open.empty()) {
+      !outlines.moved.empty() || !outlines.sizes_open.empty()) {
     seen.forget();
   }
+  if (is_moved_) outlines.moved.clear();
+  outlines.findings.insert(outlines.findings.begin(), of_frames.begin(), of_frames.end());
+  return outlines;
+}
+
+// Opens the shots again from where the outlines show the objects, and looks at lights and pose
+// points.
+FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
+                                 OutlineFindings outlines, SeenShots& seen, Stopwatch& watch) {
   if (!outlines.shifts.empty()) seen.open_from(outlines.shifts);
   if (!outlines.sizes_open.empty()) seen.leave_sizes_open(outlines.sizes_open);
-  outlines.findings.insert(outlines.findings.begin(), of_frames.begin(), of_frames.end());
   watch.lap("shots");
   std::vector<Finding> of_light;
   if (smooth) {
@@ -192,6 +174,21 @@ FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
     }
   }
   return {{}, in_order(outlines.findings, of_light), outlines.notes, {}, outlines.diagnosis};
+}
+
+// Nothing is kept of it: the shots put the pieces elsewhere for every measurement.
+Measurement Instrument::measure_moved(const capture::ShotSource& source, Stopwatch& watch,
+                                      const MovedPieces& pieces) const {
+  const std::unique_ptr<const MovedRig> moved = moved_rig(rig_, objects_, pieces);
+  MeasureOptions options = options_;
+  options.atlas_folder.clear();
+  Instrument there(moved->rig, moved->objects, options, progress_);
+  there.is_moved_ = true;
+  capture::ShotSource unkept = source;
+  unkept.cache = nullptr;
+  Measurement out = there.measure(unkept, watch);
+  for (const auto& [name, piece] : pieces) out.notes.insert(out.notes.begin(), piece.note);
+  return out;
 }
 
 Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& watch,
@@ -215,7 +212,9 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     seen.open();
     watch.lap("shots");
   } else {
-    look = look_first(source, smooth, seen, watch);
+    OutlineFindings outlines = open_and_look(source, seen);
+    if (!outlines.moved.empty()) return measure_moved(source, watch, outlines.moved);
+    look = look_first(source, smooth, std::move(outlines), seen, watch);
     out.notes = look.notes;
   }
   out.brackets = brackets_of(seen.shots());
@@ -223,17 +222,35 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     return estimate_others(rig_.scene, lit_, seen.shots(), look.findings, how, seen.kept(), watch,
                            progress_);
   };
+  const auto* frames = std::get_if<capture::FrameSource>(&source.open);
+  OutlineFindings closer;
+  bool has_looked = is_moved_ || without_noise || !view_ || frames == nullptr;
+  const auto finds_elsewhere = [&] {
+    if (!std::exchange(has_looked, true)) {
+      closer = look_at_pieces(rig_, objects_, *pose_, seen.shots(), *frames);
+    }
+    return !closer.moved.empty() || !closer.findings.empty();
+  };
   for (;;) {
     options.all_rows = seen.all_rows();
-    out.results = smooth && !without_noise
-                      ? fitted_from_where_seen(rig_.scene, seen, options, fit, watch)
-                      : fit(options);
+    out.results = smooth && !without_noise ? fitted_from_where_seen(rig_.scene, seen, options, fit,
+                                                                    finds_elsewhere, watch)
+                                           : fit(options);
+    if (smooth && look.findings.empty() &&
+        std::any_of(out.results.begin(), out.results.end(), is_fitted_and_refused)) {
+      finds_elsewhere();
+    }
+    if (!closer.findings.empty()) {
+      look.findings = in_order(std::move(closer.findings), std::move(look.findings));
+      out.results = fit(options);
+      break;
+    }
+    if (!closer.moved.empty()) return measure_moved(source, watch, closer.moved);
     if (!seen.levels()) break;
     levels = levels_needed(out.results, *options_.goal, *seen.levels(), options.all_rows);
     if (levels == seen.levels()) break;
     seen.choose(levels);
   }
-  const auto* frames = std::get_if<capture::FrameSource>(&source.open);
   if (!without_noise && frames != nullptr && look.findings.empty() &&
       std::any_of(out.results.begin(), out.results.end(), is_fitted_and_refused)) {
     if (view_) {

@@ -12,6 +12,7 @@
 #include "apps/instrument/sample_map_folder.h"
 #include "apps/instrument/weight_folder.h"
 #include "apps/looks/first_look.h"
+#include "apps/looks/outline_watch.h"
 #include "apps/rig/rig.h"
 #include "capture/shots/shot_source.h"
 #include "core/base/progress.h"
@@ -41,10 +42,11 @@ class Instrument {
   // any fit, outlines and light of the shots are looked at (outline_watch.h, light_look.h):
   // channels whose shots contradict the rig are refused at once. Where the outlines, and then the
   // fit of all channels, show that the objects stand elsewhere within the rig's uncertainty, the
-  // shots are opened again and fitted from there (core/nuisances/view_shift.h). Fills in results,
-  // patch sizes, timing and the notes of these looks; inputs are left to the caller. Throws
-  // InputError as measure() does. Must not be called from several threads at once (it uses all of
-  // them).
+  // shots are opened again and fitted from there (core/nuisances/view_shift.h); where that changes
+  // their light, too (changes_light()), they are moved there, and the light is computed again.
+  // Fills in results, patch sizes, timing and the notes of these looks; inputs are left to the
+  // caller. Throws InputError as measure() does. Must not be called from several threads at once
+  // (it uses all of them).
   Measurement measure(const capture::ShotSource& source);
   Measurement measure(const capture::ShotSource& source,
                       Stopwatch& watch);  // records the timing there only
@@ -62,10 +64,13 @@ class Instrument {
  private:
   // The view that these shots share, if they do.
   std::optional<SharedView> view_of(const capture::ShotSource& source);
-  FirstLook look_first(const capture::ShotSource& source, bool smooth, SeenShots& seen,
-                       Stopwatch& watch);
+  OutlineFindings open_and_look(const capture::ShotSource& source, SeenShots& seen);
+  FirstLook look_first(const capture::ShotSource& source, bool smooth, OutlineFindings outlines,
+                       SeenShots& seen, Stopwatch& watch);
   Measurement measure(const capture::ShotSource& source, Stopwatch& watch, bool without_noise,
                       std::vector<ObservedShot>& opened);
+  Measurement measure_moved(const capture::ShotSource& source, Stopwatch& watch,
+                            const MovedPieces& pieces) const;
 
   const Rig& rig_;
   const ObjectScenes& objects_;
@@ -78,6 +83,7 @@ class Instrument {
   std::shared_ptr<WeightFolder> weights_;  // null: not kept
   std::optional<SampleMapFolder> maps_;    // absent: not kept
   KeptLight kept_;
+  bool is_moved_ = false;  // the rig's pieces stand where their outlines showed them
 };
 
 }  // namespace scattermeter::apps

@@ -14,7 +14,7 @@
 #include "apps/looks/other_outline.h"
 #include "apps/looks/other_size.h"
 #include "apps/looks/outline_finding.h"
-#include "apps/looks/piece_places.h"
+#include "apps/looks/piece_look.h"
 #include "apps/looks/scaled_piece.h"
 #include "core/view/camera_view.h"
 
@@ -155,16 +155,19 @@ calib::OutlineDiagnosis OutlineWatch::look_again(const capture::FrameSource& fra
   return out;
 }
 
-// What the quick look leaves open is told by the careful search.
-void OutlineWatch::find_misplaced_pieces(const capture::FrameSource& frames, const Looks& looks,
-                                         OutlineFindings& out) const {
+// What the quick look leaves open, and where exactly the pieces stand that it shows elsewhere, is
+// told by the careful search.
+void OutlineWatch::look_closely(const capture::FrameSource& frames, const Looks& looks,
+                                OutlineFindings& out) const {
   for (auto& [body, idxs] : shots_of_bodies(looks)) {
-    if (!calib::may_be_misplaced(*out.diagnosis, body)) continue;
-    std::optional<Finding> finding =
-        misplaced_piece(rig_, objects_, names_[body], pose_, std::move(idxs), frames);
-    if (!finding) continue;
-    out.findings.push_back(std::move(*finding));
-    out.diagnosis->agrees = false;
+    if (out.shifts.empty() && !calib::may_be_misplaced(*out.diagnosis, body)) continue;
+    PieceLook look = look_at_piece(rig_, objects_, names_[body], pose_, std::move(idxs), frames);
+    if (look.finding) {
+      out.findings.push_back(std::move(*look.finding));
+      out.diagnosis->agrees = false;
+    } else if (look.moved) {
+      out.moved[names_[body]] = std::move(*look.moved);
+    }
   }
 }
 
@@ -239,10 +242,8 @@ void OutlineWatch::say_exactly(const capture::FrameSource& frames, OutlineFindin
     return;
   }
   Finding& told = out.findings.back();
-  if (std::optional<Finding> exact =
-          misplaced_piece(rig_, objects_, names_[best.which], pose_, told.shots, frames)) {
-    told = std::move(*exact);
-  }
+  PieceLook exact = look_at_piece(rig_, objects_, names_[best.which], pose_, told.shots, frames);
+  if (exact.finding) told = std::move(*exact.finding);
 }
 
 OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const {
@@ -285,10 +286,11 @@ OutlineFindings OutlineWatch::findings(const capture::ShotSource& source) const 
     say_exactly(*frames, out);
   } else {
     find_scaled_pieces(*frames, looks, out);
-    if (out.findings.size() == others) find_misplaced_pieces(*frames, looks, out);
+    if (out.findings.size() == others) look_closely(*frames, looks, out);
     if (out.findings.size() > others) {  // nothing lies within what is stated
       out.notes.resize(notes);
       out.shifts.clear();
+      out.moved.clear();
     }
   }
   return out;

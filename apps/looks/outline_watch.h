@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/looks/finding.h"
+#include "apps/looks/moved_piece.h"
 #include "apps/looks/other_outline.h"
 #include "apps/rig/rig.h"
 #include "calib/pose/outline_causes.h"
@@ -26,6 +27,7 @@ struct OutlineFindings {
   // By ObservedShot::view_name(), if the outlines show where the objects stand within the rig's
   // uncertainty: the shift of the pose relative to them. Empty otherwise.
   std::map<std::string, PoseShift> shifts;
+  MovedPieces moved;  // the pieces whose positions the careful search tells better
   // By object, where its outline does not tell cut edges from another size:
   // ObservedShot::size_open_relative.
   std::map<std::string, double> sizes_open;
@@ -69,8 +71,8 @@ class OutlineWatch {
                                      std::vector<std::size_t>& looked_at) const;
   bool find_other_sizes(const capture::FrameSource& frames, const Looks& looks,
                         OutlineFindings& out) const;
-  void find_misplaced_pieces(const capture::FrameSource& frames, const Looks& looks,
-                             OutlineFindings& out) const;
+  void look_closely(const capture::FrameSource& frames, const Looks& looks,
+                    OutlineFindings& out) const;
   void find_scaled_pieces(const capture::FrameSource& frames, const Looks& looks,
                           OutlineFindings& out) const;
   void conclude(const Looks& looks, OutlineFindings& out) const;
