@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include "apps/looks/closer_look.h"
 #include "apps/looks/outline_finding.h"
 #include "calib/pose/shot_pose.h"
 #include "calib/pose/silhouette_check.h"
@@ -100,6 +101,20 @@ struct ShotsOfPose {
   std::vector<std::size_t> shots;  // indices into the scene's
 };
 
+// An outline farther in than the mesh's is that of a piece farther away, or of cut edges: how far
+// away is then as uncertain as these make it.
+void allow_for_cut_edges(const Rig& rig, const ObjectScene& object, const PoseResult& camera,
+                         calib::PiecePose& found) {
+  const CameraIntrinsics& lens = rig.scene.camera.intrinsics;
+  const Eigen::Vector3d from_camera_mm =
+      object.box.center_mm() - inverse(camera.camera_from_world).translation_mm;
+  if (!(found.off.head<3>().dot(from_camera_mm) > 0.0)) return;
+  const double relative = edge_cut_px(lens, object, camera) /
+                          (0.5 * object.size_mm() * px_per_mm(lens, object, camera));
+  found.covariance.topLeftCorner<3, 3>() +=
+      relative * relative * from_camera_mm * from_camera_mm.transpose();
+}
+
 // By the outline of an object about where it is stated to stand.
 calib::PiecePose found_near(const Rig& rig, const ObjectScenes& objects, const ObjectScene& object,
                             const std::vector<ShotsOfPose>& poses,
@@ -117,7 +132,10 @@ calib::PiecePose found_near(const Rig& rig, const ObjectScenes& objects, const O
                                                 options.silhouette));
     }
   });
-  return calib::find_piece(views, rig.scene.camera.intrinsics, object.box.center_mm(), options);
+  calib::PiecePose found =
+      calib::find_piece(views, rig.scene.camera.intrinsics, object.box.center_mm(), options);
+  allow_for_cut_edges(rig, object, poses.front().camera, found);
+  return found;
 }
 
 // By the outline and the stated position together, if the outline shows that it is another; absent

@@ -12,6 +12,7 @@
 #include "apps/rig/open_objects.h"
 #include "calib/pose/piece_pose.h"
 #include "calib/pose/shot_pose.h"
+#include "calib/pose/silhouette_check.h"
 #include "capture/files/file_kind.h"
 #include "capture/shots/raw_shot.h"
 #include "core/base/input_error.h"

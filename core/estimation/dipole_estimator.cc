@@ -252,7 +252,7 @@ class DipoleEstimator {
         smooth_reflectance(fit.recovered, image.nuisances(), knots_, {.scale = fit_.scale});
     result.misfit = dipole_misfit(fit.recovered, image.nuisances(), knots_, medium,
                                   std::exp(p.log_s), {.scale = fit_.scale});
-    widen_by_mesh_scale(e_.channels[i], result.estimate);
+    apply_mesh_scale(e_.channels[i], result.estimate);
   }
 
   // Fits each shot by itself and widens the joint estimate by what they disagree.

@@ -82,14 +82,23 @@ std::string shot_problem(const ObservedShot& shot, std::size_t channel) {
   return "";
 }
 
-void widen_by_mesh_scale(const MaterialChannel& channel, Estimate& estimate) {
-  double relative = 0.0;
+void apply_mesh_scale(const MaterialChannel& channel, Estimate& estimate) {
+  double relative_std = 0.0, larger = 0.0;
   for (const ObservedShot* shot : channel.shots) {
-    relative = std::max(relative, shot->size_relative_std());
+    relative_std = std::max(relative_std, shot->size_relative_std());
+    const std::string name = shot->seen->object->stated->piece_name() + ".size";
+    for (const PriorPull& pull : estimate.pulls) {
+      if (pull.name == name) larger += pull.offset / static_cast<double>(channel.shots.size());
+    }
   }
-  if (!(relative > 0.0)) return;
-  const double by_s = relative * estimate.sigma_s_prime_per_mm.value;
-  const double by_a = relative * estimate.sigma_a_per_mm.value;
+  if (!(relative_std > 0.0)) return;
+  Quantity& s = estimate.sigma_s_prime_per_mm;
+  Quantity& a = estimate.sigma_a_per_mm;
+  for (Quantity* q : {&s, &a}) {
+    for (double* of : {&q->value, &q->std, &q->low95, &q->high95}) *of /= 1.0 + larger;
+  }
+  const double by_s = relative_std * s.value;
+  const double by_a = relative_std * a.value;
   widen({"mesh scale", by_s, by_a}, by_s * by_a, estimate);
 }
 

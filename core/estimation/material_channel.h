@@ -35,10 +35,12 @@ double patch_size_mm(const MaterialChannel& channel);
 
 // An object that is larger than its mesh by a factor 1 + s, with light and camera at the matching
 // scale, looks like the mesh with coefficients that are larger by the same factor: lengths are
-// known by their products with the coefficients alone. Widens deviations and 95 % intervals by the
-// largest ObservedShot::size_relative_std() of the channel, common to both coefficients,
-// and adds the budget's line "mesh scale".
-void widen_by_mesh_scale(const MaterialChannel& channel, Estimate& estimate);
+// known by their products with the coefficients alone. Divides both coefficients by the most
+// probable factor, by mesh and image (of the pull of "NAME.size"; the mean over the shots), and
+// widens deviations and 95 % intervals by the largest ObservedShot::size_relative_std() of the
+// channel, common to both, which is more than the image leaves of it: where edges are cut, it may
+// take that for a size. Adds the budget's line "mesh scale".
+void apply_mesh_scale(const MaterialChannel& channel, Estimate& estimate);
 
 // Whether a light of its shots is fitted along (ambient light).
 bool has_fitted_light(const Scene& scene, const MaterialChannel& channel);

@@ -257,7 +257,7 @@ class TransportSearch {
         shot_rows(channel_, rows_, system_.l - round.residual(), variance.cwiseSqrt());
     result.look = residual_look(rows, channel_);
     if (options_.keep_rows) result.rows = std::move(rows);
-    widen_by_mesh_scale(channel_, result.estimate);
+    apply_mesh_scale(channel_, result.estimate);
     report_shots(round, channel_, result);
     result.has_enough_paths =
         round.has_enough_paths() ||

@@ -162,7 +162,7 @@ void SceneNuisances::add_view(const ObservedShot& shot, const SeenChange& change
 // The effect of the object's position, orientation and size: what the samples see shifts along the
 // surface as if the camera moved, and every LED moves the other way. A larger object looks like the
 // mesh with camera and LEDs nearer to its centre, LEDs of less power, and coefficients that are
-// larger by as much (widen_by_mesh_scale()). The standings of one piece have one size. Turns that
+// larger by as much (apply_mesh_scale()). The standings of one piece have one size. Turns that
 // leave a round body in its place change nothing: what its facets and the derivatives' own errors
 // make of them must not count as evidence.
 void SceneNuisances::add_place(const ObservedShot& shot, const SeenChange& seen_change,

@@ -15,16 +15,18 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// What the outline of a cube says that stands off its mesh by this, and is known to
-// position_std_mm.
-PieceLook look_at_cube(const Eigen::Vector3d& off_mm, double position_std_mm) {
+// What the outline of a cube says that stands off its mesh by this and is larger by this factor.
+PieceLook look_at_cube(const Eigen::Vector3d& off_mm, double position_std_mm, double factor = 1.0,
+                       double edge_std_mm = 0.1) {
   Rig rig = body_rig("cube", 2);
   TriangleMesh mesh = body_mesh("cube");
-  for (Eigen::Vector3d& v : mesh.vertices_mm) v += off_mm;
+  const Eigen::Vector3d center_mm = bounds(mesh).center_mm();
+  for (Eigen::Vector3d& v : mesh.vertices_mm) v = center_mm + factor * (v - center_mm) + off_mm;
   const ObjectScenes moved = open_objects(rig, [&](const SceneObject&) { return mesh; });
   const VirtualShots shots(rig, moved, {.noise = true});
   default_uncertainty::take_where_none(rig.scene);
   rig.scene.objects.front().position_std_mm = position_std_mm;
+  rig.scene.objects.front().edge_std_mm = edge_std_mm;
   const ObjectScenes stated = bodies_scenes(rig);
   const capture::ShotSource source = shots.source(3);
   return look_at_piece(rig, stated, "cube", calib::pose_from_points(rig.scene, rig.pose), {0, 1},
@@ -55,6 +57,13 @@ TEST(PieceLook, LeavesAPieceWhereItStandsAsStated) {
   const PieceLook look = look_at_cube(Eigen::Vector3d::Zero(), 0.1);
   EXPECT_FALSE(look.finding);
   EXPECT_FALSE(look.moved);
+}
+
+// A smaller outline may be that of cut edges, a larger one may not.
+TEST(PieceLook, CutEdgesMakeNoPieceStandFartherAway) {
+  EXPECT_FALSE(look_at_cube(Eigen::Vector3d::Zero(), 0.1, 0.985).finding);
+  EXPECT_TRUE(look_at_cube(Eigen::Vector3d::Zero(), 0.1, 0.985, 0.0).finding);
+  EXPECT_TRUE(look_at_cube(Eigen::Vector3d::Zero(), 0.1, 1.015).finding);
 }
 
 TEST(PieceLook, ShotsUnderOtherLightsTellFirst) {

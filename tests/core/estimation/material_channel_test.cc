@@ -108,11 +108,11 @@ TEST(MaterialChannel, CoefficientsAreAsUncertainAsLengths) {
   exact.sigma_a_per_mm = normal_quantity(0.01, 0.0002);
   exact.correlation = -0.5;
   Estimate e = exact;
-  widen_by_mesh_scale(channel, e);
+  apply_mesh_scale(channel, e);
   EXPECT_EQ(e.sigma_s_prime_per_mm.std, exact.sigma_s_prime_per_mm.std);
   EXPECT_TRUE(e.budget.empty());
   cube.scene.objects[0].scale_relative_std = 0.002;
-  widen_by_mesh_scale(channel, e);
+  apply_mesh_scale(channel, e);
   EXPECT_NEAR(e.sigma_s_prime_per_mm.std, std::hypot(0.003, 0.004), 1e-15);
   EXPECT_NEAR(e.sigma_a_per_mm.std, std::hypot(0.0002, 0.00002), 1e-15);
   // Covariances add up: -0.5 * 0.003 * 0.0002 + 0.004 * 0.00002.
@@ -124,9 +124,33 @@ TEST(MaterialChannel, CoefficientsAreAsUncertainAsLengths) {
   // An outline that does not tell cut edges from another size leaves more open.
   cube.shots[0].size_open_relative = 0.0015;
   Estimate open = exact;
-  widen_by_mesh_scale(channel, open);
+  apply_mesh_scale(channel, open);
   ASSERT_EQ(open.budget.size(), 1U);
   EXPECT_NEAR(open.budget[0].std_sigma_s_prime_per_mm, 2.0 * 0.0025, 1e-15);
+}
+
+// The image shows a body that is larger than its mesh: its coefficients are smaller.
+TEST(MaterialChannel, CoefficientsAreThoseOfTheSizeThatTheImageTells) {
+  test_support::DipoleCube cube;
+  cube.show(test_support::kCubeMedium);
+  cube.scene.objects[0].scale_relative_std = 0.002;
+  const MaterialChannel channel = material_channels(cube.scene, cube.shots, "R").front();
+  Estimate e;
+  e.sigma_s_prime_per_mm = normal_quantity(2.0, 0.003);
+  e.sigma_a_per_mm = normal_quantity(0.01, 0.0002);
+  PriorPull size;
+  size.name = cube.scene.objects[0].name + ".size";
+  size.offset = 0.005;
+  PriorPull other;
+  other.name = "eta";
+  other.offset = 0.1;
+  e.pulls = {other, size};
+  apply_mesh_scale(channel, e);
+  EXPECT_NEAR(e.sigma_s_prime_per_mm.value, 2.0 / 1.005, 1e-12);
+  EXPECT_NEAR(e.sigma_a_per_mm.value, 0.01 / 1.005, 1e-12);
+  EXPECT_NEAR(e.sigma_s_prime_per_mm.std, 0.005 / 1.005, 1e-12);
+  EXPECT_NEAR(e.sigma_s_prime_per_mm.high95 - e.sigma_s_prime_per_mm.value, 1.96 * 0.005 / 1.005,
+              1e-12);
 }
 
 }  // namespace
