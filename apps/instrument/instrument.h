@@ -40,13 +40,12 @@ class Instrument {
   // view and light are computed when first needed; they are kept if the pose comes from the rig's
   // points alone, but not with a board or silhouettes. The digits are the same either way. Before
   // any fit, outlines and light of the shots are looked at (outline_watch.h, light_look.h):
-  // channels whose shots contradict the rig are refused at once. Where the outlines, and then the
-  // fit of all channels, show that the objects stand elsewhere within the rig's uncertainty, the
-  // shots are opened again and fitted from there (core/nuisances/view_shift.h); where that changes
-  // their light, too (changes_light()), they are moved there, and the light is computed again.
-  // Fills in results, patch sizes, timing and the notes of these looks; inputs are left to the
-  // caller. Throws InputError as measure() does. Must not be called from several threads at once
-  // (it uses all of them).
+  // channels whose shots contradict the rig are refused at once. Where outlines show that pieces
+  // stand elsewhere within the rig's uncertainty, they are measured there (piece_look.h); of what
+  // has no edges the fit of all channels tells, and the shots are opened again and fitted from
+  // there (core/nuisances/view_shift.h). Fills in results, patch sizes, timing and the notes of
+  // these looks; inputs are left to the caller. Throws InputError as measure() does. Must not be
+  // called from several threads at once (it uses all of them).
   Measurement measure(const capture::ShotSource& source);
   Measurement measure(const capture::ShotSource& source,
                       Stopwatch& watch);  // records the timing there only

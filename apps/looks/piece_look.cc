@@ -138,16 +138,15 @@ calib::PiecePose found_near(const Rig& rig, const ObjectScenes& objects, const O
   return found;
 }
 
-// By the outline and the stated position together, if the outline shows that it is another; absent
-// for a piece that may not move.
-std::optional<PiecePlace> place_elsewhere(const Rig& rig, const ObjectScene& object,
-                                          const calib::PiecePose& found) {
+// Where the outline shows the object, if that is elsewhere than stated and it may move.
+std::optional<MovedPiece> moved_to(const Rig& rig, const ObjectScene& object,
+                                   const calib::PiecePose& found) {
   constexpr double kChance = 1e-4;
   const double chi2 = found.off.dot(SymmetricSolver(found.covariance).solve(found.off));
   if (!may_move(rig.scene, *object.stated) || chi_square_tail(chi2, 6.0) > kChance) {
     return std::nullopt;
   }
-  return most_probable(object, found);
+  return moved_piece(rig.scene, object, most_probable(object, found));
 }
 
 }  // namespace
@@ -201,8 +200,8 @@ OutlineFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects,
     }
     std::optional<Finding> finding = misplaced(rig, object, found, telling.front()->pose);
     const PiecePlace place = most_probable(object, found);
-    if (!finding && place_elsewhere(rig, object, found)) {
-      out.moved[name] = moved_piece(rig.scene, object, place);
+    if (auto moved = moved_to(rig, object, found); moved && !finding) {
+      out.moved[name] = std::move(*moved);
     }
     for (const ObservedShot& shot : shots) {
       if (shot.stated->object != name) continue;
@@ -237,9 +236,7 @@ PieceLook look_at_piece(const Rig& rig, const ObjectScenes& objects, const std::
   if (out.finding) {
     out.finding->shots = std::move(shots);
   } else {
-    if (const auto place = place_elsewhere(rig, stated, found)) {
-      out.moved = moved_piece(rig.scene, stated, *place);
-    }
+    out.moved = moved_to(rig, stated, found);
   }
   return out;
 }
@@ -249,13 +246,20 @@ OutlineFindings look_at_pieces(const Rig& rig, const ObjectScenes& objects, cons
                                const capture::FrameSource& frames) {
   OutlineFindings out;
   for (const auto& [name, object] : objects) {
-    std::vector<std::size_t> idxs;
+    std::vector<std::size_t> telling;
     for (const ObservedShot* shot : telling_of(shots, name)) {
-      idxs.push_back(rig.scene.index_of(*shot->stated));
+      telling.push_back(rig.scene.index_of(*shot->stated));
     }
-    if (object.is_round || idxs.empty()) continue;
-    PieceLook look = look_at_piece(rig, objects, name, pose, std::move(idxs), frames);
-    if (look.finding) out.findings.push_back(std::move(*look.finding));
+    if (object.is_round || telling.empty()) continue;
+    PieceLook look = look_at_piece(rig, objects, name, pose, std::move(telling), frames);
+    if (look.finding) {
+      look.finding->shots.clear();
+      for (const ObservedShot& shot : shots) {
+        if (shot.stated->object != name) continue;
+        look.finding->shots.push_back(rig.scene.index_of(*shot.stated));
+      }
+      out.findings.push_back(std::move(*look.finding));
+    }
     if (look.moved) out.moved[name] = std::move(*look.moved);
   }
   return out;
