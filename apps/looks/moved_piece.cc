@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 
 #include "apps/rig/open_objects.h"
-#include "core/base/rotation_vector.h"
+#include "calib/pose/piece_pose.h"
 #include "core/base/symmetric_eigen.h"
 
 namespace scattermeter::apps {
@@ -23,11 +23,8 @@ double lowest_mm(const TriangleMesh& mesh, const Rigid3d& by) {
 }  // namespace
 
 MovedPiece moved_piece(const Scene& scene, const ObjectScene& object, const PiecePlace& place) {
-  const Eigen::Vector3d center_mm = object.box.center_mm();
-  const Eigen::Vector3d turn_rad = place.off.tail<3>();
   MovedPiece out;
-  out.by.rotation = rotation_by(turn_rad);
-  out.by.translation_mm = center_mm + place.off.head<3>() - out.by.rotation * center_mm;
+  out.by = calib::followed_by({}, place.off, object.box.center_mm());
   if (const auto& plane = scene.surroundings.plane) {
     out.by.translation_mm.z() += std::max(0.0, plane->z_mm - lowest_mm(object.mesh(), out.by));
   }
@@ -39,7 +36,7 @@ MovedPiece moved_piece(const Scene& scene, const ObjectScene& object, const Piec
       "{} was found by its outline [{:.2f}, {:.2f}, {:.2f}] mm from where the rig states it, "
       "turned by {:.2f} degrees; its position is known to {:.2g} mm",
       object.stated->name, place.off[0], place.off[1], place.off[2],
-      180.0 / std::numbers::pi * turn_rad.norm(), out.position_std_mm);
+      180.0 / std::numbers::pi * place.off.tail<3>().norm(), out.position_std_mm);
   return out;
 }
 

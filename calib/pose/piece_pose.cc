@@ -34,13 +34,6 @@ Vector6d between(const Rigid3d& from, const Rigid3d& to, const Eigen::Vector3d& 
   return out;
 }
 
-// The motion followed by a displacement and a turn of the piece.
-Rigid3d followed_by(const Rigid3d& motion, const Vector6d& step, const Eigen::Vector3d& center_mm) {
-  const Eigen::Quaterniond q = rotation_by(step.tail<3>());
-  const Eigen::Vector3d now_mm = motion * center_mm;
-  return Rigid3d{q, now_mm + step.head<3>() - q * now_mm} * motion;
-}
-
 // From the stated position, or, where that is too far off, from a few others.
 Silhouette silhouette_from_near(const PieceView& view, const CameraIntrinsics& intrinsics,
                                 const Eigen::Vector3d& center_mm, const PiecePoseOptions& options) {
@@ -137,6 +130,13 @@ std::string settle_on_plane(const Eigen::Vector3d& center_mm, const PiecePoseOpt
 }
 
 }  // namespace
+
+Rigid3d followed_by(const Rigid3d& motion, const Eigen::Matrix<double, 6, 1>& step,
+                    const Eigen::Vector3d& center_mm) {
+  const Eigen::Quaterniond q = rotation_by(step.tail<3>());
+  const Eigen::Vector3d now_mm = motion * center_mm;
+  return Rigid3d{q, now_mm + step.head<3>() - q * now_mm} * motion;
+}
 
 PiecePose find_piece(const std::vector<PieceView>& views, const CameraIntrinsics& intrinsics,
                      const Eigen::Vector3d& center_mm, const PiecePoseOptions& options) {

@@ -42,6 +42,11 @@ struct PiecePose {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
+// A motion of the piece in the world, followed by a displacement of its centre, mm, and a turn
+// about it, rad, as PiecePose::off. center_mm: before the motion.
+Rigid3d followed_by(const Rigid3d& motion, const Eigen::Matrix<double, 6, 1>& step,
+                    const Eigen::Vector3d& center_mm);
+
 // The silhouettes of each view (find_silhouette()) give the piece's pose relative to the camera;
 // with the camera's own pose, its pose in the world. Views are combined by their information,
 // without those in which no outline is found, and a plane by that of its height and tilt.
