@@ -20,6 +20,7 @@
 #include "apps/looks/piece_places.h"
 #include "apps/rig/open_objects.h"
 #include "apps/rig/rig_led_agreement.h"
+#include "calib/lens/lens_of_points.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/file_kind.h"
 #include "capture/sensor/corrected_samples.h"
@@ -229,9 +230,11 @@ CheckedRig open_checked_rig(const Rig& given, const std::string& shots_folder,
                             const CheckOptions& options) {
   require_radiance_of_leds(given);
   Rig placed = given;
-  calib::take_points_from_board_shot(placed.scene, placed.decoding, shots_folder, placed.pose);
-  std::vector<std::string> places = place_pieces(placed, shots_folder, options.progress);
-  return open_placed(std::move(placed), shots_folder, options, std::move(places), false);
+  const std::string lens =
+      calib::take_points_and_lens(placed.scene, placed.decoding, shots_folder, placed.pose);
+  std::vector<std::string> notes = place_pieces(placed, shots_folder, options.progress);
+  if (!lens.empty()) notes.insert(notes.begin(), lens);
+  return open_placed(std::move(placed), shots_folder, options, std::move(notes), false);
 }
 
 }  // namespace scattermeter::apps

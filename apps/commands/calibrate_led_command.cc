@@ -14,7 +14,7 @@
 #include "apps/results/result_json.h"
 #include "apps/rig/led_calibration_file.h"
 #include "calib/led/led_calibration.h"
-#include "calib/pose/shot_pose.h"
+#include "calib/lens/lens_of_points.h"
 #include "capture/files/pending_file.h"
 
 namespace scattermeter::apps {
@@ -49,7 +49,9 @@ void add_calibrate_led(CLI::App& calibrate, CommandContext& context) {
       capture::require_output_file(options->out, {options->rig, options->shots});
     }
     Rig rig = read_rig(options->rig);
-    calib::take_points_from_board_shot(rig.scene, rig.decoding, options->shots, rig.pose);
+    const std::string lens =
+        calib::take_points_and_lens(rig.scene, rig.decoding, options->shots, rig.pose);
+    if (!lens.empty()) context.err << "note: " << lens << "\n";
     const calib::LedCalibrationInput input = led_calibration_input(rig);
     const bool all = options->light.empty();
     const std::vector<std::string> lights =

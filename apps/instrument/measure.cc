@@ -14,6 +14,7 @@
 #include "apps/rig/open_objects.h"
 #include "apps/rig/rig_led_agreement.h"
 #include "apps/rig/rig_placeholders.h"
+#include "calib/lens/lens_of_points.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/digest.h"
 #include "capture/shots/shot_cache.h"
@@ -80,7 +81,8 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
   Stopwatch watch(timing_s);
   require_radiance_of_leds(whole);
   Rig rig = with_materials(whole, options.materials);
-  calib::take_points_from_board_shot(rig.scene, rig.decoding, shots_folder, rig.pose);
+  const std::string lens =
+      calib::take_points_and_lens(rig.scene, rig.decoding, shots_folder, rig.pose);
   const capture::ShotFolder folder =
       capture::match_shots(rig.scene, calibration_files(rig), shots_folder);
   std::vector<std::string> places = place_pieces(rig, shots_folder, progress);
@@ -104,6 +106,7 @@ Measurement measure(const Rig& whole, const std::string& shots_folder,
     throw;
   }
   out.notes.insert(out.notes.begin(), places.begin(), places.end());
+  if (!lens.empty()) out.notes.insert(out.notes.begin(), lens);
   if (out.any_refused()) tell_placeholders(rig.path, out.notes);
   out.skipped.shots_not_asked = whole.scene.shots.size() - rig.scene.shots.size();
   if (instrument.pose_of_points() && whole.pose.board_shot.empty()) {

@@ -24,6 +24,7 @@
 #include "apps/rig/rig.h"
 #include "apps/simulation/simulate.h"
 #include "calib/lens/camera_calibration_file.h"
+#include "calib/lens/lens_of_points.h"
 #include "calib/pose/shot_pose.h"
 #include "capture/files/pending_file.h"
 #include "core/base/input_error.h"
@@ -116,7 +117,7 @@ std::string calibrate_led(const std::string& shots, const std::string& rig_path,
   calib::LedCalibration calibration;
   run_interruptible(progress, [&](Progress&) {
     apps::Rig rig = apps::read_rig(rig_path);
-    calib::take_points_from_board_shot(rig.scene, rig.decoding, shots, rig.pose);
+    calib::take_points_and_lens(rig.scene, rig.decoding, shots, rig.pose);
     calibration = calib::calibrate_led(apps::led_calibration_input(rig), light,
                                        apps::led_frames_in(rig, shots));
   });

@@ -9,13 +9,12 @@
 #include "apps/looks/piece_places.h"
 #include "apps/rig/open_objects.h"
 #include "apps/watching/linked_file.h"
-#include "calib/pose/shot_pose.h"
+#include "calib/lens/lens_of_points.h"
 #include "capture/files/file_kind.h"
 #include "capture/shots/raw_shot.h"
 #include "core/base/input_error.h"
 
 namespace scattermeter::apps {
-
 namespace fs = std::filesystem;
 
 WatchedShots::WatchedShots(const Rig& rig, const std::string& out_folder, ShotPainter paint)
@@ -25,6 +24,7 @@ WatchedShots::WatchedShots(const Rig& rig, const std::string& out_folder, ShotPa
       paint_(std::move(paint)),
       files_(awaited_files(rig)),
       cache_((fs::path(out_folder) / "cache").string()) {
+  calib::take_lens_of_points(rig_.pose, rig_.scene);
   objects_ = open_objects(rig_);
   if (rig_.pose.board_shot.empty()) instrument();
 }
@@ -120,15 +120,15 @@ void WatchedShots::place_piece(const SceneShot& shot) {
 }
 
 void WatchedShots::put(const SceneObject& object) {
-  *std::find_if(rig_.scene.objects.begin(), rig_.scene.objects.end(),
-                [&](const SceneObject& o) { return o.name == object.name; }) = object;
+  std::ranges::replace(rig_.scene.objects, object.name, object, &SceneObject::name);
   instrument_.reset();
   objects_ = open_objects(rig_);
 }
 
 void WatchedShots::take_board(TakenShot& taken) {
   rig_.pose = stated_.pose;
-  calib::take_points_from_board_shot(rig_.scene, rig_.decoding, shots_folder_, rig_.pose);
+  rig_.scene.camera = stated_.scene.camera;
+  calib::take_points_and_lens(rig_.scene, rig_.decoding, shots_folder_, rig_.pose);
   instrument_.reset();
   instrument();
   taken.verdict.remarks.emplace_back("the board was found");
