@@ -113,7 +113,8 @@ std::string result_table(const Measurement& m) {
     add("", "", *r.dipole, "(dipole)",
         far ? fmt::format("{:+.2g} %, {:+.1g} /mm", 100.0 * far->sigma_s_prime_relative,
                           far->sigma_a_per_mm)
-            : "undetermined");
+        : is_undetermined(r.dipole->sigma_s_prime_per_mm) ? "undetermined"
+                                                          : "");
   }
   std::string out = table.text() + left_out(m);
   for (const MergedBracket& b : m.brackets) out += "bracket " + bracket_text(b) + "\n";

@@ -1,5 +1,9 @@
 #include "core/estimation/channel_result.h"
 
+#include <cmath>
+
+#include "core/estimation/model_choice.h"
+
 namespace scattermeter {
 
 std::optional<DipoleDistance> dipole_distance(const ChannelResult& result) {
@@ -10,6 +14,23 @@ std::optional<DipoleDistance> dipole_distance(const ChannelResult& result) {
   return DipoleDistance{
       result.dipole->sigma_s_prime_per_mm.value / result.estimate.sigma_s_prime_per_mm.value - 1.0,
       result.dipole->sigma_a_per_mm.value - result.estimate.sigma_a_per_mm.value};
+}
+
+double bent_in_std(const Estimate& at, const ChannelResult& result) {
+  const Estimate& now = result.estimate;
+  if (!at.converged || !now.converged || misses_image(now)) return 0.0;
+  // Of the exponent with which light decays in the depth, too.
+  const auto decay = [](const Estimate& e) {
+    return std::sqrt(3.0 * e.sigma_a_per_mm.value / e.sigma_s_prime_per_mm.value);
+  };
+  const double medium =
+      std::hypot(std::log(now.sigma_s_prime_per_mm.value / at.sigma_s_prime_per_mm.value),
+                 decay(now) - decay(at));
+  double squares = 0.0;
+  for (const PriorPull& p : now.pulls) {
+    if (p.name != "scale") squares += p.image_relative * p.image_relative;
+  }
+  return result.image_in_std * medium * std::sqrt(squares);
 }
 
 }  // namespace scattermeter

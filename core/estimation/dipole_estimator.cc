@@ -58,8 +58,9 @@ class DipoleEstimator {
     e_.watch.lap("first fit");
     std::vector<bool> open(work_.size());
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = work_[i].estimated;
-    // What ambient light adds depends on the material itself, and so does what an eta that is off
-    // changes: those channels are repeated until they settle (an error falls to a sixth each time).
+    // What ambient light adds depends on the material itself, and so does what a quantity that is
+    // off changes, which hides the material from the first estimate: those channels are repeated
+    // until they settle (an error falls to a sixth each time).
     constexpr int kRounds = 8;
     for (int round = 0; round < kRounds; ++round) {
       final_fits(open);
@@ -84,8 +85,10 @@ class DipoleEstimator {
       const Estimate before = e_.results[i].estimate;
       final_fit(i);
       constexpr double kOfStd = 0.02;
+      constexpr double kBent = 6.0;  // beyond, coefficients shift by some hundredths of theirs
       const Estimate& now = e_.results[i].estimate;
-      work_[i].settled = !(has_fitted_light(e_.scene, e_.channels[i]) || finds_other_eta(now)) ||
+      const bool is_bent = bent_in_std(before, e_.results[i]) > kBent;
+      work_[i].settled = !(has_fitted_light(e_.scene, e_.channels[i]) || is_bent) ||
                          is_near(before, now, kOfStd);
     });
     e_.watch.lap("fit");

@@ -48,6 +48,26 @@ TEST(ChannelResult, DipoleDistanceNeedsADeterminedDipole) {
   }
 }
 
+// An eta that changes the image by 3 % while the medium changed by 1 %; the scale is no change that
+// depends on the medium.
+TEST(ChannelResult, ChangesOfTheImageAreBentByThatOfTheMedium) {
+  const Estimate at = converged(1.0, 0.0);
+  ChannelResult result;
+  result.image_in_std = 1e4;
+  result.estimate = converged(std::exp(0.01), 0.0);
+  EXPECT_EQ(bent_in_std(at, result), 0.0);
+  PriorPull eta{"eta", "eta"}, scale{"scale", "scale"};
+  eta.image_relative = 0.03;
+  scale.image_relative = 0.5;
+  result.estimate.pulls = {eta, scale};
+  EXPECT_NEAR(bent_in_std(at, result), 3.0, 1e-9);
+  EXPECT_EQ(bent_in_std(result.estimate, result), 0.0);
+  EXPECT_EQ(bent_in_std(Estimate(), result), 0.0);
+  result.estimate.misfit_p_value = 1e-9;
+  result.estimate.misfit_relative = 0.01;
+  EXPECT_EQ(bent_in_std(at, result), 0.0);
+}
+
 TEST(ChannelResult, IsRefusedByAnyReason) {
   ChannelResult result;
   EXPECT_FALSE(result.refused());
