@@ -17,8 +17,10 @@ std::optional<DipoleDistance> dipole_distance(const ChannelResult& result) {
 }
 
 double bent_in_std(const Estimate& at, const ChannelResult& result) {
+  constexpr double kNearer = 0.5;
   const Estimate& now = result.estimate;
-  if (!at.converged || !now.converged || misses_image(now)) return 0.0;
+  if (!at.converged || !now.converged) return 0.0;
+  if (misses_image(now) && now.misfit_relative > kNearer * at.misfit_relative) return 0.0;
   // Of the exponent with which light decays in the depth, too.
   const auto decay = [](const Estimate& e) {
     return std::sqrt(3.0 * e.sigma_a_per_mm.value / e.sigma_s_prime_per_mm.value);

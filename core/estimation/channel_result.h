@@ -85,8 +85,8 @@ std::optional<DipoleDistance> dipole_distance(const ChannelResult& result);
 
 // The changes of the image by the rig's quantities were computed for the medium `at`: how far they
 // are from those for the medium of the result, in standard deviations of the image, as their sizes
-// (PriorPull::image_relative) times the change of the medium. 0 where the model misses the image,
-// whose pulls then mean little.
+// (PriorPull::image_relative) times the change of the medium. 0 where the model misses the image
+// and comes no nearer to it: its pulls then mean little.
 double bent_in_std(const Estimate& at, const ChannelResult& result);
 
 }  // namespace scattermeter

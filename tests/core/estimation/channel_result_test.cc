@@ -51,7 +51,7 @@ TEST(ChannelResult, DipoleDistanceNeedsADeterminedDipole) {
 // An eta that changes the image by 3 % while the medium changed by 1 %; the scale is no change that
 // depends on the medium.
 TEST(ChannelResult, ChangesOfTheImageAreBentByThatOfTheMedium) {
-  const Estimate at = converged(1.0, 0.0);
+  Estimate at = converged(1.0, 0.0);
   ChannelResult result;
   result.image_in_std = 1e4;
   result.estimate = converged(std::exp(0.01), 0.0);
@@ -66,6 +66,8 @@ TEST(ChannelResult, ChangesOfTheImageAreBentByThatOfTheMedium) {
   result.estimate.misfit_p_value = 1e-9;
   result.estimate.misfit_relative = 0.01;
   EXPECT_EQ(bent_in_std(at, result), 0.0);
+  at.misfit_relative = 0.05;
+  EXPECT_NEAR(bent_in_std(at, result), 3.0, 1e-9);
 }
 
 TEST(ChannelResult, IsRefusedByAnyReason) {
