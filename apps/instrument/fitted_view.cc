@@ -48,7 +48,8 @@ bool any_curved(const std::vector<ObservedShot>& shots) {
 std::vector<ChannelResult> fitted_from_where_seen(
     const Scene& scene, SeenShots& seen, EstimateOptions options,
     const std::function<std::vector<ChannelResult>(const EstimateOptions&)>& fit,
-    const std::function<bool()>& finds_elsewhere, Stopwatch& watch) {
+    const std::function<bool()>& finds_elsewhere,
+    const std::function<bool(const std::vector<ChannelResult>&)>& finds_leds, Stopwatch& watch) {
   // Where the dipole does not describe the medium, its misfit may move the object from fit to fit:
   // unless a view brings it so much nearer to the image, transport looks from the stated position.
   constexpr double kNearer = 0.5;
@@ -70,9 +71,11 @@ std::vector<ChannelResult> fitted_from_where_seen(
     };
     const bool is_last = views == kMostViews || by_transport;
     SeenElsewhere found;
-    bool is_vain = false;
+    bool is_vain = false, has_found_leds = false;
     options.goes_on_from_dipole = [&](const std::vector<ChannelResult>& results) {
       if (by_transport || is_stated) return true;
+      has_found_leds = finds_leds(results);
+      if (has_found_leds) return false;
       found = from(any_curved(seen.shots()) ? most_probable_pulls_of(results)
                                             : joint_pulls_of(results));
       const double misfit = least_misfit(results);
@@ -84,6 +87,7 @@ std::vector<ChannelResult> fitted_from_where_seen(
     };
     options.looking_paths = by_transport ? std::nullopt : std::optional(kLookingPaths);
     std::vector<ChannelResult> results = fit(options);
+    if (has_found_leds || (options.model == "dipole" && finds_leds(results))) return results;
     if (options.model == "dipole") found = from(most_probable_pulls_of(results));
     const bool has_paths = std::any_of(results.begin(), results.end(), [](const ChannelResult& r) {
       return r.model == "transport" && r.estimate.converged;

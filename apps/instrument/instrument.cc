@@ -4,6 +4,7 @@
 
 #include "apps/instrument/fitted_view.h"
 #include "apps/instrument/focus.h"
+#include "apps/instrument/led_watch.h"
 #include "apps/instrument/rig_places.h"
 #include "apps/instrument/row_precision.h"
 #include "apps/instrument/seen_shots.h"
@@ -39,21 +40,6 @@ double distance_to_camera_mm(const Rig& rig, const ObjectScenes& objects,
         std::max(distance_mm, (view.center_in_world_mm() - object.box.center_mm()).norm());
   }
   return distance_mm;
-}
-
-// The estimate of all channels but those that the findings refuse.
-std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
-                                           const std::vector<ObservedShot>& shots,
-                                           const std::vector<Finding>& findings,
-                                           const EstimateOptions& options, KeptLight& kept,
-                                           Stopwatch& watch, Progress* progress) {
-  Estimation estimation(scene, lit, shots, material_channels(scene, shots, options.channels),
-                        options, kept, watch, progress);
-  refuse(scene, findings, estimation);
-  const bool any = std::any_of(estimation.results.begin(), estimation.results.end(),
-                               [](const ChannelResult& r) { return !r.refused(); });
-  if (any || findings.empty()) run(estimator(options.model), estimation);
-  return std::move(estimation.results);
 }
 
 }  // namespace
@@ -176,19 +162,58 @@ FirstLook Instrument::look_first(const capture::ShotSource& source, bool smooth,
   return {{}, in_order(outlines.findings, of_light), outlines.notes, {}, outlines.diagnosis};
 }
 
-// Nothing is kept of it: the shots put the pieces elsewhere for every measurement.
+// Nothing is kept of it: the shots put pieces and LEDs elsewhere for every measurement.
+Measurement Instrument::measure_there(const Rig& rig, const ObjectScenes& objects, bool is_moved,
+                                      int led_moves, const capture::ShotSource& source,
+                                      Stopwatch& watch) const {
+  MeasureOptions options = options_;
+  options.atlas_folder.clear();
+  Instrument there(rig, objects, options, progress_);
+  there.is_moved_ = is_moved;
+  there.led_moves_ = led_moves;
+  capture::ShotSource unkept = source;
+  unkept.cache = nullptr;
+  return there.measure(unkept, watch);
+}
+
 Measurement Instrument::measure_moved(const capture::ShotSource& source, Stopwatch& watch,
                                       const MovedPieces& pieces) const {
   const std::unique_ptr<const MovedRig> moved = moved_rig(rig_, objects_, pieces);
-  MeasureOptions options = options_;
-  options.atlas_folder.clear();
-  Instrument there(moved->rig, moved->objects, options, progress_);
-  there.is_moved_ = true;
-  capture::ShotSource unkept = source;
-  unkept.cache = nullptr;
-  Measurement out = there.measure(unkept, watch);
+  Measurement out = measure_there(moved->rig, moved->objects, true, led_moves_, source, watch);
   for (const auto& [name, piece] : pieces) out.notes.insert(out.notes.begin(), piece.note);
   return out;
+}
+
+Measurement Instrument::measure_relit(const capture::ShotSource& source, Stopwatch& watch,
+                                      const LedDisplacements& leds) const {
+  Rig rig = rig_;
+  displace_leds(leds, rig.scene);
+  return measure_there(rig, objects_, is_moved_, led_moves_ + 1, source, watch);
+}
+
+// What the shots show beside the fit, where it refuses them.
+void Instrument::tell_of_shots(const capture::ShotSource& source, const SeenShots& seen,
+                               std::vector<ChannelResult>& results) const {
+  const auto* frames = std::get_if<capture::FrameSource>(&source.open);
+  if (frames == nullptr || std::none_of(results.begin(), results.end(), is_fitted_and_refused)) {
+    return;
+  }
+  if (view_) {
+    tell_of_outline(outline_departure(rig_, objects_, *pose_, *frames, source.shot_idxs), results);
+  }
+  tell_of_displaced_round_bodies(rig_, objects_, seen.shots(), *frames, results);
+  tell_of_background(seen.shots(), results);
+}
+
+void Instrument::tell_unkept(Measurement& out) {
+  if (atlas_ && !atlas_->problem().empty()) {
+    out.notes.push_back("paths of transport are not kept: " + atlas_->problem());
+  }
+  const std::string of_maps = maps_ ? maps_->write() : "";
+  const std::string of_weights = weights_ ? weights_->write() : "";
+  if (const std::string& problem = of_maps.empty() ? of_weights : of_maps; !problem.empty()) {
+    out.notes.push_back("what depends on the jig is not kept: " + problem);
+  }
 }
 
 Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& watch,
@@ -231,11 +256,15 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     }
     return !closer.moved.empty() || !closer.findings.empty();
   };
+  LedWatch leds(rig_.scene, seen, smooth && !without_noise && led_moves_ < kMostLedMoves);
+  const auto finds_leds = [&](const auto& results) { return leds.finds(results); };
   for (;;) {
     options.all_rows = seen.all_rows();
-    out.results = smooth && !without_noise ? fitted_from_where_seen(rig_.scene, seen, options, fit,
-                                                                    finds_elsewhere, watch)
-                                           : fit(options);
+    out.results = smooth && !without_noise
+                      ? fitted_from_where_seen(rig_.scene, seen, options, fit, finds_elsewhere,
+                                               finds_leds, watch)
+                      : fit(options);
+    if (!leds.found().empty()) return measure_relit(source, watch, leds.found());
     if (smooth && look.findings.empty() &&
         std::any_of(out.results.begin(), out.results.end(), is_fitted_and_refused)) {
       finds_elsewhere();
@@ -251,28 +280,14 @@ Measurement Instrument::measure(const capture::ShotSource& source, Stopwatch& wa
     if (levels == seen.levels()) break;
     seen.choose(levels);
   }
-  if (!without_noise && frames != nullptr && look.findings.empty() &&
-      std::any_of(out.results.begin(), out.results.end(), is_fitted_and_refused)) {
-    if (view_) {
-      tell_of_outline(outline_departure(rig_, objects_, *pose_, *frames, source.shot_idxs),
-                      out.results);
-    }
-    tell_of_displaced_round_bodies(rig_, objects_, seen.shots(), *frames, out.results);
-    tell_of_background(seen.shots(), out.results);
-  }
-  if (atlas_ && !atlas_->problem().empty()) {
-    out.notes.push_back("paths of transport are not kept: " + atlas_->problem());
-  }
-  const std::string of_maps = maps_ ? maps_->write() : "";
-  const std::string of_weights = weights_ ? weights_->write() : "";
-  if (const std::string& problem = of_maps.empty() ? of_weights : of_maps; !problem.empty()) {
-    out.notes.push_back("what depends on the jig is not kept: " + problem);
-  }
+  if (!without_noise && look.findings.empty()) tell_of_shots(source, seen, out.results);
+  tell_unkept(out);
   opened = seen.whole();
   out.places = std::make_shared<RigPlaces>(rig_places(rig_, objects_, opened));
   if (!without_noise) {
     refuse_blurred(opened, rig_.scene.camera.intrinsics.fx_px, out.results);
     if (const std::string noise = noise_note(opened); !noise.empty()) out.notes.push_back(noise);
+    if (led_moves_ > 0) out.notes.push_back(displaced_leds_note(rig_.scene));
   }
   out.skipped = skipped_of(opened, lit_);
   out.skipped.rows = rows_of(seen.whole()) - rows_of(seen.shots());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/instrument/atlas_folder.h"
+#include "apps/instrument/led_watch.h"
 #include "apps/instrument/measure.h"
 #include "apps/instrument/sample_map_folder.h"
 #include "apps/instrument/weight_folder.h"
@@ -68,8 +69,18 @@ class Instrument {
                        SeenShots& seen, Stopwatch& watch);
   Measurement measure(const capture::ShotSource& source, Stopwatch& watch, bool without_noise,
                       std::vector<ObservedShot>& opened);
+  // By a rig whose pieces or LEDs are where the shots showed them.
+  Measurement measure_there(const Rig& rig, const ObjectScenes& objects, bool is_moved,
+                            int led_moves, const capture::ShotSource& source,
+                            Stopwatch& watch) const;
   Measurement measure_moved(const capture::ShotSource& source, Stopwatch& watch,
                             const MovedPieces& pieces) const;
+  Measurement measure_relit(const capture::ShotSource& source, Stopwatch& watch,
+                            const LedDisplacements& leds) const;
+
+  void tell_of_shots(const capture::ShotSource& source, const SeenShots& seen,
+                     std::vector<ChannelResult>& results) const;
+  void tell_unkept(Measurement& out);
 
   const Rig& rig_;
   const ObjectScenes& objects_;
@@ -83,6 +94,7 @@ class Instrument {
   std::optional<SampleMapFolder> maps_;    // absent: not kept
   KeptLight kept_;
   bool is_moved_ = false;  // the rig's pieces stand where their outlines showed them
+  int led_moves_ = 0;      // how often its LEDs were put where the shots showed them
 };
 
 }  // namespace scattermeter::apps

@@ -103,4 +103,18 @@ void tell_of_outline(const std::string& departure, std::vector<ChannelResult>& r
   }
 }
 
+std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
+                                           const std::vector<ObservedShot>& shots,
+                                           const std::vector<Finding>& findings,
+                                           const EstimateOptions& options, KeptLight& kept,
+                                           Stopwatch& watch, Progress* progress) {
+  Estimation estimation(scene, lit, shots, material_channels(scene, shots, options.channels),
+                        options, kept, watch, progress);
+  refuse(scene, findings, estimation);
+  const bool any = std::any_of(estimation.results.begin(), estimation.results.end(),
+                               [](const ChannelResult& r) { return !r.refused(); });
+  if (any || findings.empty()) run(estimator(options.model), estimation);
+  return std::move(estimation.results);
+}
+
 }  // namespace scattermeter::apps

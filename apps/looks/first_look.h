@@ -37,6 +37,12 @@ std::set<std::size_t> shots_of(const std::vector<Finding>& findings);
 // Adds the findings that concern a channel's shots to the reasons of its result, at most two: the
 // first is the most probable.
 void refuse(const Scene& scene, const std::vector<Finding>& findings, Estimation& estimation);
+// The estimate of all channels but those that the findings refuse.
+std::vector<ChannelResult> estimate_others(const Scene& scene, LitObjects& lit,
+                                           const std::vector<ObservedShot>& shots,
+                                           const std::vector<Finding>& findings,
+                                           const EstimateOptions& options, KeptLight& kept,
+                                           Stopwatch& watch, Progress* progress);
 
 // Whether the result was refused by its fit, not for being dark or clipped.
 bool is_fitted_and_refused(const ChannelResult& result);

@@ -161,6 +161,7 @@ DenseSystem ChannelImage::rows_of_shot(std::size_t shot) const {
   const std::vector<Eigen::Index> used = used_rows(rows_[shot]);
   system.l -= scene_nuisances_.light_by_plane(*channel_.shots[shot], used);
   system.l -= scene_nuisances_.light_by_shift(*channel_.shots[shot], used);
+  system.l -= scene_nuisances_.light_by_displacement(*channel_.shots[shot], used);
   system.l -= scene_nuisances_.light_by_blur(*channel_.shots[shot], used);
   add_errors_of_method(system);
   return system;

@@ -87,9 +87,10 @@ class DipoleEstimator {
       constexpr double kOfStd = 0.02;
       constexpr double kBent = 6.0;  // beyond, coefficients shift by some hundredths of theirs
       const Estimate& now = e_.results[i].estimate;
-      const bool is_bent = bent_in_std(before, e_.results[i]) > kBent;
-      work_[i].settled = !(has_fitted_light(e_.scene, e_.channels[i]) || is_bent) ||
-                         is_near(before, now, kOfStd);
+      // Changes by eta look like the medium's: less of them shifts the coefficients.
+      const bool is_bent = finds_other_eta(now) || bent_in_std(before, e_.results[i]) > kBent;
+      work_[i].settled =
+          !(has_fitted_light(e_.scene, e_.channels[i]) || is_bent) || is_near(before, now, kOfStd);
     });
     e_.watch.lap("fit");
   }

@@ -7,6 +7,14 @@
 
 namespace scattermeter {
 
+bool finds_other_eta(const Estimate& estimate) {
+  constexpr double kOther = 0.005;
+  return !misses_image(estimate) &&
+         std::any_of(estimate.pulls.begin(), estimate.pulls.end(), [](const PriorPull& p) {
+           return p.group == "eta" && std::abs(p.offset) > kOther;
+         });
+}
+
 std::vector<bool> take_far_etas(const std::vector<ChannelResult>& results, EtaOffsets& offsets) {
   constexpr double kGrid = 0.005;
   constexpr double kNew = 1.5 * kGrid;

@@ -15,4 +15,8 @@ using EtaOffsets = std::vector<double>;
 // the channels find; returns for which of the converged results it is another one now.
 std::vector<bool> take_far_etas(const std::vector<ChannelResult>& results, EtaOffsets& offsets);
 
+// Whether the image puts eta so far from the stated one that what this changes depends notably on
+// the medium; not where the dipole misses the image.
+bool finds_other_eta(const Estimate& estimate);
+
 }  // namespace scattermeter

@@ -1,5 +1,7 @@
 #include "core/light/led_light.h"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
 #include "core/base/covariance_root.h"
@@ -35,6 +37,37 @@ std::unique_ptr<EntrySource> LedLight::entry(const RayScene& scene, double eta_i
   return led_entry(scene, led, eta_int_over_ext);
 }
 
+std::array<Eigen::Vector3d, 2> LedLight::across() const {
+  return calibrated ? calibrated->tangents : tangents(about().axis);
+}
+
+Eigen::Vector3d LedLight::long_axis() const {
+  return stated ? Eigen::Vector3d(led.axis / led.axis.dot(stated->axis)) : led.axis;
+}
+
+void LedLight::displace(const Eigen::VectorXd& by) {
+  const Led from = about();
+  const std::array<Eigen::Vector3d, 2> side = across();
+  stated = from;
+  led = from;
+  Eigen::Index k = 0;
+  for (int i = 0; i < 3 && moves(); ++i) led.position_mm[i] += by[k++];
+  for (std::size_t t = 0; t < 2 && turns(); ++t) led.axis += by[k++] * side[t];
+  led.axis.normalize();
+  if (spreads()) led.exponent = std::max(0.0, led.exponent + by[k]);
+}
+
+Eigen::VectorXd LedLight::displacement() const {
+  if (!stated) return {};
+  std::vector<double> out;
+  for (int i = 0; i < 3 && moves(); ++i) out.push_back((led.position_mm - stated->position_mm)[i]);
+  for (std::size_t t = 0; t < 2 && turns(); ++t) {
+    out.push_back((long_axis() - stated->axis).dot(across()[t]));
+  }
+  if (spreads()) out.push_back(led.exponent - stated->exponent);
+  return Eigen::Map<const Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size()));
+}
+
 std::vector<LightChange> LedLight::changes(const Eigen::Vector3d& object_center_mm) const {
   std::vector<LightChange> out;
   const auto add = [&](const Led& other, double step) {
@@ -50,14 +83,12 @@ std::vector<LightChange> LedLight::changes(const Eigen::Vector3d& object_center_
     other.position_mm[i] += move_mm;
     add(other, move_mm);
   }
-  const std::array<Eigen::Vector3d, 2> across =
-      calibrated ? calibrated->tangents : tangents(led.axis);
-  for (std::size_t t = 0; t < 2 && (calibrated || axis_std_rad > 0.0); ++t) {
+  for (std::size_t t = 0; t < 2 && turns(); ++t) {
     Led other = led;
-    other.axis = (led.axis + kTurn_rad * across[t]).normalized();
+    other.axis = (long_axis() + kTurn_rad * across()[t]).normalized();
     add(other, kTurn_rad);
   }
-  if (calibrated || exponent_std > 0.0) {
+  if (spreads()) {
     Led other = led;
     other.exponent += kExponentStep;
     add(other, kExponentStep);
@@ -82,17 +113,16 @@ std::vector<LightNuisance> LedLight::nuisances(const std::string& name, std::siz
     }
     return out;
   }
-  const bool turns = axis_std_rad > 0.0;
-  const Eigen::Index n = (moves() ? 3 : 0) + (turns ? 2 : 0) + (exponent_std > 0.0 ? 1 : 0);
+  const Eigen::Index n = (moves() ? 3 : 0) + (turns() ? 2 : 0) + (spreads() ? 1 : 0);
   for (Eigen::Index i = 0; i < 3 && moves(); ++i) {
     out.push_back({name + ".position" + std::to_string(i), "LED position", position_std_mm,
                    Eigen::VectorXd::Unit(n, i), 0.0, 0.0});
   }
-  for (Eigen::Index i = 0; i < 2 && turns; ++i) {
+  for (Eigen::Index i = 0; i < 2 && turns(); ++i) {
     out.push_back({name + ".axis" + std::to_string(i), "LED axis", axis_std_rad,
                    Eigen::VectorXd::Unit(n, (moves() ? 3 : 0) + i), 0.0, 0.0});
   }
-  if (exponent_std > 0.0) {
+  if (spreads()) {
     out.push_back({name + ".exponent", "LED exponent", exponent_std,
                    Eigen::VectorXd::Unit(n, n - 1), 0.0, 0.0});
   }

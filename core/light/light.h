@@ -86,6 +86,9 @@ class Light {
   virtual std::vector<LightChange> changes(const Eigen::Vector3d& /*object_center_mm*/) const {
     return {};
   }
+  // From the light as it is stated, about which its errors are, to this one, by the quantities of
+  // changes(), in their units; empty: it is the stated one.
+  virtual Eigen::VectorXd displacement() const { return {}; }
   // The independent errors of one channel (0 R, 1 G, 2 B); `name`: of the light in the scene.
   virtual std::vector<LightNuisance> nuisances(const std::string& name,
                                                std::size_t channel) const = 0;

@@ -37,6 +37,24 @@ void SceneNuisances::add_light(const SceneLight& light, const ChannelSensitivity
   }
 }
 
+Eigen::VectorXd SceneNuisances::light_by_displacement(const ObservedShot& shot,
+                                                      const std::vector<Eigen::Index>& rows) const {
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows.size()));
+  for (const std::string& name : shot.stated->lights) {
+    const SceneLight& light = scene_.light(name);
+    const Eigen::VectorXd displacement = light->displacement();
+    if (displacement.size() == 0) continue;
+    const ChannelSensitivity& own =
+        sensitivities_.at({shot.seen.get(), name, light.channel_of(channel_)});
+    const double power = light->power()[static_cast<Eigen::Index>(channel_)];
+    for (Eigen::Index k = 0; k < displacement.size(); ++k) {
+      const Eigen::MatrixXd& by = own.sensitivity->per_change[static_cast<std::size_t>(k)];
+      change -= power * displacement[k] * by(rows, own.medium);
+    }
+  }
+  return change;
+}
+
 // dl / d albedo, of all LEDs; empty if the plane changes nothing.
 Eigen::VectorXd SceneNuisances::change_by_albedo(const ObservedShot& shot,
                                                  const std::vector<Eigen::Index>& rows) const {

@@ -55,6 +55,10 @@ class SceneNuisances {
   // poses and positions keep the values about which they vary. Zero without a shift.
   Eigen::VectorXd light_by_shift(const ObservedShot& shot,
                                  const std::vector<Eigen::Index>& rows) const;
+  // The change of l by the displacement of LEDs back to where they are stated
+  // (Light::displacement()), on some rows of a shot's map: part of the observed l, but not of W r.
+  Eigen::VectorXd light_by_displacement(const ObservedShot& shot,
+                                        const std::vector<Eigen::Index>& rows) const;
   // The change of l by the blur that the shot's outline shows (DecodedShot::edge_blur), on some
   // rows of the map: part of the observed l, but not of W r.
   Eigen::VectorXd light_by_blur(const ObservedShot& shot,

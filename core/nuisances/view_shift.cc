@@ -25,12 +25,6 @@ Eigen::Matrix<double, 2, 6> ray_by_shift(const Rigid3d& pose, const Eigen::Vecto
   return out;
 }
 
-// A fit that does not describe its image yet may explain it by a lens that no one has.
-double believable(const PriorPull& p) {
-  constexpr double kMostPull = 3.0;
-  return p.offset * std::min(1.0, kMostPull / std::max(std::abs(p.pull), kMostPull));
-}
-
 // The values of the nuisances "NAME0", "NAME1", ...
 Eigen::VectorXd values_of(const std::string& name, Eigen::Index n,
                           const std::vector<PriorPull>& pulls) {
@@ -65,6 +59,11 @@ PoseShift shift_like_lens(const ObservedShot& shot, const CameraIntrinsics& intr
 }
 
 }  // namespace
+
+double believable(const PriorPull& p) {
+  constexpr double kBelievable = 3.0;
+  return p.offset * std::min(1.0, kBelievable / std::max(std::abs(p.pull), kBelievable));
+}
 
 double motion_in_patches(const ObservedShot& shot, const PoseShift& by) {
   const Rigid3d& pose = shot.pose.camera_from_world;

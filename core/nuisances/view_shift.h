@@ -14,6 +14,10 @@
 
 namespace scattermeter {
 
+// The offset of a quantity, at most that at a pull of three: a fit that does not describe its image
+// yet may explain it by a lens that no one has.
+double believable(const PriorPull& pull);
+
 // The shift of the shot's pose relative to its object by the most probable values of pose, lens,
 // position and size of the object (`pulls`: those of all channels together; a quantity that is not
 // among them keeps its stated value). A change of the lens counts as that shift of the pose which

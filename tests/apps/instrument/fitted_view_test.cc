@@ -88,7 +88,7 @@ struct Fits {
   std::vector<ChannelResult> results;
 };
 Fits fits_of(const std::string& body, const std::function<MadeUp(std::size_t)>& made_up,
-             bool finds_elsewhere = false) {
+             bool finds_elsewhere = false, bool finds_leds = false) {
   const Rig rig = body_rig(body, 1);
   const ObjectScenes objects = bodies_scenes(rig);
   const VirtualShots shots(rig, objects, {});
@@ -128,7 +128,8 @@ Fits fits_of(const std::string& body, const std::function<MadeUp(std::size_t)>& 
   Stopwatch watch(timing_s);
   EstimateOptions options;
   out.results = fitted_from_where_seen(
-      rig.scene, seen, options, fit, [&] { return finds_elsewhere; }, watch);
+      rig.scene, seen, options, fit, [&] { return finds_elsewhere; },
+      [&](const std::vector<ChannelResult>&) { return finds_leds; }, watch);
   return out;
 }
 
@@ -137,6 +138,15 @@ TEST(ShiftedInstrument, EndsWhereTheCallerFindsThePieces) {
   const auto off = [](std::size_t) { return MadeUp{2.0, 0.0}; };
   EXPECT_EQ(fits_of("cube", off, true).moved.size(), 1U);
   EXPECT_GT(fits_of("cube", off, false).moved.size(), 1U);
+}
+
+// The caller puts the LEDs where it finds them, before transport.
+TEST(ShiftedInstrument, EndsWhereTheCallerFindsTheLeds) {
+  const auto good = [](std::size_t) { return MadeUp{}; };
+  const Fits found = fits_of("cube", good, false, true);
+  EXPECT_EQ(found.moved.size(), 1U);
+  EXPECT_EQ(found.results.front().model, "dipole");
+  EXPECT_EQ(fits_of("cube", good).results.front().model, "transport");
 }
 
 // A first look with few paths is the last where more would not tell more, as with an atlas.

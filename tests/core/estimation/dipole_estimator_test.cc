@@ -74,6 +74,31 @@ TEST(DipoleEstimator, FollowsAnLedOfAnotherPower) {
   }
 }
 
+// The light is computed where an LED was found, and its errors are about where it is stated.
+TEST(DipoleEstimator, JudgesAnLedByWhereItIsStated) {
+  DipoleCube cube(2);
+  cube.show(kCubeMedium, 1e-4, 5);
+  LedLight& led = *cube.scene.lights[0].led();
+  led.position_std_mm = 1.0;
+  led.stated = led.led;
+  led.stated->position_mm.x() -= 2.0;
+  CubeEstimation run(cube, "G");
+  estimate_dipole(run.estimation);
+  const ChannelResult& result = run.estimation.results[0];
+  ASSERT_FALSE(result.refused()) << result.estimate.reasons.front();
+  const Estimate& e = result.estimate;
+  EXPECT_LT(std::abs(e.sigma_s_prime_per_mm.value - 0.9), 3.0 * e.sigma_s_prime_per_mm.std);
+  EXPECT_LT(std::abs(e.sigma_a_per_mm.value - 0.01), 3.0 * e.sigma_a_per_mm.std);
+  for (const PriorPull& p : e.pulls) {
+    if (p.name == "led.position0") {
+      EXPECT_NEAR(p.offset, 2.0, 0.1);
+      EXPECT_NEAR(p.pull, 2.0, 0.1);
+    } else if (p.name.starts_with("led.position")) {
+      EXPECT_NEAR(p.offset, 0.0, 0.1) << p.name;
+    }
+  }
+}
+
 // The size of the mesh is uncertain by more than half: so are the coefficients, from one shot too.
 TEST(DipoleEstimator, RefusesWhatTheMeshLeavesUndetermined) {
   for (const std::size_t shots : {1U, 2U}) {

@@ -32,6 +32,16 @@ TEST(FarEta, IsTakenByEachChannelUntilItStays) {
   EXPECT_NEAR(offsets[2], 0.2, 1e-12);
 }
 
+TEST(FarEta, WhatItChangesDependsOnTheMediumWhereItIsFound) {
+  EXPECT_TRUE(finds_other_eta(with_eta_at(-0.02).estimate));
+  EXPECT_FALSE(finds_other_eta(with_eta_at(0.002).estimate));
+  EXPECT_FALSE(finds_other_eta(ChannelResult().estimate));
+  ChannelResult missed = with_eta_at(-0.02);
+  missed.estimate.misfit_p_value = 1e-9;
+  missed.estimate.misfit_relative = 0.01;
+  EXPECT_FALSE(finds_other_eta(missed.estimate));
+}
+
 // Where the dipole does not describe the image, eta takes up what it misses.
 TEST(FarEta, IsNotTakenFromAPoorFit) {
   EtaOffsets offsets;

@@ -46,6 +46,31 @@ TEST(LedLight, StatedDeviationsAreNuisancesOfTheirOwn) {
   EXPECT_EQ(nuisances[4].of_change.size(), 0);
 }
 
+TEST(LedLight, StandsWhereItIsDisplacedTo) {
+  LedLight light = led_above();
+  light.position_std_mm = 0.2;
+  light.axis_std_rad = 0.02;
+  light.exponent_std = 0.05;
+  EXPECT_EQ(light.displacement().size(), 0);
+  const Led stated = light.led;
+  Eigen::VectorXd by(6);
+  by << 1.0, -2.0, 0.5, 0.15, -0.1, 0.2;
+  light.displace(2.0 * by);
+  light.displace(by);  // from the stated one again
+  EXPECT_LT((light.led.position_mm - stated.position_mm - by.head<3>()).norm(), 1e-12);
+  EXPECT_NEAR(light.led.exponent, stated.exponent + 0.2, 1e-12);
+  EXPECT_NEAR(std::acos(light.led.axis.dot(stated.axis)), std::atan(std::hypot(0.15, 0.1)), 1e-9);
+  EXPECT_LT((light.displacement() - by).norm(), 1e-12);
+  // Its changes go on from there, along the same quantities.
+  const auto changes = light.changes({0, 0, 10});
+  ASSERT_EQ(changes.size(), 6U);
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    const LightChange& change = changes[static_cast<std::size_t>(k)];
+    const Eigen::VectorXd expected = by + change.step * Eigen::VectorXd::Unit(6, k);
+    EXPECT_LT((change.changed->displacement() - expected).norm(), 1e-12) << k;
+  }
+}
+
 // A change over its step is the derivative of the light that enters, to the order of the step.
 TEST(LedLight, ChangesAreDerivatives) {
   LedLight light = led_above();
