@@ -60,12 +60,16 @@ double p_value(const PoseResult& pose, double point_std_px, double rest = 0.0) {
 LensOfPoints lens_of_points(const CameraIntrinsics& stated, const LensRoot& root,
                             const std::vector<PointPair>& points, const PoseOptions& options) {
   constexpr int kMostSteps = 20;
-  constexpr double kSettled = 1e-3;  // of the prior's deviations
+  constexpr double kSettled = 1e-3;   // of the prior's deviations
+  constexpr double kFarthest = 10.0;  // beyond, no one believes it
   const double variance_px2 = options.point_std_px * options.point_std_px;
   LensOfPoints out{stated, root, Eigen::VectorXd::Zero(root.cols()), {}};
   for (int step = 0;; ++step) {
     out.intrinsics = intrinsics_of(lens_parameters(stated) + root * out.deviations, stated.width_px,
                                    stated.height_px);
+    if (!(out.deviations.norm() < kFarthest) || !intrinsics_problem(out.intrinsics).empty()) {
+      return out;
+    }
     out.pose = estimate_pose(out.intrinsics, points, options);
     if (out.pose.status != PoseStatus::kOk) return out;
     const ByLens now = by_lens(out.intrinsics, root, points, out.pose);
@@ -92,17 +96,17 @@ std::string take_lens_of_points(const PoseSource& source, Scene& scene) {
   constexpr double kPlausible = 1e-4;
   const PoseResult as_stated = estimate_pose(camera.intrinsics, source.points, source.options);
   const bool has_pose = as_stated.status == PoseStatus::kOk;
-  if (has_pose && inliers(as_stated) == static_cast<std::ptrdiff_t>(source.points.size()) &&
-      p_value(as_stated, source.options.point_std_px) > kByChance) {
-    return "";
-  }
+  const bool agree = has_pose && p_value(as_stated, source.options.point_std_px) > kByChance;
+  if (agree && inliers(as_stated) == static_cast<std::ptrdiff_t>(source.points.size())) return "";
   const LensOfPoints found =
       lens_of_points(camera.intrinsics, camera.lens_root, source.points, source.options);
   const bool is_plausible =
       found.pose.status == PoseStatus::kOk && found.p_value > kPlausible &&
       chi_square_tail(found.deviations.squaredNorm(),
                       static_cast<double>(found.deviations.size())) > kPlausible;
-  if (!is_plausible || (has_pose && inliers(found.pose) < inliers(as_stated))) return "";
+  // Those that agree with each other speak for the stated lens unless another one explains more.
+  const std::ptrdiff_t least = has_pose ? inliers(as_stated) + (agree ? 1 : 0) : 0;
+  if (!is_plausible || inliers(found.pose) < least) return "";
   const double longer = found.intrinsics.fx_px / camera.intrinsics.fx_px - 1.0;
   camera.intrinsics = found.intrinsics;
   camera.lens_root = found.root;

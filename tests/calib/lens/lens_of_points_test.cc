@@ -99,6 +99,30 @@ TEST(LensOfPoints, StaysAsStatedWhereThePointsAgree) {
   EXPECT_EQ(scene.camera.intrinsics.fx_px, long_lens().fx_px);
 }
 
+// A mistyped point is left out: that the others agree speaks for the lens.
+TEST(LensOfPoints, StaysAsStatedBesideAMistypedPoint) {
+  PointsOfLens points(long_lens());
+  points.source.points[3].image_px.x() += 15.0;
+  Scene scene = scene_with(kWide);
+  EXPECT_EQ(take_lens_of_points(points.source, scene), "");
+}
+
+// Points of some other layout are no lens at all.
+TEST(LensOfPoints, IsNotMadeUpFromPointsOfAnotherLayout) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    PointsOfLens points(long_lens(), seed);
+    for (std::size_t i = 0; i < points.source.points.size(); ++i) {
+      points.source.points[i].world_mm.x() *= 1.0 + 0.02 * static_cast<double>(i % 5);
+      points.source.points[i].world_mm.y() *= 1.3;
+    }
+    points.source.options.inlier_px = 1000.0;
+    Scene scene = scene_with({0.5, 0.5, 1000.0, 5.0});
+    EXPECT_NO_THROW(take_lens_of_points(points.source, scene)) << seed;
+    scene = scene_with({0.01, 0.001, 50.0, 0.05});
+    EXPECT_EQ(take_lens_of_points(points.source, scene), "") << seed;
+  }
+}
+
 TEST(LensOfPoints, IsNotTakenFarFromWhatTheRigStates) {
   const PointsOfLens points(longer_by(0.03));
   Scene scene = scene_with({0.002, 5e-4, 8.0, 0.01});
