@@ -6,8 +6,8 @@
 #include <limits>
 
 #include <Eigen/LU>
-#include <Eigen/QR>
 
+#include "core/base/dense_solve.h"
 #include "core/material/dipole.h"
 #include "core/sums/dipole_pairs.h"
 #include "core/sums/dipole_sums.h"
@@ -94,8 +94,7 @@ PeerResult fit_dense(const PeerProblem& problem, double width_mm) {
       add_knots(distance(k, j), width_mm, problem.c[static_cast<std::size_t>(k)], w.col(j));
     }
   }
-  const Eigen::VectorXd r =
-      w.transpose().completeOrthogonalDecomposition().pseudoInverse() * problem.l;
+  const Eigen::VectorXd r = pseudo_inverse(w.transpose()) * problem.l;
   PeerResult result = grid_search(problem, r, width_mm);
   result.method = "paper, dense";
   result.seconds = seconds_since(start);
@@ -124,7 +123,7 @@ PeerResult fit_chunked(const PeerProblem& problem, double width_mm) {
     right += w.leftCols(count) * problem.l.segment(first, count);
   }
   const Eigen::MatrixXd full = normal.selfadjointView<Eigen::Lower>();
-  const Eigen::VectorXd r = full.completeOrthogonalDecomposition().solve(right);
+  const Eigen::VectorXd r = solve_min_norm(full, right);
   PeerResult result = grid_search(problem, r, width_mm);
   result.method = "paper, chunked";
   result.seconds = seconds_since(start);

@@ -71,6 +71,14 @@ Eigen::VectorXd PivotedSolver::solve(const VectorRef& b) const { return qr_->sol
 
 Eigen::MatrixXd PivotedSolver::solve_columns(const MatrixRef& b) const { return qr_->solve(b); }
 
+Eigen::MatrixXd pseudo_inverse(const MatrixRef& a) {
+  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(a).pseudoInverse();
+}
+
+Eigen::VectorXd solve_min_norm(const MatrixRef& a, const VectorRef& b) {
+  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(a).solve(b);
+}
+
 ThinSvd thin_svd(const MatrixRef& a) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};

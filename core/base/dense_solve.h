@@ -63,6 +63,11 @@ class PivotedSolver {
   std::shared_ptr<const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>> qr_;
 };
 
+// By complete orthogonal decomposition, whatever the rank of the m x n matrix A: its
+// pseudo-inverse, n x m, and the shortest x that minimises |A x - b|.
+Eigen::MatrixXd pseudo_inverse(const MatrixRef& a);
+Eigen::VectorXd solve_min_norm(const MatrixRef& a, const VectorRef& b);
+
 // A = U diag(values) V^T, values descending; U is m x k, V is n x k with k = min(m, n). By
 // one-sided Jacobi rotations, which keep small singular values accurate relative to the largest.
 // Meaningless where A is not finite.

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/QR>
-
+#include "core/base/dense_solve.h"
 #include "core/material/eta_change.h"
 
 namespace scattermeter {
@@ -35,7 +34,7 @@ Eigen::VectorXd EtaNuisance::column(const ShotParts& parts, const ScatteringImag
   of_parts.array().colwise() /= light;
   const Eigen::VectorXd wanted = parts.of_parts(per_eta).cwiseQuotient(parts.of_parts(paths));
   // Few parts may not tell all terms apart: the smallest solution.
-  const Eigen::Vector4d by_term = of_parts.completeOrthogonalDecomposition().solve(wanted);
+  const Eigen::Vector4d by_term = solve_min_norm(of_parts, wanted);
   const Eigen::Index beside = scale_is_free ? 1 : 2;  // the terms that are not of the medium
   return terms.rightCols(beside) * by_term.tail(beside) - observed;
 }

@@ -6,8 +6,6 @@
 #include <sstream>
 #include <stdexcept>
 
-#include <Eigen/QR>
-
 #include "core/base/dense_solve.h"
 #include "core/fit/residual.h"
 #include "core/material/dipole.h"
@@ -23,12 +21,9 @@ int steps(double min, double max, double step) {
 // orthogonal decomposition. The second one works on a square matrix, so the rank decision is cheap.
 Eigen::VectorXd pseudo_inverse_times(const WeightMatrix& w, const Eigen::VectorXd& l) {
   const Eigen::Index n = w.cols();
-  if (w.rows() <= n) {
-    return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(w).solve(l);
-  }
+  if (w.rows() <= n) return solve_min_norm(w, l);
   const HouseholderSolver qr(w);
-  const Eigen::VectorXd rotated = qr.rotate(l).head(n);
-  return Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(qr.r()).solve(rotated);
+  return solve_min_norm(qr.r(), qr.rotate(l).head(n));
 }
 
 std::string on_bound(const char* name, double value, double min, double max, double step) {

@@ -74,6 +74,14 @@ TEST(PivotedSolver, SolvesLeastSquares) {
   EXPECT_TRUE((qr.rotate_columns(a * in_order).topRows(3) - qr.r() * x).isZero(1e-13));
 }
 
+// Of two equal equations x + y = 4, the shortest solution, and the pseudo-inverse A^T / |A|^2.
+TEST(MinNorm, IsTheShortestSolution) {
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Ones(2, 2);
+  EXPECT_LT((solve_min_norm(a, Eigen::Vector2d(4.0, 4.0)) - Eigen::Vector2d(2.0, 2.0)).norm(),
+            1e-14);
+  EXPECT_LT((pseudo_inverse(a) - 0.25 * a).norm(), 1e-15);
+}
+
 TEST(PivotedSolver, RevealsTheRank) {
   Eigen::MatrixXd a = tall();
   a.col(1) = 2.0 * a.col(0) - a.col(2);
